@@ -1,7 +1,69 @@
-//! What the functions emitted by `linkage!` call at run time.
+//! What the functions emitted by [`linkage!`] call at run time, and the types that they take and return.
+//!
+//! `no_std`, no allocation, no panic. The macro is re-exported from here: this is the only crate that a user names.
+//!
+//! ```
+//! use linkage_runtime::{Error, Vector2, linkage, polar};
+//!
+//! linkage! {
+//!     /// A crank-rocker with a force on its coupler.
+//!     pub mod four_bar;
+//!     units { mm, N }
+//!
+//!     ground       { A0: (0, 0), B0: (140mm, 0) }
+//!     link crank   { A0 -> A: 80mm }
+//!     link coupler { A -> B: 100mm, C: (50mm, 20mm) }
+//!     link rocker  { B0 -> B: 120mm }
+//!
+//!     revolute A0: ground  -> crank;
+//!     revolute A:  crank   -> coupler;
+//!     revolute B:  coupler -> rocker;
+//!     revolute B0: ground  -> rocker;
+//!
+//!     drive theta: A0;
+//!     unknown T12: torque(ground -> crank);
+//!     assemble B: left(A -> B0);
+//!
+//!     load F: force(coupler.C);
+//!     scene torque: virtual_work -> (T12);
+//!     scene statics: equilibrium;
+//! }
+//!
+//! # fn main() -> Result<(), Error> {
+//! let loads = four_bar::Loads { F: polar(50.0, 230f64.to_radians()) };
+//! let torque = four_bar::torque_at(1.0, &loads)?.T12;
+//!
+//! let pose = four_bar::Pose::at(1.0)?;
+//! let all = pose.statics(&loads)?;
+//! assert!((all.T12 - torque).abs() < 1e-9);
+//! assert!((all.B + all.A - loads.F).norm() > 0.0);
+//! # Ok(())
+//! # }
+//! ```
 #![no_std]
 
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+mod error;
 pub mod math;
+mod results;
+
+pub use error::Error;
+pub use linkage_macros::linkage;
+/// The plane vector of the public functions; the version of nalgebra is part of this crate's version.
+pub use nalgebra::{self, Vector2};
+pub use results::{SliderReaction, WorkTerm, polar};
+
+/// What emitted code calls. Not for use by hand: it changes with the compiler.
+#[doc(hidden)]
+pub mod __private {
+    pub mod f32 {
+        pub use crate::math::f32::*;
+        pub use crate::results::single::{gap, non_negative};
+    }
+    pub mod f64 {
+        pub use crate::math::f64::*;
+        pub use crate::results::double::{gap, non_negative};
+    }
+}

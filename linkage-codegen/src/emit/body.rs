@@ -1,0 +1,346 @@
+//! The body of a function: a program as statements.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::literals::{ident, literal};
+use crate::graph::{Condition, Failure, Graph, Guard, Kernel, Op, Scalar};
+use crate::program::{Definition, Program, Step, ValueId};
+
+/// How tightly an expression binds.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Sum,
+    Product,
+    Sign,
+    Atom,
+}
+
+struct Code {
+    tokens: TokenStream,
+    binding: Binding,
+}
+
+impl Code {
+    fn atom(tokens: TokenStream) -> Self {
+        Self { tokens, binding: Binding::Atom }
+    }
+
+    /// The tokens, in parentheses unless they bind at least this tightly.
+    fn within(self, binding: Binding) -> TokenStream {
+        let tokens = self.tokens;
+        if self.binding >= binding { tokens } else { quote!((#tokens)) }
+    }
+}
+
+/// Writes a program as statements.
+pub(super) struct Body<'a> {
+    program: &'a Program,
+    graph: &'a Graph,
+    /// The name of every value that has its own statement, or is an input.
+    names: BTreeMap<ValueId, Ident>,
+    /// What is being reported: values that are written out where they stand.
+    section: String,
+}
+
+/// The calls of which several results may be read: one statement for all of them.
+type Calls = BTreeMap<(Kernel, Vec<ValueId>), Vec<(u8, ValueId)>>;
+
+impl<'a> Body<'a> {
+    /// Names all values. `input` gives the names of inputs; no other name equals one of these or of `taken`.
+    pub(super) fn new(
+        program: &'a Program,
+        graph: &'a Graph,
+        input: &dyn Fn(crate::program::Input) -> String,
+        taken: &[&str],
+    ) -> Self {
+        let mut used: BTreeSet<String> = taken.iter().map(|name| (*name).to_owned()).collect();
+        let mut names = BTreeMap::new();
+        for (value, which) in program.inputs() {
+            let name = input(which);
+            used.insert(name.clone());
+            names.insert(value, ident(&name));
+        }
+        let mut body = Self { program, graph, names, section: String::new() };
+        let mut uses = program.uses();
+        // The results of one call read their arguments together.
+        let mut calls = BTreeSet::new();
+        for (kernel, args) in program.steps.iter().filter_map(|step| match step {
+            Step::Let(value) => match program.op(*value) {
+                Some(Op::Kernel { kernel, args, .. }) => Some((*kernel, args.clone())),
+                _ => None,
+            },
+            _ => None,
+        }) {
+            if !calls.insert((kernel, args.clone())) {
+                args.iter().for_each(|arg| uses[arg.index()] -= 1);
+            }
+        }
+        for step in &program.steps {
+            let Step::Let(value) = step else { continue };
+            let own = program.value(*value).label.is_some()
+                || uses[value.index()] > 1
+                || matches!(program.op(*value), Some(Op::Kernel { .. }))
+                || program.outputs.iter().any(|(_, output)| output == value);
+            if own {
+                let wanted = body.wanted_name(*value);
+                let mut name = wanted.clone();
+                let mut number = 2;
+                while !used.insert(name.clone()) {
+                    name = format!("{wanted}_{number}");
+                    number += 1;
+                }
+                body.names.insert(*value, ident(&name));
+            }
+        }
+        body
+    }
+
+    /// The label of a value; of an unlabelled one, what it is part of.
+    fn wanted_name(&self, value: ValueId) -> String {
+        if let Some(label) = &self.program.value(value).label {
+            return label.name.clone();
+        }
+        if let Some(Op::Kernel { kernel, part, args }) = self.program.op(value) {
+            let of = args
+                .first()
+                .and_then(|arg| self.names.get(arg))
+                .map_or_else(|| "angle".to_owned(), ToString::to_string);
+            return match (kernel, part) {
+                (Kernel::SinCos | Kernel::SinCosSum(_), 0) => format!("sin_{of}"),
+                (Kernel::SinCos | Kernel::SinCosSum(_), _) => format!("cos_{of}"),
+                (Kernel::Atan2, _) => format!("angle_{of}"),
+                (Kernel::Unit, part) => format!("unit_{of}_{}", if *part == 0 { "x" } else { "y" }),
+            };
+        }
+        if let Some((path, _)) = self.program.outputs.iter().find(|(_, output)| *output == value) {
+            return path.replace('.', "_");
+        }
+        let mut reader = value;
+        // The first named value that is computed from this one.
+        for step in &self.program.steps {
+            let Step::Let(next) = step else { continue };
+            if self.program.operands_of(step).contains(&reader) {
+                if let Some(label) = &self.program.value(*next).label {
+                    return format!("{}_part", label.name);
+                }
+                reader = *next;
+            }
+        }
+        "part".to_owned()
+    }
+
+    /// The name or the written-out expression of a value.
+    pub(super) fn value(&self, value: ValueId) -> TokenStream {
+        self.code(value).tokens
+    }
+
+    fn code(&self, value: ValueId) -> Code {
+        match self.names.get(&value) {
+            Some(name) => Code::atom(quote!(#name)),
+            None => self.written_out(value),
+        }
+    }
+
+    fn written_out(&self, value: ValueId) -> Code {
+        let Definition::Computed(op) = &self.program.value(value).definition else { return Code::atom(quote!(0.0)) };
+        let within = |id: &ValueId, binding| self.code(*id).within(binding);
+        let plain = |id: &ValueId| self.code(*id).tokens;
+        match op {
+            Op::Constant(number) => match literal(&self.graph.number(*number), self.graph.scalar()) {
+                Some((true, literal)) => Code { tokens: quote!(-#literal), binding: Binding::Sign },
+                Some((false, literal)) => Code::atom(quote!(#literal)),
+                None => Code::atom(quote!(0.0)),
+            },
+            Op::Neg(a) => {
+                let a = within(a, Binding::Sign);
+                Code { tokens: quote!(-#a), binding: Binding::Sign }
+            }
+            Op::Add(a, b) => {
+                // The right operand of a sum keeps its own order of evaluation.
+                let (a, b) = (within(a, Binding::Sum), within(b, Binding::Product));
+                Code { tokens: quote!(#a + #b), binding: Binding::Sum }
+            }
+            Op::Sub(a, b) => {
+                let (a, b) = (within(a, Binding::Sum), within(b, Binding::Product));
+                Code { tokens: quote!(#a - #b), binding: Binding::Sum }
+            }
+            Op::Mul(a, b) => {
+                let (a, b) = (within(a, Binding::Product), within(b, Binding::Sign));
+                Code { tokens: quote!(#a * #b), binding: Binding::Product }
+            }
+            Op::Div(a, b) => {
+                let (a, b) = (within(a, Binding::Product), within(b, Binding::Sign));
+                Code { tokens: quote!(#a / #b), binding: Binding::Product }
+            }
+            Op::Abs(a) => {
+                let a = within(a, Binding::Atom);
+                Code::atom(quote!(#a.abs()))
+            }
+            Op::NonNegative(a) => {
+                let a = plain(a);
+                Code::atom(quote!(math::non_negative(#a)))
+            }
+            Op::Sqrt(a) => {
+                let a = plain(a);
+                Code::atom(quote!(math::sqrt(#a)))
+            }
+            Op::Where { value, limit, then } => {
+                let (value, limit, then) = (plain(value), plain(limit), plain(then));
+                Code { tokens: quote!(if #value > #limit { #then } else { 0.0 }), binding: Binding::Sum }
+            }
+            Op::Kernel { kernel, args, part } => {
+                let call = self.call(*kernel, args);
+                let part = proc_macro2::Literal::u8_unsuffixed(*part);
+                Code::atom(if matches!(kernel, Kernel::Atan2) { call } else { quote!(#call.#part) })
+            }
+            Op::Symbol(_) | Op::Quantity(_) | Op::Held(_) | Op::Checked { .. } => Code::atom(quote!(0.0)),
+        }
+    }
+
+    fn call(&self, kernel: Kernel, args: &[ValueId]) -> TokenStream {
+        let args = args.iter().map(|arg| self.value(*arg)).collect::<Vec<_>>();
+        match kernel {
+            Kernel::SinCos => quote!(math::sin_cos(#(#args),*)),
+            Kernel::SinCosSum(phase) => {
+                let (high, low) = split(&self.graph.number(phase), self.graph.scalar());
+                quote!(math::sin_cos_sum(#(#args),*, #high, #low))
+            }
+            Kernel::Atan2 => quote!(math::atan2(#(#args),*)),
+            Kernel::Unit => quote!(math::unit(#(#args),*)),
+        }
+    }
+
+    /// All statements.
+    pub(super) fn statements(mut self) -> (TokenStream, Self) {
+        let mut calls: Calls = BTreeMap::new();
+        for step in &self.program.steps {
+            if let Step::Let(value) = step {
+                if let Some(Op::Kernel { kernel, args, part }) = self.program.op(*value) {
+                    calls.entry((*kernel, args.clone())).or_default().push((*part, *value));
+                }
+            }
+        }
+        let mut statements = TokenStream::new();
+        for step in &self.program.steps {
+            statements.extend(match step {
+                Step::Let(value) => self.let_statement(*value, &mut calls),
+                Step::Check { guard, .. } => self.check(guard),
+                Step::FiniteInput(value) => {
+                    let name = self.value(*value);
+                    let text = name.to_string();
+                    quote!(if !#name.is_finite() { return Err(Error::NotFinite { what: #text }); })
+                }
+                Step::FiniteResults(groups) => self.finite_results(groups),
+            });
+        }
+        (statements, self)
+    }
+
+    fn let_statement(&mut self, value: ValueId, calls: &mut Calls) -> TokenStream {
+        let Some(name) = self.names.get(&value).cloned() else { return TokenStream::new() };
+        let docs = self.docs(value);
+        if let Some(Op::Kernel { kernel, args, .. }) = self.program.op(value) {
+            // The first result that is read brings the statement for all.
+            let Some(parts) = calls.remove(&(*kernel, args.clone())) else { return TokenStream::new() };
+            let call = self.call(*kernel, args);
+            if matches!(kernel, Kernel::Atan2) {
+                return quote!(#docs let #name = #call;);
+            }
+            let part = |which: u8| {
+                parts
+                    .iter()
+                    .find(|(part, _)| *part == which)
+                    .and_then(|(_, value)| self.names.get(value))
+                    .map_or_else(|| quote!(_), |name| quote!(#name))
+            };
+            let (first, second) = (part(0), part(1));
+            return quote!(#docs let (#first, #second) = #call;);
+        }
+        let code = self.written_out(value).tokens;
+        quote!(#docs let #name = #code;)
+    }
+
+    /// The heading of a new section, and the equation of the value.
+    fn docs(&mut self, value: ValueId) -> TokenStream {
+        let value = self.program.value(value);
+        let mut docs = TokenStream::new();
+        if !value.section.is_empty() && value.section != self.section {
+            self.section.clone_from(&value.section);
+            let heading = format!(" — {} —", value.section);
+            docs.extend(quote!(#[doc = #heading]));
+        }
+        if let Some(equation) =
+            value.label.as_ref().map(|label| &label.equation).filter(|equation| !equation.is_empty())
+        {
+            let equation = format!(" {equation}");
+            docs.extend(quote!(#[doc = #equation]));
+        }
+        docs
+    }
+
+    fn check(&self, guard: &Guard<ValueId>) -> TokenStream {
+        let condition = match guard.condition {
+            Condition::Above { value, limit } => {
+                let (value, limit) = (self.code(value).within(Binding::Sum), self.value(limit));
+                quote!(#value > #limit)
+            }
+            Condition::AtLeast { value, limit } => {
+                let (value, limit) = (self.code(value).within(Binding::Sum), self.value(limit));
+                quote!(#value >= #limit)
+            }
+        };
+        let failure = match &guard.failure {
+            Failure::CannotAssemble { group, joint, gap } => {
+                let gap = self.value(*gap);
+                quote!(Error::CannotAssemble { group: #group, joint: #joint, gap: math::gap(#gap) })
+            }
+            Failure::CoincidentPivots { group, joint } => {
+                quote!(Error::CoincidentPivots { group: #group, joint: #joint })
+            }
+            Failure::DeadCentre { group, pivot } => quote!(Error::DeadCentre { group: #group, pivot: #pivot }),
+            Failure::Parameter { requirement } => quote!(Error::Parameter { requirement: #requirement }),
+        };
+        quote!(if !(#condition) { return Err(#failure); })
+    }
+
+    /// Infinity and NaN do not give zero when they are subtracted from themselves.
+    fn finite_results(&self, groups: &[Vec<ValueId>]) -> TokenStream {
+        let mut totals = TokenStream::new();
+        let mut sum: Option<TokenStream> = None;
+        for (index, group) in groups.iter().enumerate() {
+            let single = group.as_slice();
+            let name = match single {
+                [one] => self.code(*one).within(Binding::Product),
+                several => {
+                    let name = ident(&format!("total_{}", index + 1));
+                    let parts = several.iter().map(|value| self.code(*value).within(Binding::Product));
+                    let parts = parts.reduce(|sum, part| quote!(#sum + #part)).unwrap_or_else(|| quote!(0.0));
+                    totals.extend(quote!(let #name = #parts;));
+                    quote!(#name)
+                }
+            };
+            let difference = quote!((#name - #name));
+            sum = Some(match sum {
+                None => difference,
+                Some(sum) => quote!(#sum + #difference),
+            });
+        }
+        let sum = sum.unwrap_or_else(|| quote!(0.0));
+        let what = if self.program.reads_loads() { "a load or a result" } else { "a result" };
+        quote!(#totals if !(#sum == 0.0) { return Err(Error::NotFinite { what: #what }); })
+    }
+}
+
+/// A constant as an unevaluated sum of two numbers of the scalar.
+fn split(number: &crate::graph::number::Number, scalar: Scalar) -> (TokenStream, TokenStream) {
+    use super::literals::signed_literal;
+    let high = match scalar {
+        Scalar::F64 => number.to_f64(),
+        Scalar::F32 => f64::from(number.to_f32()),
+    };
+    let high_number = crate::graph::number::Number::from_f64(high).unwrap_or_else(crate::graph::number::Number::zero);
+    (signed_literal(&high_number, scalar), signed_literal(&number.sub(&high_number), scalar))
+}

@@ -1,0 +1,172 @@
+//! Documentation of the module and its functions.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::Linkage;
+use crate::model::Method;
+use crate::program::{Program, Step};
+use crate::topology::Group;
+
+/// Doc attributes, a line each.
+fn lines(text: &str) -> TokenStream {
+    text.lines()
+        .map(|line| {
+            let line = if line.is_empty() { String::new() } else { format!(" {line}") };
+            quote!(#[doc = #line])
+        })
+        .collect()
+}
+
+/// The module's own documentation: behind what the declaration says, what it is made of.
+pub(super) fn module(linkage: &Linkage) -> TokenStream {
+    let model = &linkage.model;
+    let mut text = String::new();
+    if !model.attributes.is_empty() {
+        text.push('\n');
+    }
+    let moving = model.links.len() - 1;
+    text.push_str(&format!(
+        "A planar linkage of {moving} moving link{}, {} joints and {} drive{}. Lengths in {}, forces in {}, angles in rad.\n",
+        if moving == 1 { "" } else { "s" },
+        model.joints.len(),
+        model.drives.len(),
+        if model.drives.len() == 1 { "" } else { "s" },
+        model.units.length.name,
+        model.units.force.name,
+    ));
+    text.push_str("\n```text\n");
+    text.push_str(&blocks(linkage));
+    text.push_str("```\n\nThe whole derivation is in [`EQUATIONS`].");
+    lines(&text)
+}
+
+/// The groups of motion and of forces, a line each.
+pub(super) fn blocks(linkage: &Linkage) -> String {
+    let mut text = String::new();
+    let motion = linkage.topology.motion.iter().zip(&linkage.plan.motion_rules);
+    for (index, (group, class)) in motion.enumerate() {
+        text.push_str(&block(linkage, "motion", index, group, class));
+    }
+    let forces = linkage.topology.forces.iter().zip(&linkage.plan.force_rules);
+    for (index, (group, class)) in forces.enumerate().rev() {
+        text.push_str(&block(linkage, "forces", index, group, class));
+    }
+    text
+}
+
+fn block(linkage: &Linkage, what: &str, index: usize, group: &Group, class: &str) -> String {
+    use crate::topology::Input;
+    let model = &linkage.model;
+    let joints = |ids: &[crate::model::ids::JointId]| {
+        ids.iter().map(|j| model.joint(*j).name.text.as_str()).collect::<Vec<_>>().join(", ")
+    };
+    let inputs: Vec<&str> = group
+        .inputs
+        .iter()
+        .map(|input| match input {
+            Input::Drive(drive) => model.drive(*drive).name.text.as_str(),
+            Input::Unknown(unknown) => model.unknown(*unknown).name.as_str(),
+        })
+        .collect();
+    let mut line = format!(
+        "{what} {}: {class:<15} {:<24} outer {:<10}",
+        index + 1,
+        model.link_names(&group.links),
+        joints(&group.outer)
+    );
+    if !group.inner.is_empty() {
+        line.push_str(&format!(" inner {}", joints(&group.inner)));
+    }
+    if !inputs.is_empty() {
+        line.push_str(&format!(" by {}", inputs.join(", ")));
+    }
+    format!("{}\n", line.trim_end())
+}
+
+/// What a scene's function does.
+pub(super) fn scene_summary(linkage: &Linkage, index: usize, from_pose: bool) -> String {
+    let model = &linkage.model;
+    let scene = &model.scenes[index];
+    let loads: Vec<String> = scene.loads.iter().map(|load| format!("`{}`", model.load(*load).name)).collect();
+    let loads = loads.join(", ");
+    let from = if from_pose { "from this pose" } else { "straight from the drives" };
+    match scene.method {
+        Method::Position => format!("Where everything is, {from}."),
+        Method::Equilibrium => format!("Equilibrium under {loads}, {from}."),
+        Method::Superposition => format!("Equilibrium under each of {loads} by itself, {from}."),
+        Method::VirtualWork => format!("Virtual work of {loads}, {from}."),
+        Method::Verify => {
+            format!("Equilibrium, superposition, virtual work and the general solution against each other, {from}.")
+        }
+    }
+}
+
+/// The named steps of a program with their equations.
+pub(super) fn scene_equations(program: &Program) -> Vec<String> {
+    let mut section = "";
+    let mut all = Vec::new();
+    for step in &program.steps {
+        let Step::Let(value) = step else { continue };
+        let value = program.value(*value);
+        let Some(label) = value.label.as_ref().filter(|label| !label.equation.is_empty()) else { continue };
+        if value.section != section {
+            section = &value.section;
+            all.push(format!("{section}:"));
+        }
+        all.push(format!("  {} = {}", label.name, label.equation));
+    }
+    all
+}
+
+/// Documentation of a function: summary, further points, errors, operation counts, equations.
+pub(super) fn function(summary: &str, points: &[String], program: &Program, equations: &[String]) -> TokenStream {
+    let mut text = format!("{summary}\n");
+    if !points.is_empty() {
+        text.push_str(&format!("\n{}\n", points.join("\n")));
+    }
+    text.push_str(&format!("\nOperations: {}.\n", program.counts()));
+    if !equations.is_empty() {
+        text.push_str(&format!("\n```text\n{}\n```\n", equations.join("\n")));
+    }
+    text.push_str("\n# Errors\n\n");
+    text.push_str(&errors(program).join("\n"));
+    lines(&text)
+}
+
+fn errors(program: &Program) -> Vec<String> {
+    use crate::graph::Failure;
+    let mut all: Vec<String> = Vec::new();
+    let mut add = |line: String| {
+        if !all.contains(&line) {
+            all.push(line);
+        }
+    };
+    for step in &program.steps {
+        match step {
+            Step::Check { guard, .. } => match &guard.failure {
+                Failure::CannotAssemble { group, joint, .. } => {
+                    add(format!("* [`Error::CannotAssemble`]: {group} cannot be closed at `{joint}`."));
+                }
+                Failure::CoincidentPivots { group, joint } => {
+                    add(format!(
+                        "* [`Error::CoincidentPivots`]: the outer joints of {group} coincide, the place of `{joint}` is open."
+                    ));
+                }
+                Failure::DeadCentre { group, pivot } => {
+                    add(format!("* [`Error::DeadCentre`]: {group} is at a dead centre, `{pivot}` vanishes."));
+                }
+                Failure::Parameter { requirement } => add(format!("* [`Error::Parameter`]: {requirement}.")),
+            },
+            Step::FiniteInput(_) => add("* [`Error::NotFinite`]: a drive is not a finite number.".into()),
+            Step::FiniteResults(_) => {
+                add("* [`Error::NotFinite`]: a load is not a finite number, or a result is too large for one.".into())
+            }
+            Step::Let(_) => {}
+        }
+    }
+    if all.is_empty() {
+        all.push("None: what it computes is always defined.".into());
+    }
+    all
+}

@@ -1,0 +1,165 @@
+//! The derivation as text: free bodies, equilibrium equations, reduction, closed form.
+
+use super::docs::{blocks, scene_equations};
+use super::formula::Formula;
+use crate::Linkage;
+use crate::equations::joints::Component;
+use crate::equations::{Exerted, Source};
+use crate::graph::{NodeId, Op};
+use crate::model::ids::LinkId;
+use crate::model::{JointKind, Method};
+
+/// The whole text.
+pub(super) fn text(linkage: &Linkage) -> String {
+    let model = &linkage.model;
+    let mut text = format!("{}\n{}\n\n", model.name, "=".repeat(model.name.text.chars().count()));
+    text.push_str(&mobility(linkage));
+    text.push_str(&joints(linkage));
+    text.push_str(&free_bodies(linkage));
+    text.push_str(
+        "Reduction\n---------\n\nThe equations fall apart into groups; each is solved by the rule of its class.\n\n",
+    );
+    text.push_str(&blocks(linkage));
+    text.push('\n');
+    text.push_str(&closed_forms(linkage));
+    text
+}
+
+fn mobility(linkage: &Linkage) -> String {
+    let model = &linkage.model;
+    let moving = model.links.len() - 1;
+    let constraints = linkage.system.rows.iter().filter(|row| matches!(row.source, Source::Joint(..))).count();
+    format!(
+        "{} links, {moving} of them moving; {} joints with {constraints} constraints: mobility 3·{moving} − {constraints} = {}\n\
+         lengths in {}, forces in {}; the link that a reaction acts on stands behind the arrow\n\n",
+        model.links.len(),
+        model.joints.len(),
+        3 * moving - constraints,
+        model.units.length.name,
+        model.units.force.name,
+    )
+}
+
+fn joints(linkage: &Linkage) -> String {
+    let model = &linkage.model;
+    let lines = model.joints.iter().map(|joint| {
+        let kind = match joint.kind {
+            JointKind::Revolute => "revolute",
+            JointKind::Prismatic { .. } => "prismatic",
+        };
+        format!("  {kind:<9} {}: {} -> {}\n", joint.name, model.end_name(joint.from), model.end_name(joint.to))
+    });
+    let unknowns = model.unknowns.iter().map(|unknown| format!("  unknown   {}\n", unknown.name));
+    let loads = model.loads.iter().map(|load| format!("  load      {}\n", load.name));
+    lines.chain(unknowns).chain(loads).chain(["\n".to_owned()]).collect()
+}
+
+/// The equilibrium equations of every moving link: `3(l − 1)` in all.
+fn free_bodies(linkage: &Linkage) -> String {
+    let model = &linkage.model;
+    let mut text = String::from("Free bodies\n-----------\n\n");
+    for link in model.moving_links() {
+        let name = &model.link(link).name;
+        let origin = origin_name(linkage, link);
+        text.push_str(&format!("{name}\n"));
+        let labels = ["ΣFx:".to_owned(), "ΣFy:".to_owned(), format!("ΣM({origin}):")];
+        for (part, label) in labels.iter().enumerate() {
+            let sum = equation(linkage, link, part);
+            text.push_str(&format!("  {label:<9} {sum} = 0\n"));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// What stands at the origin of a link's frame: a point of it, or the frame's origin itself.
+fn origin_name(linkage: &Linkage, link: LinkId) -> String {
+    let model = &linkage.model;
+    let at_origin = model.link(link).points.iter().find(|point| point.at.vector(&model.graph).is_zero());
+    at_origin.map_or_else(|| "frame".to_owned(), |point| point.name.text.clone())
+}
+
+/// The sum of all terms of an equation of a link.
+fn equation(linkage: &Linkage, link: LinkId, part: usize) -> String {
+    let model = &linkage.model;
+    let coefficient = |exerts: &[Exerted]| -> Option<NodeId> {
+        let exerted = exerts.iter().find(|exerted| exerted.on == link)?;
+        let node = [exerted.x, exerted.y, exerted.moment][part];
+        (!model.graph.expr(node).is_zero()).then_some(node)
+    };
+    let formula = Formula { model, name: &|_| None };
+    let mut terms: Vec<(bool, String)> = Vec::new();
+    for row in &linkage.system.rows {
+        let Some(node) = coefficient(&row.exerts) else { continue };
+        let name = match row.source {
+            Source::Joint(joint, component) => reaction_name(&model.joint(joint).name.text, component),
+            Source::Unknown(unknown) => model.unknown(unknown).name.clone(),
+            Source::Drive(drive) => model.drive(drive).name.text.clone(),
+        };
+        terms.push(term(&formula, node, Some(&name)));
+    }
+    for case in &linkage.system.cases {
+        if let Some(node) = coefficient(&case.exerts) {
+            terms.push(term(&formula, node, None));
+        }
+    }
+    let mut sum = String::new();
+    for (index, (negative, text)) in terms.into_iter().enumerate() {
+        let sign = match (index, negative) {
+            (0, false) => "",
+            (0, true) => "−",
+            (_, false) => " + ",
+            (_, true) => " − ",
+        };
+        sum.push_str(sign);
+        sum.push_str(&text);
+    }
+    if sum.is_empty() { "0".into() } else { sum }
+}
+
+fn reaction_name(joint: &str, component: Component) -> String {
+    match component {
+        Component::X => format!("{joint}.x"),
+        Component::Y => format!("{joint}.y"),
+        Component::Normal => format!("{joint}.normal"),
+        Component::Couple => format!("{joint}.couple"),
+    }
+}
+
+/// A coefficient times an unknown, or a load's own term; the sign apart.
+fn term(formula: &Formula<'_>, node: NodeId, unknown: Option<&str>) -> (bool, String) {
+    let graph = &formula.model.graph;
+    let expr = graph.expr(node);
+    let (negative, node) = match (graph.op(node), expr.sign()) {
+        (Op::Neg(inner), _) => (true, inner),
+        (_, Some(-1)) => (true, (-expr).id()),
+        _ => (false, node),
+    };
+    let is_sum = matches!(graph.op(node), Op::Add(..) | Op::Sub(..));
+    let text = formula.of(node);
+    let text = if is_sum { format!("({text})") } else { text };
+    let text = match unknown {
+        Some(name) if graph.expr(node).is_one() => name.to_owned(),
+        Some(name) => format!("{text}·{name}"),
+        None => text,
+    };
+    (negative, text)
+}
+
+fn closed_forms(linkage: &Linkage) -> String {
+    let mut text = String::from("Closed forms\n------------\n\n");
+    text.push_str("pose\n");
+    for line in scene_equations(&linkage.functions.pose) {
+        text.push_str(&format!("  {line}\n"));
+    }
+    for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
+        if scene.method == Method::Verify {
+            continue;
+        }
+        text.push_str(&format!("\nscene {}, from a pose: {}\n", scene.name, functions.from_pose.counts()));
+        for line in scene_equations(&functions.from_pose) {
+            text.push_str(&format!("  {line}\n"));
+        }
+    }
+    text
+}

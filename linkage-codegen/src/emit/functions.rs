@@ -1,0 +1,346 @@
+//! The functions of a module.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::body::Body;
+use super::literals::ident;
+use super::types::{drive_doc, has_params, output_type, record_name, scalar};
+use super::{docs, prepared_names};
+use crate::Linkage;
+use crate::graph::Symbol;
+use crate::model::ids::{DriveId, LoadId};
+use crate::model::{LoadKind, Method, type_name};
+use crate::plan::Output;
+use crate::program::{Input, Program, ValueId};
+
+/// Names that a function's own values cannot have.
+const TAKEN: [&str; 6] = ["loads", "linkage", "params", "EQUATIONS", "OPERATIONS", "SOURCE"];
+
+/// The name of an input.
+fn input_name(linkage: &Linkage, input: Input) -> String {
+    let model = &linkage.model;
+    match input {
+        Input::Symbol(Symbol::Drive(drive)) => model.drive(drive).name.text.clone(),
+        Input::Symbol(Symbol::Parameter(param)) => model.param(param).name.text.clone(),
+        Input::Symbol(Symbol::Load(load, part)) => {
+            let load = model.load(load);
+            match (load.kind, part) {
+                (LoadKind::Moment { .. }, _) => load.name.text.clone(),
+                (_, 0) => format!("{}_x", load.name),
+                (_, _) => format!("{}_y", load.name),
+            }
+        }
+        Input::Symbol(Symbol::Coordinate(..) | Symbol::Dimension(_)) => String::new(),
+        Input::Kept(node) => {
+            let kept = linkage.plan.pose.iter().find(|kept| kept.node == node);
+            kept.map_or_else(String::new, |kept| kept.name.clone())
+        }
+        Input::Prepared(node) => {
+            let index = linkage.functions.prepared.iter().position(|prepared| *prepared == node);
+            index
+                .and_then(|index| prepared_names(linkage).into_iter().nth(index))
+                .map_or_else(String::new, |(name, _)| name)
+        }
+    }
+}
+
+fn body<'a>(linkage: &'a Linkage, program: &'a Program) -> Body<'a> {
+    Body::new(program, &linkage.model.graph, &|input| input_name(linkage, input), &TAKEN)
+}
+
+/// Statements that take a function's inputs out of where they are kept.
+fn bindings(linkage: &Linkage, program: &Program) -> TokenStream {
+    let mut prepared = Vec::new();
+    let mut kept = Vec::new();
+    let mut statements = TokenStream::new();
+    let mut loads: Vec<(LoadId, [bool; 2])> = Vec::new();
+    for (_, input) in program.inputs() {
+        let name = ident(&input_name(linkage, input));
+        match input {
+            Input::Prepared(_) => prepared.push(name),
+            Input::Kept(_) => kept.push(name),
+            Input::Symbol(Symbol::Load(load, part)) => match loads.iter_mut().find(|(other, _)| *other == load) {
+                Some((_, parts)) => parts[usize::from(part)] = true,
+                None => {
+                    let mut parts = [false; 2];
+                    parts[usize::from(part)] = true;
+                    loads.push((load, parts));
+                }
+            },
+            Input::Symbol(_) => {}
+        }
+    }
+    if !kept.is_empty() {
+        statements.extend(quote!(let Self { #(#kept,)* .. } = *self;));
+    }
+    if !prepared.is_empty() {
+        statements.extend(quote!(let Linkage { #(#prepared,)* .. } = *linkage;));
+    }
+    loads.sort();
+    for (load, [x, y]) in loads {
+        let data = linkage.model.load(load);
+        let name = ident(&data.name.text);
+        if matches!(data.kind, LoadKind::Moment { .. }) {
+            statements.extend(quote!(let #name = loads.#name;));
+            continue;
+        }
+        let part = |read: bool, part: u8| {
+            let name = ident(&input_name(linkage, Input::Symbol(Symbol::Load(load, part))));
+            if read { quote!(#name) } else { quote!(_) }
+        };
+        let (x, y) = (part(x, 0), part(y, 1));
+        statements.extend(quote!(let [[#x, #y]] = loads.#name.data.0;));
+    }
+    statements
+}
+
+/// A member of a struct expression, in short where name and value are the same.
+fn member(name: &str, value: &TokenStream) -> TokenStream {
+    let name = ident(name);
+    if value.to_string() == name.to_string() { quote!(#name) } else { quote!(#name: #value) }
+}
+
+/// The expression of a result.
+fn result(
+    method: Method,
+    base: &str,
+    parent: &str,
+    output: &Output,
+    values: &mut dyn Iterator<Item = TokenStream>,
+) -> TokenStream {
+    let mut next = || values.next().unwrap_or_else(|| quote!(0.0));
+    match output {
+        Output::Scalar(..) => next(),
+        Output::Vector(..) => {
+            let (x, y) = (next(), next());
+            quote!(Vector2::new(#x, #y))
+        }
+        Output::Slider { .. } => {
+            let (x, y, normal, couple) = (next(), next(), next(), next());
+            quote!(SliderReaction { force: Vector2::new(#x, #y), normal: #normal, couple: #couple })
+        }
+        Output::Term { .. } => {
+            let (velocity, work) = (next(), next());
+            quote!(WorkTerm { velocity: #velocity, work: #work })
+        }
+        Output::Record(fields) => {
+            let ty = ident(parent);
+            let members: Vec<TokenStream> = fields
+                .iter()
+                .map(|field| {
+                    let child = record_name(method, base, parent, &field.name, &field.value);
+                    member(&field.name, &result(method, base, &child, &field.value, values))
+                })
+                .collect();
+            quote!(#ty { #(#members),* })
+        }
+    }
+}
+
+fn outputs(body: &Body<'_>, program: &Program) -> Vec<TokenStream> {
+    program.outputs.iter().map(|(_, value): &(String, ValueId)| body.value(*value)).collect()
+}
+
+/// The arguments that give the drives.
+fn drive_arguments(linkage: &Linkage) -> Vec<TokenStream> {
+    let scalar = scalar(&linkage.model);
+    let arguments = linkage.model.drives.iter().map(|drive| {
+        let name = ident(&drive.name.text);
+        quote!(#name: #scalar)
+    });
+    arguments.collect()
+}
+
+fn linkage_argument(linkage: &Linkage, lifetime: &TokenStream) -> TokenStream {
+    if has_params(linkage) { quote!(linkage: &#lifetime Linkage,) } else { TokenStream::new() }
+}
+
+/// `Linkage::new`.
+pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
+    let program = &linkage.functions.prepare;
+    let (statements, body) = body(linkage, program).statements();
+    let fields = prepared_names(linkage)
+        .into_iter()
+        .zip(outputs(&body, program))
+        .map(|((name, _), value)| member(&name, &value));
+    let params = linkage.model.params.iter().map(|param| ident(&param.name.text));
+    let finite = linkage.model.params.iter().map(|param| {
+        let name = ident(&param.name.text);
+        let text = &param.name.text;
+        quote!(if !#name.is_finite() { return Err(Error::NotFinite { what: #text }); })
+    });
+    quote! {
+        impl Linkage {
+            /// Prepares the linkage of some dimensions.
+            ///
+            /// # Errors
+            ///
+            /// [`Error::Parameter`] if a dimension is out of its range, [`Error::NotFinite`] if one is not a finite number.
+            pub fn new(params: &Params) -> Result<Self, Error> {
+                let Params { #(#params),* } = *params;
+                #(#finite)*
+                #statements
+                Ok(Self { #(#fields),* })
+            }
+        }
+    }
+}
+
+/// `Pose::at`.
+pub(super) fn pose_at(linkage: &Linkage) -> TokenStream {
+    let program = &linkage.functions.pose;
+    let bindings = bindings(linkage, program);
+    let (statements, body) = body(linkage, program).statements();
+    let kept = linkage.plan.pose.iter().zip(outputs(&body, program)).map(|(kept, value)| member(&kept.name, &value));
+    let drives = linkage.model.drives.iter().map(|drive| ident(&drive.name.text));
+    let arguments = drive_arguments(linkage);
+    let prepared = linkage_argument(linkage, &quote!('l));
+    let own = if has_params(linkage) { quote!(linkage,) } else { TokenStream::new() };
+    // A drive that no direction depends on is checked all the same.
+    let read: Vec<Input> = program.inputs().map(|(_, input)| input).collect();
+    let unread =
+        (0..linkage.model.drives.len()).map(DriveId::new).filter(|d| !read.contains(&Input::Symbol(Symbol::Drive(*d))));
+    let unread = unread.map(|drive| {
+        let text = &linkage.model.drive(drive).name.text;
+        let name = ident(text);
+        quote!(if !#name.is_finite() { return Err(Error::NotFinite { what: #text }); })
+    });
+    let drive_docs =
+        linkage.model.drives.iter().map(|d| format!("* `{}`: {}", d.name, drive_doc(&linkage.model, &d.name.text)));
+    let lines =
+        docs::function("The pose at given coordinates of the drives.", &drive_docs.collect::<Vec<_>>(), program, &[]);
+    quote! {
+        #lines
+        #[inline]
+        pub fn at(#prepared #(#arguments),*) -> Result<Self, Error> {
+            #(#unread)*
+            #bindings
+            #statements
+            Ok(Self { #own #(#drives,)* #(#kept),* })
+        }
+    }
+}
+
+/// The methods that ask a pose for places and directions.
+pub(super) fn accessors(linkage: &Linkage) -> TokenStream {
+    let all = linkage.plan.accessors.iter().zip(&linkage.functions.accessors).map(|(accessor, program)| {
+        let name = ident(&accessor.name);
+        let prepared = prepared_of_pose(linkage, program);
+        let bindings = bindings(linkage, program);
+        let drive = match accessor.output {
+            Output::Scalar(node, _) => {
+                matches!(linkage.model.graph.op(node), crate::graph::Op::Symbol(Symbol::Drive(_)))
+            }
+            _ => false,
+        };
+        let unchecked = without_checks(program);
+        let (statements, body) = body(linkage, &unchecked).statements();
+        let doc = format!(" {}", accessor.meaning);
+        let ty = output_type(&linkage.model, &accessor.output, "");
+        let value = if drive {
+            quote!(self.#name)
+        } else {
+            result(Method::Position, "", "", &accessor.output, &mut outputs(&body, &unchecked).into_iter())
+        };
+        quote! {
+            #[doc = #doc]
+            #[inline]
+            #[must_use]
+            pub fn #name(&self) -> #ty {
+                #prepared
+                #bindings
+                #statements
+                #value
+            }
+        }
+    });
+    all.collect()
+}
+
+/// A pose's own values are finite, and what follows from them by a few sums is too.
+fn without_checks(program: &Program) -> Program {
+    let mut program = program.clone();
+    program.steps.retain(|step| matches!(step, crate::program::Step::Let(_)));
+    program
+}
+
+fn prepared_of_pose(linkage: &Linkage, program: &Program) -> TokenStream {
+    let reads = program.inputs().any(|(_, input)| matches!(input, Input::Prepared(_)));
+    if reads && has_params(linkage) { quote!(let linkage = self.linkage;) } else { TokenStream::new() }
+}
+
+/// Drives that a function from a pose reads.
+fn drives_of_pose(linkage: &Linkage, program: &Program) -> TokenStream {
+    let drives = program.inputs().filter_map(|(_, input)| match input {
+        Input::Symbol(Symbol::Drive(drive)) => Some(ident(&linkage.model.drive(drive).name.text)),
+        _ => None,
+    });
+    let drives: Vec<_> = drives.collect();
+    if drives.is_empty() { TokenStream::new() } else { quote!(let Self { #(#drives,)* .. } = *self;) }
+}
+
+/// A scene from a pose.
+pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
+    let scene = &linkage.model.scenes[index];
+    let program = without_input_checks(&linkage.functions.scenes[index].from_pose);
+    let (name, ty) = (ident(&scene.name.text), ident(&type_name(&scene.name.text)));
+    let loads = loads_argument(&program);
+    let prepared = prepared_of_pose(linkage, &program);
+    let drives = drives_of_pose(linkage, &program);
+    let bindings = bindings(linkage, &program);
+    let (statements, body) = body(linkage, &program).statements();
+    let base = type_name(&scene.name.text);
+    let value =
+        result(scene.method, &base, &base, &linkage.plan.scenes[index], &mut outputs(&body, &program).into_iter());
+    let lines =
+        docs::function(&docs::scene_summary(linkage, index, true), &[], &program, &docs::scene_equations(&program));
+    quote! {
+        #lines
+        #[inline]
+        pub fn #name(&self #loads) -> Result<#ty, Error> {
+            #prepared
+            #drives
+            #bindings
+            #statements
+            Ok(#value)
+        }
+    }
+}
+
+/// The drives of a pose are finite.
+fn without_input_checks(program: &Program) -> Program {
+    let mut program = program.clone();
+    program.steps.retain(|step| !matches!(step, crate::program::Step::FiniteInput(_)));
+    program
+}
+
+fn loads_argument(program: &Program) -> TokenStream {
+    if program.reads_loads() { quote!(, loads: &Loads) } else { TokenStream::new() }
+}
+
+/// A scene straight from the drives.
+pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
+    let scene = &linkage.model.scenes[index];
+    let program = &linkage.functions.scenes[index].direct;
+    let (name, ty) = (ident(&format!("{}_at", scene.name)), ident(&type_name(&scene.name.text)));
+    let loads = loads_argument(program);
+    let prepared = linkage_argument(linkage, &TokenStream::new());
+    let arguments = drive_arguments(linkage);
+    let bindings = bindings(linkage, program);
+    let (statements, body) = body(linkage, program).statements();
+    let base = type_name(&scene.name.text);
+    let value =
+        result(scene.method, &base, &base, &linkage.plan.scenes[index], &mut outputs(&body, program).into_iter());
+    let lines =
+        docs::function(&docs::scene_summary(linkage, index, false), &[], program, &docs::scene_equations(program));
+    quote! {
+        #lines
+        #[inline]
+        pub fn #name(#prepared #(#arguments),* #loads) -> Result<#ty, Error> {
+            #bindings
+            #statements
+            Ok(#value)
+        }
+    }
+}

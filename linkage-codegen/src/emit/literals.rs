@@ -1,0 +1,48 @@
+//! Names and numbers as tokens.
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+
+use crate::graph::Scalar;
+use crate::graph::number::Number;
+
+/// A name as an identifier, raw where it is a keyword.
+pub(super) fn ident(name: &str) -> Ident {
+    // Names that cannot be raw were refused when they were read.
+    syn::parse_str::<Ident>(name).unwrap_or_else(|_| match name {
+        "self" | "Self" | "super" | "crate" | "_" => Ident::new(&format!("{name}_"), Span::call_site()),
+        _ => Ident::new_raw(name, Span::call_site()),
+    })
+}
+
+/// A constant as the nearest number of the scalar, in the fewest digits that give it back; its sign apart. `None` if that is not
+/// finite.
+pub(super) fn literal(number: &Number, scalar: Scalar) -> Option<(bool, Literal)> {
+    let text = match scalar {
+        Scalar::F64 => {
+            let value = number.to_f64();
+            value.is_finite().then(|| format!("{:?}", value.abs()))?
+        }
+        Scalar::F32 => {
+            let value = number.to_f32();
+            value.is_finite().then(|| format!("{:?}", value.abs()))?
+        }
+    };
+    let literal = text.parse::<Literal>().ok()?;
+    Some((number.signum() < 0, literal))
+}
+
+/// A constant with its sign.
+pub(super) fn signed_literal(number: &Number, scalar: Scalar) -> TokenStream {
+    match literal(number, scalar) {
+        Some((true, literal)) => quote!(-#literal),
+        Some((false, literal)) => quote!(#literal),
+        // Constants beyond the scalar's range are refused before code is emitted.
+        None => quote!(0.0),
+    }
+}
+
+/// A text as a raw string, line by line as it is read.
+pub(super) fn text(text: &str) -> Literal {
+    format!("r#\"{text}\"#").parse::<Literal>().unwrap_or_else(|_| Literal::string(text))
+}

@@ -1,0 +1,105 @@
+//! Programs in, tokens out: types, functions, documentation.
+
+mod body;
+mod docs;
+mod equations;
+mod formula;
+mod functions;
+mod literals;
+mod types;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::Linkage;
+use crate::graph::{Op, Symbol};
+use formula::Formula;
+use literals::ident;
+
+/// The module of a linkage.
+#[must_use]
+pub fn module(linkage: &Linkage) -> TokenStream {
+    let model = &linkage.model;
+    let (attributes, visibility, name) = (&model.attributes, &model.visibility, ident(&model.name.text));
+    let docs = docs::module(linkage);
+    let runtime = model.runtime.clone().unwrap_or_else(|| quote!(::linkage_runtime));
+    let math = ident(model.graph.scalar().name());
+    let equations = literals::text(&equations::text(linkage));
+    let operations = literals::text(&operations(linkage));
+    let loads = types::loads(model);
+    let prepare = if types::has_params(linkage) { functions::prepare(linkage) } else { TokenStream::new() };
+    let params = types::params(linkage, &prepare);
+    let pose = types::pose(linkage);
+    let pose_at = functions::pose_at(linkage);
+    let accessors = functions::accessors(linkage);
+    let scenes = 0..model.scenes.len();
+    let results: TokenStream = scenes.clone().map(|s| types::results(model, s, &linkage.plan.scenes[s])).collect();
+    let from_pose: TokenStream = scenes.clone().map(|s| functions::from_pose(linkage, s)).collect();
+    let direct: TokenStream = scenes.map(|s| functions::direct(linkage, s)).collect();
+    let (generics, elided) = if types::has_params(linkage) {
+        (quote!(<'l>), quote!(<'l>))
+    } else {
+        (TokenStream::new(), TokenStream::new())
+    };
+    quote! {
+        #attributes
+        #docs
+        #[allow(
+            dead_code, non_snake_case, non_camel_case_types, unused_imports, unused_variables, unused_parens,
+            clippy::all, clippy::pedantic,
+            reason = "generated code keeps the names and the formulas of its declaration"
+        )]
+        #visibility mod #name {
+            use #runtime::__private::#math as math;
+            use #runtime::{Error, SliderReaction, Vector2, WorkTerm};
+
+            /// The derivation: free bodies, equilibrium equations, reduction, closed forms.
+            pub const EQUATIONS: &str = #equations;
+            /// The operations of every function.
+            pub const OPERATIONS: &str = #operations;
+
+            #loads
+            #params
+            #pose
+            impl #generics Pose #elided {
+                #pose_at
+                #accessors
+                #from_pose
+            }
+            #results
+            #direct
+        }
+    }
+}
+
+/// The operation counts of all functions, a line each.
+fn operations(linkage: &Linkage) -> String {
+    let mut text = format!("{:<28} {}\n", "Pose::at", linkage.functions.pose.counts());
+    for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
+        text.push_str(&format!("{:<28} {}\n", format!("Pose::{}", scene.name), functions.from_pose.counts()));
+        text.push_str(&format!("{:<28} {}\n", format!("{}_at", scene.name), functions.direct.counts()));
+    }
+    text
+}
+
+/// Name and meaning of everything that is prepared from the parameters.
+fn prepared_names(linkage: &Linkage) -> Vec<(String, String)> {
+    let model = &linkage.model;
+    let mut names: Vec<(String, String)> = Vec::new();
+    for node in &linkage.functions.prepared {
+        let formula = Formula { model, name: &|_| None }.of(*node);
+        let own = match (model.graph.op(*node), model.graph.label(*node)) {
+            (_, Some(label)) => label.name,
+            (Op::Symbol(Symbol::Parameter(param)), _) => model.param(param).name.text.clone(),
+            (Op::Checked { value, .. }, _) => match model.graph.op(value) {
+                Op::Symbol(Symbol::Parameter(param)) => model.param(param).name.text.clone(),
+                _ => format!("prepared_{}", names.len() + 1),
+            },
+            _ => format!("prepared_{}", names.len() + 1),
+        };
+        let taken = names.iter().any(|(name, _)| *name == own);
+        let name = if taken { format!("prepared_{}", names.len() + 1) } else { own };
+        names.push((name, formula));
+    }
+    names
+}

@@ -1,0 +1,309 @@
+//! The types of a module: loads, parameters, pose, results.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::literals::{ident, signed_literal};
+use crate::Linkage;
+use crate::model::ids::{GROUND, LoadId};
+use crate::model::units::Kind;
+use crate::model::{JointKind, LoadKind, Method, Model, type_name};
+use crate::plan::Output;
+
+/// The scalar type.
+pub(super) fn scalar(model: &Model) -> Ident {
+    ident(model.graph.scalar().name())
+}
+
+/// Whether the module has parameters.
+pub(super) fn has_params(linkage: &Linkage) -> bool {
+    !linkage.model.params.is_empty()
+}
+
+/// Loads that are given at run time.
+pub(super) fn run_time_loads(model: &Model) -> Vec<LoadId> {
+    (0..model.loads.len()).map(LoadId::new).filter(|load| model.load(*load).kind.is_given_at_run_time(model)).collect()
+}
+
+/// `Loads`: a field for each load that is given at run time; none if there is none.
+pub(super) fn loads(model: &Model) -> TokenStream {
+    let scalar = scalar(model);
+    let fields: Vec<TokenStream> = run_time_loads(model)
+        .into_iter()
+        .map(|load| {
+            let load = model.load(load);
+            let name = ident(&load.name.text);
+            let doc = format!(" {}", load_doc(model, &load.kind));
+            let ty = match load.kind {
+                LoadKind::Moment { .. } => quote!(#scalar),
+                LoadKind::Force { .. } | LoadKind::Gravity { .. } => quote!(Vector2<#scalar>),
+            };
+            quote!(#[doc = #doc] pub #name: #ty)
+        })
+        .collect();
+    if fields.is_empty() {
+        return TokenStream::new();
+    }
+    quote! {
+        /// The loads that are given at run time.
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        pub struct Loads { #(#fields),* }
+    }
+}
+
+fn load_doc(model: &Model, kind: &LoadKind) -> String {
+    let link = |id| &model.link(id).name.text;
+    match kind {
+        LoadKind::Force { at, frame, .. } => {
+            let axes = if *frame == GROUND { "ground axes".to_owned() } else { format!("axes of `{}`", link(*frame)) };
+            format!("Force on `{}`, {}, {axes}.", model.end_name(*at), Kind::Force.unit(&model.units))
+        }
+        LoadKind::Moment { on, from, .. } => {
+            let by = from.map_or_else(String::new, |from| format!(" by `{}`", link(from)));
+            format!("Moment on `{}`{by}, {}, counter-clockwise.", link(*on), Kind::Moment.unit(&model.units))
+        }
+        LoadKind::Gravity { .. } => {
+            format!("Acceleration of gravity, {}, ground axes.", Kind::Acceleration.unit(&model.units))
+        }
+    }
+}
+
+/// `Params` and `Linkage`; none without parameters.
+pub(super) fn params(linkage: &Linkage, new: &TokenStream) -> TokenStream {
+    let model = &linkage.model;
+    if !has_params(linkage) {
+        return TokenStream::new();
+    }
+    let scalar = scalar(model);
+    let fields = model.params.iter().map(|param| {
+        let name = ident(&param.name.text);
+        let doc = format!(" {}, {}.", capitalised(param.kind.name()), param.kind.unit(&model.units));
+        quote!(#[doc = #doc] pub #name: #scalar)
+    });
+    let defaults: Option<Vec<TokenStream>> = model
+        .params
+        .iter()
+        .map(|param| {
+            let name = ident(&param.name.text);
+            let value = model.graph.constant_value(param.default?)?;
+            let value = signed_literal(&value, model.graph.scalar());
+            Some(quote!(#name: #value))
+        })
+        .collect();
+    let default = defaults.map(|defaults| {
+        quote! {
+            impl Default for Params {
+                /// The defaults of the declaration.
+                fn default() -> Self { Self { #(#defaults),* } }
+            }
+        }
+    });
+    let prepared = super::prepared_names(linkage).into_iter().map(|(name, doc)| {
+        let name = ident(&name);
+        let doc = format!(" {doc}");
+        quote!(#[doc = #doc] #name: #scalar)
+    });
+    quote! {
+        /// The dimensions that are given at run time.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Params { #(#fields),* }
+        #default
+
+        /// The linkage with its dimensions: validated, and all that depends on them alone computed.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Linkage { #(#prepared),* }
+        #new
+    }
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// `Pose`: what is kept of it.
+pub(super) fn pose(linkage: &Linkage) -> TokenStream {
+    let model = &linkage.model;
+    let scalar = scalar(model);
+    let drives = model.drives.iter().map(|drive| {
+        let name = ident(&drive.name.text);
+        let doc = format!(" {}", drive_doc(model, &drive.name.text));
+        quote!(#[doc = #doc] #name: #scalar)
+    });
+    let kept = linkage.plan.pose.iter().map(|kept| {
+        let name = ident(&kept.name);
+        let doc = format!(" {}", kept.meaning);
+        quote!(#[doc = #doc] #name: #scalar)
+    });
+    let (generics, prepared) = if has_params(linkage) {
+        (quote!(<'l>), quote!(/** The prepared linkage. */ linkage: &'l Linkage,))
+    } else {
+        (TokenStream::new(), TokenStream::new())
+    };
+    quote! {
+        /// A pose of the linkage, from which every scene can be solved.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Pose #generics { #prepared #(#drives,)* #(#kept),* }
+    }
+}
+
+/// What a drive's coordinate is, with its unit.
+pub(super) fn drive_doc(model: &Model, name: &str) -> String {
+    let Some(drive) = model.drives.iter().find(|d| d.name.text == name) else { return String::new() };
+    let joint = model.joint(drive.joint);
+    let (from, to) = (&model.link(joint.from.link).name, &model.link(joint.to.link).name);
+    match joint.kind {
+        JointKind::Revolute => format!("Angle of `{to}` from `{from}` at `{}`, rad, counter-clockwise.", joint.name),
+        JointKind::Prismatic { .. } => format!(
+            "Travel of `{to}` from `{from}` along the slide `{}`, {}.",
+            joint.name,
+            Kind::Length.unit(&model.units)
+        ),
+    }
+}
+
+/// The type of a result.
+pub(super) fn output_type(model: &Model, output: &Output, record: &str) -> TokenStream {
+    let scalar = scalar(model);
+    match output {
+        Output::Scalar(..) => quote!(#scalar),
+        Output::Vector(..) => quote!(Vector2<#scalar>),
+        Output::Slider { .. } => quote!(SliderReaction<#scalar>),
+        Output::Term { .. } => quote!(WorkTerm<#scalar>),
+        Output::Record(_) => {
+            let name = ident(record);
+            quote!(#name)
+        }
+    }
+}
+
+/// The name of the type of a record in a record.
+pub(super) fn record_name(method: Method, base: &str, parent: &str, field: &str, output: &Output) -> String {
+    let Output::Record(fields) = output else { return String::new() };
+    let contributions = fields.iter().any(|field| !matches!(field.value, Output::Record(_)));
+    if method == Method::Superposition && contributions {
+        format!("{base}Contribution")
+    } else {
+        format!("{parent}{}", type_name(field))
+    }
+}
+
+/// The types of a scene's results.
+pub(super) fn results(model: &Model, scene: usize, output: &Output) -> TokenStream {
+    let scene = &model.scenes[scene];
+    let base = type_name(&scene.name.text);
+    let doc = match scene.method {
+        Method::Superposition => format!(" Every load's own part in the scene `{}`.", scene.name),
+        _ => format!(" Results of the scene `{}`.", scene.name),
+    };
+    let mut types = TokenStream::new();
+    let mut made = Vec::new();
+    record(model, scene.method, &base, &base, &doc, output, &mut made, &mut types);
+    types
+}
+
+#[allow(clippy::too_many_arguments, reason = "one recursion that carries its context")]
+fn record(
+    model: &Model,
+    method: Method,
+    base: &str,
+    name: &str,
+    doc: &str,
+    output: &Output,
+    made: &mut Vec<String>,
+    types: &mut TokenStream,
+) {
+    let Output::Record(fields) = output else { return };
+    if made.iter().any(|other| other == name) {
+        return;
+    }
+    made.push(name.to_owned());
+    let mut inner = TokenStream::new();
+    let members = fields.iter().map(|field| {
+        let child = record_name(method, base, name, &field.name, &field.value);
+        let child_doc = if child.ends_with("Contribution") {
+            " A part of the results.".to_owned()
+        } else {
+            format!(" {}", field.doc)
+        };
+        record(model, method, base, &child, &child_doc, &field.value, made, &mut inner);
+        let member = ident(&field.name);
+        let ty = output_type(model, &field.value, &child);
+        let doc = format!(" {}", field.doc);
+        quote!(#[doc = #doc] pub #member: #ty)
+    });
+    let members: Vec<TokenStream> = members.collect();
+    let ty = ident(name);
+    types.extend(quote! {
+        #[doc = #doc]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct #ty { #(#members),* }
+    });
+    let sums = method == Method::Superposition && fields.iter().any(|field| matches!(field.value, Output::Record(_)));
+    if sums {
+        types.extend(total(base, &ty, output));
+    }
+    types.extend(inner);
+}
+
+/// The paths to the contributions in a record, in order.
+pub(super) fn contributions(output: &Output) -> Vec<Vec<String>> {
+    let Output::Record(fields) = output else { return Vec::new() };
+    if fields.iter().any(|field| !matches!(field.value, Output::Record(_))) {
+        return vec![Vec::new()];
+    }
+    let deeper = fields.iter().flat_map(|field| {
+        contributions(&field.value).into_iter().map(|path| core::iter::once(field.name.clone()).chain(path).collect())
+    });
+    deeper.collect()
+}
+
+/// `total()`: the sum of all contributions.
+fn total(base: &str, ty: &Ident, output: &Output) -> TokenStream {
+    let contribution = ident(&format!("{base}Contribution"));
+    let paths: Vec<TokenStream> = contributions(output)
+        .into_iter()
+        .map(|path| {
+            let path = path.iter().map(|name| ident(name));
+            quote!(self #(.#path)*)
+        })
+        .collect();
+    let Some(fields) = first_contribution(output) else { return TokenStream::new() };
+    let sum = |part: &TokenStream| {
+        let parts = paths.iter().map(|path| quote!(#path #part));
+        parts.reduce(|sum, part| quote!(#sum + #part)).unwrap_or_else(|| quote!(0.0))
+    };
+    let members = fields.iter().map(|field| {
+        let name = ident(&field.name);
+        let value = match &field.value {
+            Output::Vector(..) => {
+                let (x, y) = (sum(&quote!(.#name.x)), sum(&quote!(.#name.y)));
+                quote!(Vector2::new(#x, #y))
+            }
+            Output::Slider { .. } => {
+                let (x, y) = (sum(&quote!(.#name.force.x)), sum(&quote!(.#name.force.y)));
+                let (normal, couple) = (sum(&quote!(.#name.normal)), sum(&quote!(.#name.couple)));
+                quote!(SliderReaction { force: Vector2::new(#x, #y), normal: #normal, couple: #couple })
+            }
+            _ => sum(&quote!(.#name)),
+        };
+        quote!(#name: #value)
+    });
+    quote! {
+        impl #ty {
+            /// The sum of all parts.
+            #[must_use]
+            pub fn total(&self) -> #contribution {
+                #contribution { #(#members),* }
+            }
+        }
+    }
+}
+
+fn first_contribution(output: &Output) -> Option<&[crate::plan::Field]> {
+    let Output::Record(fields) = output else { return None };
+    match fields.first() {
+        Some(first) if matches!(first.value, Output::Record(_)) => first_contribution(&first.value),
+        _ => Some(fields),
+    }
+}

@@ -1,0 +1,68 @@
+//! Loads: each kind in a file of its own that states which forces and couples it puts on which links, and nothing else.
+
+mod force;
+mod gravity;
+mod moment;
+
+use super::{Body, Exerted};
+use crate::graph::{NodeId, Vector};
+use crate::model::ids::{LinkId, LoadId};
+use crate::model::{LoadKind, Model, Pair};
+
+/// A load that is solved by itself: the whole load, or of gravity the weight of one link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Case {
+    /// The declared load.
+    pub load: LoadId,
+    /// The link whose weight it is.
+    pub link: Option<LinkId>,
+}
+
+/// An elementary action on a link.
+#[derive(Clone, Copy, Debug)]
+pub enum Action {
+    /// A force at a point.
+    Force {
+        /// On this link.
+        link: LinkId,
+        /// At this place in its frame.
+        at: Pair,
+        /// The force's components,
+        force: Pair,
+        /// in the axes of this link.
+        frame: LinkId,
+    },
+    /// A couple.
+    Couple {
+        /// On this link.
+        link: LinkId,
+        /// How much.
+        moment: NodeId,
+    },
+}
+
+/// All load cases, in the order of declaration.
+#[must_use]
+pub fn cases(model: &Model) -> Vec<(Case, Vec<Action>)> {
+    (0..model.loads.len()).map(LoadId::new).flat_map(|load| cases_of(model, load)).collect()
+}
+
+/// The cases of a load.
+#[must_use]
+pub fn cases_of(model: &Model, load: LoadId) -> Vec<(Case, Vec<Action>)> {
+    let whole = Case { load, link: None };
+    match model.load(load).kind {
+        LoadKind::Force { at, force, frame } => vec![(whole, force::actions(model, at, force, frame))],
+        LoadKind::Moment { on, from, moment } => vec![(whole, moment::actions(model, on, from, moment))],
+        LoadKind::Gravity { acceleration } => gravity::weights(model, acceleration)
+            .into_iter()
+            .map(|(link, action)| (Case { load, link: Some(link) }, vec![action]))
+            .collect(),
+    }
+}
+
+/// What a force at a point of a link exerts about the origin of its frame: with `r` from there to the point, `r × F`.
+pub(super) fn exerted_at<'g>(link: LinkId, body: &Body<'g>, local: Vector<'g>, force: Vector<'g>) -> Exerted {
+    let arm = body.turned(local);
+    Exerted { on: link, x: force.x.id(), y: force.y.id(), moment: arm.cross(force).id() }
+}

@@ -1,0 +1,166 @@
+//! Differentiation, substitution and evaluation.
+
+use std::collections::HashMap;
+
+use super::real::Real;
+use super::{Coordinate, Expr, Graph, Kernel, NodeId, Op, Symbol};
+use crate::model::ids::LinkId;
+
+impl Graph {
+    /// Partial derivative by a coordinate of a link: its place or its angle. Cosine and sine of a link are functions of its angle.
+    #[must_use]
+    pub fn derivative<'g>(&'g self, of: Expr<'g>, link: LinkId, by: Coordinate) -> Expr<'g> {
+        let d = |id: NodeId| self.derivative(self.expr(id), link, by);
+        match of.op() {
+            Op::Constant(_) => self.zero(),
+            Op::Symbol(Symbol::Coordinate(owner, coordinate)) if owner == link => match (coordinate, by) {
+                (a, b) if a == b => self.one(),
+                (Coordinate::Cos, Coordinate::Angle) => -self.symbol(Symbol::Coordinate(link, Coordinate::Sin)),
+                (Coordinate::Sin, Coordinate::Angle) => self.symbol(Symbol::Coordinate(link, Coordinate::Cos)),
+                _ => self.zero(),
+            },
+            Op::Symbol(_) => self.zero(),
+            Op::Neg(a) => -d(a),
+            Op::Add(a, b) => d(a) + d(b),
+            Op::Sub(a, b) => d(a) - d(b),
+            Op::Mul(a, b) => d(a) * self.expr(b) + self.expr(a) * d(b),
+            Op::Div(a, b) => (d(a) - of * d(b)) / self.expr(b),
+            Op::Sqrt(a) => d(a) / (2 * of),
+            Op::Checked { value, .. } | Op::Quantity(value) | Op::Held(value) => d(value),
+            Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_), args, part } => {
+                let other = match part {
+                    0 => self.with_part(of, 1),
+                    _ => -self.with_part(of, 0),
+                };
+                d(args[0]) * other
+            }
+            Op::Kernel { kernel: Kernel::Atan2, args, .. } => {
+                let (y, x) = (self.expr(args[0]), self.expr(args[1]));
+                (x * d(args[0]) - y * d(args[1])) / (x * x + y * y)
+            }
+            // Constraints are smooth: they hold none of these.
+            Op::Abs(_) | Op::NonNegative(_) | Op::Where { .. } | Op::Kernel { kernel: Kernel::Unit, .. } => self.zero(),
+        }
+    }
+
+    fn with_part<'g>(&'g self, of: Expr<'g>, part: u8) -> Expr<'g> {
+        match of.op() {
+            Op::Kernel { kernel, args, .. } => {
+                let args: Vec<Expr<'g>> = args.iter().map(|a| self.expr(*a)).collect();
+                self.kernel(kernel, &args, part)
+            }
+            _ => of,
+        }
+    }
+
+    /// The expression with other operands: what the node computes, of what `with` makes of them.
+    pub(crate) fn rebuilt<'g>(&'g self, id: NodeId, with: &mut dyn FnMut(NodeId) -> NodeId) -> Expr<'g> {
+        let mut part = |id: NodeId| self.expr(with(id));
+        match self.op(id) {
+            Op::Constant(_) | Op::Symbol(_) => self.expr(id),
+            Op::Neg(a) => -part(a),
+            Op::Abs(a) => part(a).abs(),
+            Op::NonNegative(a) => part(a).non_negative(),
+            Op::Sqrt(a) => part(a).sqrt(),
+            Op::Add(a, b) => part(a) + part(b),
+            Op::Sub(a, b) => part(a) - part(b),
+            Op::Mul(a, b) => part(a) * part(b),
+            Op::Div(a, b) => part(a) / part(b),
+            Op::Quantity(a) => part(a),
+            Op::Held(a) => part(a).held(),
+            Op::Where { value, limit, then } => {
+                let (value, limit) = (part(value), part(limit));
+                part(then).where_above(value, limit)
+            }
+            Op::Kernel { kernel, args, part: which } => {
+                let args: Vec<Expr<'g>> = args.iter().map(|a| part(*a)).collect();
+                self.kernel(kernel, &args, which)
+            }
+            Op::Checked { value, guard } => {
+                let mut guard = self.guard(guard);
+                let value = part(value);
+                guard.condition = guard.condition.map(|id| part(id).id());
+                guard.failure = guard.failure.map(|id| part(id).id());
+                self.checked(value, &guard)
+            }
+        }
+    }
+
+    /// The expression with symbols replaced.
+    pub fn substituted<'g>(&'g self, of: Expr<'g>, by: &dyn Fn(Symbol) -> Option<Expr<'g>>) -> Expr<'g> {
+        let mut done = HashMap::new();
+        self.expr(self.substitute(of.id(), by, &mut done))
+    }
+
+    fn substitute<'g>(
+        &'g self,
+        id: NodeId,
+        by: &dyn Fn(Symbol) -> Option<Expr<'g>>,
+        done: &mut HashMap<NodeId, NodeId>,
+    ) -> NodeId {
+        if let Some(found) = done.get(&id) {
+            return *found;
+        }
+        let result = match self.op(id) {
+            Op::Symbol(symbol) => by(symbol).map_or(id, Expr::id),
+            _ => self.rebuilt(id, &mut |inner| self.substitute(inner, by, done)).id(),
+        };
+        done.insert(id, result);
+        result
+    }
+
+    /// The value of a node, checks passed over. `known` gives the values of symbols; it is remembered what was computed.
+    pub fn evaluate<T: Real>(&self, id: NodeId, known: &dyn Fn(Symbol) -> T, done: &mut HashMap<NodeId, T>) -> T {
+        if let Some(value) = done.get(&id) {
+            return value.clone();
+        }
+        let mut of = |id: NodeId| self.evaluate(id, known, done);
+        let zero = || T::from_number(&super::number::Number::zero());
+        let value = match self.op(id) {
+            Op::Constant(n) => T::from_number(&self.number(n)),
+            Op::Symbol(symbol) => known(symbol),
+            Op::Neg(a) => of(a).neg(),
+            Op::Abs(a) => {
+                let a = of(a);
+                if zero().above(&a) { a.neg() } else { a }
+            }
+            Op::NonNegative(a) => {
+                let a = of(a);
+                if a.above(&zero()) { a } else { zero() }
+            }
+            Op::Sqrt(a) => of(a).sqrt(),
+            Op::Add(a, b) => of(a).add(&of(b)),
+            Op::Sub(a, b) => of(a).sub(&of(b)),
+            Op::Mul(a, b) => of(a).mul(&of(b)),
+            Op::Div(a, b) => of(a).div(&of(b)),
+            Op::Where { value, limit, then } => {
+                if of(value).above(&of(limit)) {
+                    of(then)
+                } else {
+                    zero()
+                }
+            }
+            Op::Checked { value, .. } | Op::Quantity(value) | Op::Held(value) => of(value),
+            Op::Kernel { kernel, args, part } => {
+                let args: Vec<T> = args.iter().map(|a| of(*a)).collect();
+                let (first, second) = self.apply(kernel, &args);
+                if part == 0 { first } else { second }
+            }
+        };
+        done.insert(id, value.clone());
+        value
+    }
+
+    /// Both results of a kernel; a kernel with one result gives it twice.
+    pub fn apply<T: Real>(&self, kernel: Kernel, args: &[T]) -> (T, T) {
+        match kernel {
+            Kernel::SinCos => args[0].sin_cos(),
+            Kernel::SinCosSum(phase) => args[0].sin_cos_sum(&self.number(phase)),
+            Kernel::Atan2 => {
+                let angle = args[0].atan2(&args[1]);
+                (angle.clone(), angle)
+            }
+            Kernel::Unit => args[0].unit(&args[1]),
+        }
+    }
+}

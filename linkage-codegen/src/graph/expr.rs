@@ -1,0 +1,223 @@
+//! Expressions written with operators.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::number::Number;
+use super::{Condition, Failure, Graph, Guard, Kernel, Label, NodeId, Op, Stage, Vector};
+
+/// A node together with its graph.
+#[derive(Clone, Copy)]
+pub struct Expr<'g> {
+    graph: &'g Graph,
+    id: NodeId,
+}
+
+impl core::fmt::Debug for Expr<'_> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "{:?}={:?}", self.id, self.graph.op(self.id))
+    }
+}
+
+impl PartialEq for Expr<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id
+    }
+}
+
+impl<'g> Expr<'g> {
+    pub(super) fn new(graph: &'g Graph, id: NodeId) -> Self {
+        Self { graph, id }
+    }
+
+    /// Its node.
+    #[must_use]
+    pub fn id(self) -> NodeId {
+        self.id
+    }
+
+    /// Its graph.
+    #[must_use]
+    pub fn graph(self) -> &'g Graph {
+        self.graph
+    }
+
+    /// What it computes.
+    #[must_use]
+    pub fn op(self) -> Op {
+        self.graph.op(self.id)
+    }
+
+    /// When it becomes known.
+    #[must_use]
+    pub fn stage(self) -> Stage {
+        self.graph.stage(self.id)
+    }
+
+    /// Its value, if constant.
+    #[must_use]
+    pub fn value(self) -> Option<Number> {
+        self.graph.constant_value(self.id)
+    }
+
+    /// Whether it is the constant zero.
+    #[must_use]
+    pub fn is_zero(self) -> bool {
+        self.value().is_some_and(|v| v.is_zero())
+    }
+
+    /// Whether it is the constant one.
+    #[must_use]
+    pub fn is_one(self) -> bool {
+        self.value().is_some_and(|v| v.is_one())
+    }
+
+    /// The sign of a constant.
+    #[must_use]
+    pub fn sign(self) -> Option<i8> {
+        self.value().map(|v| v.signum())
+    }
+
+    /// The value as a named quantity, with the expression that it stands for. It is computed once and as it is written here; constants
+    /// and symbols need no name, and the first name that a value gets is the one that stays.
+    #[must_use]
+    pub fn named(self, name: impl Into<String>, equation: impl Into<String>) -> Self {
+        if matches!(self.op(), Op::Constant(_) | Op::Symbol(_) | Op::Quantity(_) | Op::Held(_)) {
+            return self;
+        }
+        let quantity = self.graph.intern(Op::Quantity(self.id));
+        let label = Label { name: name.into(), equation: equation.into() };
+        self.graph.arena.borrow_mut().labels.entry(quantity.id).or_insert(label);
+        quantity
+    }
+
+    /// States that the value is positive wherever it is used.
+    #[must_use]
+    pub fn known_positive(self) -> Self {
+        self.graph.arena.borrow_mut().positive.insert(self.id);
+        self
+    }
+
+    /// The value as one that a pose keeps: nothing is folded through it, so that what reads it reads no further.
+    #[must_use]
+    pub fn held(self) -> Self {
+        self.graph.held(self)
+    }
+
+    /// Square root.
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        self.graph.sqrt(self)
+    }
+
+    /// Magnitude.
+    #[must_use]
+    pub fn abs(self) -> Self {
+        self.graph.abs(self)
+    }
+
+    /// The value, or zero if it is negative.
+    #[must_use]
+    pub fn non_negative(self) -> Self {
+        self.graph.non_negative(self)
+    }
+
+    /// The product with itself.
+    #[must_use]
+    pub fn squared(self) -> Self {
+        self * self
+    }
+
+    /// Whole power.
+    #[must_use]
+    pub fn pow(self, exponent: u32) -> Self {
+        (0..exponent).fold(self.graph.one(), |product, _| product * self)
+    }
+
+    /// `(cosine, sine)` of an angle.
+    #[must_use]
+    pub fn direction(self) -> Vector<'g> {
+        let part = |part| self.graph.kernel(Kernel::SinCos, &[self], part);
+        Vector { x: part(1), y: part(0) }
+    }
+
+    /// `(cosine, sine)` of the angle plus a constant, the sum not rounded.
+    #[must_use]
+    pub fn direction_plus(self, phase: &Number) -> Vector<'g> {
+        if phase.is_zero() || self.value().is_some() {
+            return (self + self.graph.constant(phase)).direction();
+        }
+        if let Number::Pi(turn) = phase {
+            // A quarter turn swaps the two, exactly.
+            let (sine, cosine) = phase.sin_cos();
+            if (turn * dashu_ratio::RBig::from(2)).denominator().is_one() {
+                let quarter = Vector::new(self.graph.constant(&cosine), self.graph.constant(&sine));
+                return self.direction().turned_by(quarter);
+            }
+        }
+        let kernel = Kernel::SinCosSum(self.graph.intern_number(phase));
+        let part = |part| self.graph.kernel(kernel, &[self], part);
+        Vector { x: part(1), y: part(0) }
+    }
+
+    /// The value where `compared > limit`, zero elsewhere.
+    #[must_use]
+    pub fn where_above(self, compared: Self, limit: Self) -> Self {
+        self.graph.select(compared, limit, self)
+    }
+
+    /// The value, checked: `compared > limit`, or the failure.
+    #[must_use]
+    pub fn require_above(self, compared: Self, limit: Self, failure: Failure) -> Self {
+        let condition = Condition::Above { value: compared.id, limit: limit.id };
+        self.graph.checked(self, &Guard { condition, failure })
+    }
+
+    /// The value, checked: `compared >= limit`, or the failure.
+    #[must_use]
+    pub fn require_at_least(self, compared: Self, limit: Self, failure: Failure) -> Self {
+        let condition = Condition::AtLeast { value: compared.id, limit: limit.id };
+        self.graph.checked(self, &Guard { condition, failure })
+    }
+}
+
+impl<'g> Add for Expr<'g> {
+    type Output = Expr<'g>;
+    fn add(self, other: Self) -> Self {
+        self.graph.sum(self, other)
+    }
+}
+
+impl<'g> Sub for Expr<'g> {
+    type Output = Expr<'g>;
+    fn sub(self, other: Self) -> Self {
+        self.graph.difference(self, other)
+    }
+}
+
+impl<'g> Mul for Expr<'g> {
+    type Output = Expr<'g>;
+    fn mul(self, other: Self) -> Self {
+        self.graph.product(self, other)
+    }
+}
+
+impl<'g> Div for Expr<'g> {
+    type Output = Expr<'g>;
+    fn div(self, other: Self) -> Self {
+        self.graph.quotient(self, other)
+    }
+}
+
+impl<'g> Neg for Expr<'g> {
+    type Output = Expr<'g>;
+    fn neg(self) -> Self {
+        self.graph.negative(self)
+    }
+}
+
+impl<'g> Mul<Expr<'g>> for i64 {
+    type Output = Expr<'g>;
+    fn mul(self, other: Expr<'g>) -> Expr<'g> {
+        other.graph.integer(self) * other
+    }
+}

@@ -1,0 +1,290 @@
+//! Folding: what is simplified while an expression is written.
+//!
+//! Every rule keeps the value up to rounding, and none adds an operation. Signs are pulled outwards (they are exact), constants
+//! are merged exactly, and a divisor that is known earlier than its dividend becomes a factor that is prepared once.
+
+use core::cmp::Ordering;
+
+use super::number::Number;
+use super::{Condition, Expr, Graph, Guard, Kernel, Op, Stage};
+
+impl Graph {
+    pub(super) fn sum<'g>(&'g self, a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
+        match (a.value(), b.value()) {
+            (Some(x), Some(y)) => return self.constant(&x.add(&y)),
+            (Some(x), None) if x.is_zero() => return b,
+            (None, Some(y)) if y.is_zero() => return a,
+            (Some(x), None) => return self.plus_constant(b, &x),
+            (None, Some(y)) => return self.plus_constant(a, &y),
+            _ => {}
+        }
+        match (a.op(), b.op()) {
+            (_, Op::Neg(y)) => a - self.expr(y),
+            (Op::Neg(x), _) => b - self.expr(x),
+            _ => self.intern(Op::Add(a.id(), b.id())),
+        }
+    }
+
+    pub(super) fn difference<'g>(&'g self, a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
+        if a == b {
+            return self.zero();
+        }
+        match (a.value(), b.value()) {
+            (Some(x), Some(y)) => return self.constant(&x.sub(&y)),
+            (Some(x), None) if x.is_zero() => return -b,
+            (None, Some(y)) if y.is_zero() => return a,
+            (None, Some(y)) => return self.plus_constant(a, &y.neg()),
+            (Some(x), None) => match b.op() {
+                // k − (y ± c), with both constants in one.
+                Op::Add(y, c) if self.constant_value(c).is_some() => {
+                    return self.constant(&x) - self.expr(c) - self.expr(y);
+                }
+                Op::Sub(c, y) if self.constant_value(c).is_some() => {
+                    return (self.constant(&x) - self.expr(c)) + self.expr(y);
+                }
+                _ => {}
+            },
+            _ => {}
+        }
+        match (a.op(), b.op()) {
+            (_, Op::Neg(y)) => a + self.expr(y),
+            (Op::Neg(x), _) => -(self.expr(x) + b),
+            _ => match self.find(&Op::Sub(b.id(), a.id())) {
+                Some(opposite) => self.intern(Op::Neg(opposite.id())),
+                None => self.intern(Op::Sub(a.id(), b.id())),
+            },
+        }
+    }
+
+    /// `x + k`, merged with a constant that `x` already adds.
+    fn plus_constant<'g>(&'g self, x: Expr<'g>, k: &Number) -> Expr<'g> {
+        match x.op() {
+            Op::Add(y, c) if self.constant_value(c).is_some() => self.expr(y) + (self.expr(c) + self.constant(k)),
+            Op::Sub(c, y) if self.constant_value(c).is_some() => (self.expr(c) + self.constant(k)) - self.expr(y),
+            Op::Neg(y) => self.constant(k) - self.expr(y),
+            _ if k.signum() < 0 => {
+                let k = self.constant(&k.neg());
+                self.intern(Op::Sub(x.id(), k.id()))
+            }
+            _ => {
+                let k = self.constant(k);
+                self.intern(Op::Add(x.id(), k.id()))
+            }
+        }
+    }
+
+    pub(super) fn product<'g>(&'g self, a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
+        match (a.value(), b.value()) {
+            (Some(x), Some(y)) => return self.constant(&x.mul(&y)),
+            (Some(k), None) => return self.times_constant(b, &k),
+            (None, Some(k)) => return self.times_constant(a, &k),
+            _ => {}
+        }
+        match (a.op(), b.op()) {
+            (Op::Neg(x), _) => -(self.expr(x) * b),
+            (_, Op::Neg(y)) => -(a * self.expr(y)),
+            // The square of a root is its argument.
+            (Op::Sqrt(x), Op::Sqrt(y)) if x == y => self.expr(x),
+            _ => self.intern(Op::Mul(a.id(), b.id())),
+        }
+    }
+
+    /// `k·x`, merged with a constant factor that `x` already has.
+    fn times_constant<'g>(&'g self, x: Expr<'g>, k: &Number) -> Expr<'g> {
+        if k.is_zero() {
+            return self.zero();
+        }
+        if k.is_one() {
+            return x;
+        }
+        if k.signum() < 0 {
+            return -self.times_constant(x, &k.neg());
+        }
+        match x.op() {
+            Op::Neg(y) => -self.times_constant(self.expr(y), k),
+            Op::Mul(c, y) if self.constant_value(c).is_some() => (self.constant(k) * self.expr(c)) * self.expr(y),
+            Op::Div(c, y) if self.constant_value(c).is_some() => (self.constant(k) * self.expr(c)) / self.expr(y),
+            _ => {
+                let k = self.constant(k);
+                self.intern(Op::Mul(k.id(), x.id()))
+            }
+        }
+    }
+
+    pub(super) fn quotient<'g>(&'g self, a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
+        if a.is_zero() {
+            return a;
+        }
+        if a == b {
+            return self.one();
+        }
+        if let Some(divisor) = b.value() {
+            // A constant divisor of zero is refused before it gets here; should one come, the run-time checks report it.
+            if let Some(inverse) = Number::one().div(&divisor) {
+                return a * self.constant(&inverse);
+            }
+        }
+        match (a.op(), b.op()) {
+            (Op::Neg(x), _) => -(self.expr(x) / b),
+            (_, Op::Neg(y)) => -(a / self.expr(y)),
+            _ if b.stage() == Stage::Prepared && a.stage() > Stage::Prepared => a * (self.one() / b),
+            _ => self.intern(Op::Div(a.id(), b.id())),
+        }
+    }
+
+    pub(super) fn negative<'g>(&'g self, a: Expr<'g>) -> Expr<'g> {
+        if let Some(value) = a.value() {
+            return self.constant(&value.neg());
+        }
+        match a.op() {
+            Op::Neg(x) => self.expr(x),
+            // −(k − x) = x − k, merged with what else is added to it.
+            Op::Sub(k, x) if self.constant_value(k).is_some() => self.expr(x) - self.expr(k),
+            _ => self.intern(Op::Neg(a.id())),
+        }
+    }
+
+    pub(super) fn sqrt<'g>(&'g self, a: Expr<'g>) -> Expr<'g> {
+        if let Some(root) = a.value().and_then(|v| v.sqrt()) {
+            return self.constant(&root);
+        }
+        match a.op() {
+            Op::Mul(x, y) if x == y => self.expr(x).abs(),
+            _ => self.intern(Op::Sqrt(a.id())),
+        }
+    }
+
+    pub(super) fn abs<'g>(&'g self, a: Expr<'g>) -> Expr<'g> {
+        if let Some(value) = a.value() {
+            return self.constant(&value.abs());
+        }
+        match a.op() {
+            Op::Neg(x) => self.expr(x).abs(),
+            Op::Abs(_) => a,
+            _ if self.is_non_negative(a) => a,
+            _ => self.intern(Op::Abs(a.id())),
+        }
+    }
+
+    pub(super) fn non_negative<'g>(&'g self, a: Expr<'g>) -> Expr<'g> {
+        match a.sign() {
+            Some(-1) => self.zero(),
+            Some(_) => a,
+            None if self.is_non_negative(a) => a,
+            None => self.intern(Op::NonNegative(a.id())),
+        }
+    }
+
+    pub(super) fn held<'g>(&'g self, a: Expr<'g>) -> Expr<'g> {
+        match a.op() {
+            Op::Constant(_) | Op::Symbol(_) | Op::Held(_) => a,
+            _ if a.stage() < Stage::Posed => a,
+            _ => self.intern(Op::Held(a.id())),
+        }
+    }
+
+    pub(super) fn select<'g>(&'g self, value: Expr<'g>, limit: Expr<'g>, then: Expr<'g>) -> Expr<'g> {
+        match compare(value, limit) {
+            Some(Ordering::Greater) => then,
+            Some(_) => self.zero(),
+            None if then.is_zero() => then,
+            None if limit.is_zero() && self.is_positive(value) => then,
+            None => self.intern(Op::Where { value: value.id(), limit: limit.id(), then: then.id() }),
+        }
+    }
+
+    pub(super) fn kernel<'g>(&'g self, kernel: Kernel, args: &[Expr<'g>], part: u8) -> Expr<'g> {
+        let values: Option<Vec<Number>> = args.iter().map(|a| a.value()).collect();
+        if let Some(values) = values {
+            return self.constant(&self.kernel_value(kernel, &values, part));
+        }
+        // The sine is odd, the cosine even.
+        if let (Kernel::SinCos, Op::Neg(x)) = (kernel, args[0].op()) {
+            let positive = self.kernel(kernel, &[self.expr(x)], part);
+            return if part == 0 { -positive } else { positive };
+        }
+        self.intern(Op::Kernel { kernel, args: args.iter().map(|a| a.id()).collect(), part })
+    }
+
+    fn kernel_value(&self, kernel: Kernel, args: &[Number], part: u8) -> Number {
+        let pick = |(first, second): (Number, Number)| if part == 0 { first } else { second };
+        match kernel {
+            Kernel::SinCos => pick(args[0].sin_cos()),
+            Kernel::SinCosSum(phase) => pick(args[0].add(&self.number(phase)).sin_cos()),
+            Kernel::Atan2 => Number::atan2(&args[0], &args[1]),
+            Kernel::Unit => {
+                let size = args[0].mul(&args[0]).add(&args[1].mul(&args[1])).sqrt().unwrap_or_else(Number::zero);
+                args[usize::from(part)].div(&size).unwrap_or_else(Number::zero)
+            }
+        }
+    }
+
+    /// Angle of the direction `(x, y)`, in (−π, π].
+    pub fn atan2<'g>(&'g self, y: Expr<'g>, x: Expr<'g>) -> Expr<'g> {
+        self.kernel(Kernel::Atan2, &[y, x], 0)
+    }
+
+    /// Direction of a vector, zero for the zero vector.
+    pub fn unit<'g>(&'g self, vector: super::Vector<'g>) -> super::Vector<'g> {
+        let part = |part| self.kernel(Kernel::Unit, &[vector.x, vector.y], part);
+        super::Vector { x: part(0), y: part(1) }
+    }
+
+    /// The value behind a check; a check that constants already pass is not made.
+    pub(super) fn checked<'g>(&'g self, value: Expr<'g>, guard: &Guard) -> Expr<'g> {
+        let [a, b] = guard.condition.operands().map(|id| self.expr(id));
+        let passes = match (compare(a, b), guard.condition) {
+            (Some(order), Condition::Above { .. }) => order == Ordering::Greater,
+            (Some(order), Condition::AtLeast { .. }) => order != Ordering::Less,
+            (None, Condition::AtLeast { .. }) => b.sign().is_some_and(|s| s <= 0) && self.is_non_negative(a),
+            (None, Condition::Above { .. }) => {
+                b.is_zero() && self.is_positive(a) || b.sign() == Some(-1) && self.is_non_negative(a)
+            }
+        };
+        if passes {
+            return value;
+        }
+        let guard = self.intern_guard(guard.clone());
+        self.intern(Op::Checked { value: value.id(), guard })
+    }
+
+    /// Whether the value is positive by its form, or was stated to be.
+    #[must_use]
+    pub fn is_positive(&self, a: Expr<'_>) -> bool {
+        let of = |id| self.is_positive(self.expr(id));
+        if self.arena.borrow().positive.contains(&a.id()) {
+            return true;
+        }
+        match a.op() {
+            Op::Constant(_) => a.sign() == Some(1),
+            Op::Add(x, y) => {
+                let (x, y) = (self.expr(x), self.expr(y));
+                self.is_positive(x) && self.is_non_negative(y) || self.is_non_negative(x) && self.is_positive(y)
+            }
+            Op::Mul(x, y) | Op::Div(x, y) => of(x) && of(y),
+            Op::Sqrt(x) | Op::Quantity(x) | Op::Held(x) | Op::Checked { value: x, .. } => of(x),
+            _ => false,
+        }
+    }
+
+    /// Whether the value cannot be negative, by its form.
+    #[must_use]
+    pub fn is_non_negative(&self, a: Expr<'_>) -> bool {
+        let of = |id| self.is_non_negative(self.expr(id));
+        if self.arena.borrow().positive.contains(&a.id()) {
+            return true;
+        }
+        match a.op() {
+            Op::Constant(_) => a.sign() != Some(-1),
+            Op::Mul(x, y) if x == y => true,
+            Op::Add(x, y) | Op::Mul(x, y) | Op::Div(x, y) => of(x) && of(y),
+            Op::Quantity(x) | Op::Held(x) | Op::Checked { value: x, .. } | Op::Where { then: x, .. } => of(x),
+            Op::Sqrt(_) | Op::Abs(_) | Op::NonNegative(_) => true,
+            _ => false,
+        }
+    }
+}
+
+fn compare(a: Expr<'_>, b: Expr<'_>) -> Option<Ordering> {
+    Some(a.value()?.compare(&b.value()?))
+}

@@ -1,0 +1,559 @@
+//! Expressions: one hash-consed graph that carries a linkage from its declared dimensions to its emitted code.
+//!
+//! In: arithmetic on [`Expr`], written as in a textbook. Out: nodes, each of which stands once, constants folded exactly,
+//! products with zero gone, signs pulled outwards. A node's number grows along its dependencies, so the order of numbers
+//! is an order of evaluation.
+
+mod calculus;
+mod expr;
+mod fold;
+pub mod number;
+pub mod real;
+mod vector;
+
+use core::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+pub use expr::Expr;
+use number::Number;
+pub use vector::Vector;
+
+use crate::model::ids::{DriveId, LinkId, LoadId, ParamId};
+
+/// The number type of a linkage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scalar {
+    /// Double precision.
+    F64,
+    /// Single precision.
+    F32,
+}
+
+impl Scalar {
+    /// The distance from 1 to the next larger number.
+    #[must_use]
+    pub fn epsilon(self) -> Number {
+        Number::power_of_two(match self {
+            Self::F64 => -52,
+            Self::F32 => -23,
+        })
+    }
+
+    /// Its name in Rust.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F64 => "f64",
+            Self::F32 => "f32",
+        }
+    }
+}
+
+/// A node of the graph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct NodeId(u32);
+
+/// An interned constant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct NumberId(u32);
+
+/// An interned check.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct GuardId(u32);
+
+/// A heading under which nodes were made; the emitted code and the derivation are grouped by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SectionId(u32);
+
+/// A place coordinate of a link in the symbolic equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Coordinate {
+    /// Abscissa of the frame's origin.
+    X,
+    /// Ordinate of the frame's origin.
+    Y,
+    /// Angle of the frame's x axis.
+    Angle,
+    /// Cosine of that angle.
+    Cos,
+    /// Sine of that angle.
+    Sin,
+}
+
+/// What is not known before run time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Symbol {
+    /// A declared parameter.
+    Parameter(ParamId),
+    /// The coordinate of a drive.
+    Drive(DriveId),
+    /// A component of a load that is given at run time.
+    Load(LoadId, u8),
+    /// A coordinate of a link in the symbolic equations.
+    Coordinate(LinkId, Coordinate),
+    /// A place in the symbolic equations that stands for any dimension.
+    Dimension(u32),
+}
+
+/// When a value becomes known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// At compile time.
+    Constant,
+    /// When the parameters are given.
+    Prepared,
+    /// When the drives are given.
+    Posed,
+    /// When the loads are given.
+    Loaded,
+}
+
+/// A function of the run-time crate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Kernel {
+    /// Sine and cosine.
+    SinCos,
+    /// Sine and cosine of the argument plus a constant, the sum unrounded.
+    SinCosSum(NumberId),
+    /// Angle of the direction (second, first argument).
+    Atan2,
+    /// Direction of a vector: its two components over its size, zero for the zero vector.
+    Unit,
+}
+
+/// What a node computes from other nodes, or a value from other values.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Op<T = NodeId> {
+    /// A constant.
+    Constant(NumberId),
+    /// An unknown of compile time.
+    Symbol(Symbol),
+    /// Negative.
+    Neg(T),
+    /// Magnitude.
+    Abs(T),
+    /// The value, or zero if it is negative.
+    NonNegative(T),
+    /// Square root.
+    Sqrt(T),
+    /// Sum.
+    Add(T, T),
+    /// Difference.
+    Sub(T, T),
+    /// Product.
+    Mul(T, T),
+    /// Quotient.
+    Div(T, T),
+    /// `then` where `value > limit`, zero elsewhere.
+    Where {
+        /// What is compared.
+        value: T,
+        /// What it must exceed.
+        limit: T,
+        /// What is taken.
+        then: T,
+    },
+    /// One of the results of a kernel.
+    Kernel {
+        /// Which function.
+        kernel: Kernel,
+        /// Its arguments.
+        args: Vec<T>,
+        /// Which of its results.
+        part: u8,
+    },
+    /// The value itself, under a name: it is computed as such, and nothing is folded through it.
+    Quantity(T),
+    /// The value itself, kept by a pose: nothing is folded through it.
+    Held(T),
+    /// The value, once a check has passed.
+    Checked {
+        /// What is passed on.
+        value: T,
+        /// What must hold.
+        guard: GuardId,
+    },
+}
+
+impl<T: Copy> Op<T> {
+    /// What it reads, checks aside.
+    #[must_use]
+    pub fn operands(&self) -> Vec<T> {
+        let mut operands = Vec::new();
+        let _ = self.map(|operand| operands.push(operand));
+        operands
+    }
+
+    /// The same of other operands.
+    #[must_use]
+    pub fn map<U>(&self, mut with: impl FnMut(T) -> U) -> Op<U> {
+        match self {
+            Self::Constant(number) => Op::Constant(*number),
+            Self::Symbol(symbol) => Op::Symbol(*symbol),
+            Self::Neg(a) => Op::Neg(with(*a)),
+            Self::Abs(a) => Op::Abs(with(*a)),
+            Self::NonNegative(a) => Op::NonNegative(with(*a)),
+            Self::Sqrt(a) => Op::Sqrt(with(*a)),
+            Self::Add(a, b) => Op::Add(with(*a), with(*b)),
+            Self::Sub(a, b) => Op::Sub(with(*a), with(*b)),
+            Self::Mul(a, b) => Op::Mul(with(*a), with(*b)),
+            Self::Div(a, b) => Op::Div(with(*a), with(*b)),
+            Self::Where { value, limit, then } => {
+                Op::Where { value: with(*value), limit: with(*limit), then: with(*then) }
+            }
+            Self::Kernel { kernel, args, part } => {
+                Op::Kernel { kernel: *kernel, args: args.iter().map(|a| with(*a)).collect(), part: *part }
+            }
+            Self::Quantity(a) => Op::Quantity(with(*a)),
+            Self::Held(a) => Op::Held(with(*a)),
+            Self::Checked { value, guard } => Op::Checked { value: with(*value), guard: *guard },
+        }
+    }
+}
+
+/// What must hold before a value is used. Written so that a NaN fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Condition<T = NodeId> {
+    /// `value > limit`.
+    Above {
+        /// What is compared.
+        value: T,
+        /// What it must exceed.
+        limit: T,
+    },
+    /// `value >= limit`.
+    AtLeast {
+        /// What is compared.
+        value: T,
+        /// What it must reach.
+        limit: T,
+    },
+}
+
+impl<T: Copy> Condition<T> {
+    /// The two sides.
+    #[must_use]
+    pub fn operands(self) -> [T; 2] {
+        match self {
+            Self::Above { value, limit } | Self::AtLeast { value, limit } => [value, limit],
+        }
+    }
+
+    /// The same of other sides.
+    #[must_use]
+    pub fn map<U>(self, mut with: impl FnMut(T) -> U) -> Condition<U> {
+        match self {
+            Self::Above { value, limit } => Condition::Above { value: with(value), limit: with(limit) },
+            Self::AtLeast { value, limit } => Condition::AtLeast { value: with(value), limit: with(limit) },
+        }
+    }
+}
+
+/// What is reported when a check fails.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Failure<T = NodeId> {
+    /// The group cannot be closed at this pose.
+    CannotAssemble {
+        /// The group, by its links.
+        group: String,
+        /// The joint that cannot be closed.
+        joint: String,
+        /// By how much it stays open.
+        gap: T,
+    },
+    /// Two pivots meet where the group needs them apart.
+    CoincidentPivots {
+        /// The group, by its links.
+        group: String,
+        /// The joint whose place is undetermined.
+        joint: String,
+    },
+    /// The unknowns of the group cannot balance its loads.
+    DeadCentre {
+        /// The group, by its links.
+        group: String,
+        /// What vanishes.
+        pivot: String,
+    },
+    /// A parameter is out of its range.
+    Parameter {
+        /// What is wrong with it, as `crank: |A0 A| must be positive`.
+        requirement: String,
+    },
+}
+
+impl<T: Copy> Failure<T> {
+    /// What is reported with it.
+    #[must_use]
+    pub fn operand(&self) -> Option<T> {
+        if let Self::CannotAssemble { gap, .. } = self { Some(*gap) } else { None }
+    }
+
+    /// The same with another operand.
+    #[must_use]
+    pub fn map<U>(&self, mut with: impl FnMut(T) -> U) -> Failure<U> {
+        match self {
+            Self::CannotAssemble { group, joint, gap } => {
+                Failure::CannotAssemble { group: group.clone(), joint: joint.clone(), gap: with(*gap) }
+            }
+            Self::CoincidentPivots { group, joint } => {
+                Failure::CoincidentPivots { group: group.clone(), joint: joint.clone() }
+            }
+            Self::DeadCentre { group, pivot } => Failure::DeadCentre { group: group.clone(), pivot: pivot.clone() },
+            Self::Parameter { requirement } => Failure::Parameter { requirement: requirement.clone() },
+        }
+    }
+}
+
+/// A check.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Guard<T = NodeId> {
+    /// What must hold.
+    pub condition: Condition<T>,
+    /// What is reported otherwise.
+    pub failure: Failure<T>,
+}
+
+/// The name of a node in the emitted code, and the equation that it stands for.
+#[derive(Clone, Debug)]
+pub struct Label {
+    /// Its name.
+    pub name: String,
+    /// The formula or the meaning; may be empty.
+    pub equation: String,
+}
+
+#[derive(Default, Debug)]
+struct Arena {
+    ops: Vec<Op>,
+    stages: Vec<Stage>,
+    sections_of: Vec<SectionId>,
+    index: HashMap<Op, NodeId>,
+    numbers: Vec<Number>,
+    number_index: HashMap<number::Key, NumberId>,
+    guards: Vec<Guard>,
+    guard_index: HashMap<Guard, GuardId>,
+    labels: BTreeMap<NodeId, Label>,
+    positive: BTreeSet<NodeId>,
+    sections: Vec<String>,
+}
+
+/// The graph. Nodes are added through a shared reference, so that expressions can be written with operators.
+#[derive(Debug)]
+pub struct Graph {
+    arena: RefCell<Arena>,
+    scalar: Scalar,
+}
+
+impl Graph {
+    /// An empty graph for a number type.
+    #[must_use]
+    pub fn new(scalar: Scalar) -> Self {
+        let arena = Arena { sections: vec![String::new()], ..Arena::default() };
+        Self { arena: RefCell::new(arena), scalar }
+    }
+
+    /// The number type.
+    #[must_use]
+    pub fn scalar(&self) -> Scalar {
+        self.scalar
+    }
+
+    /// How many nodes there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.arena.borrow().ops.len()
+    }
+
+    /// Whether there is no node.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The expression of a node.
+    #[must_use]
+    pub fn expr(&self, id: NodeId) -> Expr<'_> {
+        Expr::new(self, id)
+    }
+
+    /// What a node computes.
+    #[must_use]
+    pub fn op(&self, id: NodeId) -> Op {
+        self.arena.borrow().ops[id.index()].clone()
+    }
+
+    /// When a node becomes known.
+    #[must_use]
+    pub fn stage(&self, id: NodeId) -> Stage {
+        self.arena.borrow().stages[id.index()]
+    }
+
+    /// A constant's value.
+    #[must_use]
+    pub fn number(&self, id: NumberId) -> Number {
+        self.arena.borrow().numbers[id.0 as usize].clone()
+    }
+
+    /// The value of a node that is constant.
+    #[must_use]
+    pub fn constant_value(&self, id: NodeId) -> Option<Number> {
+        let arena = self.arena.borrow();
+        match arena.ops[id.index()] {
+            Op::Constant(n) => Some(arena.numbers[n.0 as usize].clone()),
+            _ => None,
+        }
+    }
+
+    /// A check.
+    #[must_use]
+    pub fn guard(&self, id: GuardId) -> Guard {
+        self.arena.borrow().guards[id.0 as usize].clone()
+    }
+
+    /// Checks that constants fail.
+    #[must_use]
+    pub fn impossible_guards(&self) -> Vec<Guard> {
+        let guards = self.arena.borrow().guards.clone();
+        let fails = |guard: &Guard| {
+            let [a, b] = guard.condition.operands().map(|id| self.constant_value(id));
+            let Some((a, b)) = a.zip(b) else { return false };
+            match guard.condition {
+                Condition::Above { .. } => !a.compare(&b).is_gt(),
+                Condition::AtLeast { .. } => a.compare(&b).is_lt(),
+            }
+        };
+        guards.into_iter().filter(fails).collect()
+    }
+
+    /// A node's name.
+    #[must_use]
+    pub fn label(&self, id: NodeId) -> Option<Label> {
+        self.arena.borrow().labels.get(&id).cloned()
+    }
+
+    /// The heading under which a node was made, empty for none.
+    #[must_use]
+    pub fn section(&self, id: NodeId) -> String {
+        let arena = self.arena.borrow();
+        arena.sections[arena.sections_of[id.index()].0 as usize].clone()
+    }
+
+    /// From here on, new nodes stand under this heading.
+    pub fn begin_section(&self, heading: impl Into<String>) {
+        self.arena.borrow_mut().sections.push(heading.into());
+    }
+
+    /// A constant.
+    pub fn constant(&self, value: &Number) -> Expr<'_> {
+        let id = self.intern_number(value);
+        self.intern(Op::Constant(id))
+    }
+
+    /// A whole number.
+    pub fn integer(&self, value: i64) -> Expr<'_> {
+        self.constant(&Number::integer(value))
+    }
+
+    /// Zero.
+    pub fn zero(&self) -> Expr<'_> {
+        self.integer(0)
+    }
+
+    /// One.
+    pub fn one(&self) -> Expr<'_> {
+        self.integer(1)
+    }
+
+    /// A multiple of the number type's epsilon.
+    pub fn epsilons(&self, factor: i64) -> Expr<'_> {
+        self.constant(&self.scalar.epsilon().mul(&Number::integer(factor)))
+    }
+
+    /// What is known only at run time.
+    pub fn symbol(&self, symbol: Symbol) -> Expr<'_> {
+        self.intern(Op::Symbol(symbol))
+    }
+
+    /// The zero vector.
+    pub fn zero_vector(&self) -> Vector<'_> {
+        Vector { x: self.zero(), y: self.zero() }
+    }
+
+    fn intern_number(&self, value: &Number) -> NumberId {
+        let mut arena = self.arena.borrow_mut();
+        let key = value.key();
+        if let Some(id) = arena.number_index.get(&key) {
+            return *id;
+        }
+        let id = NumberId(index(arena.numbers.len()));
+        arena.numbers.push(value.clone());
+        arena.number_index.insert(key, id);
+        id
+    }
+
+    fn intern_guard(&self, guard: Guard) -> GuardId {
+        let mut arena = self.arena.borrow_mut();
+        if let Some(id) = arena.guard_index.get(&guard) {
+            return *id;
+        }
+        let id = GuardId(index(arena.guards.len()));
+        arena.guards.push(guard.clone());
+        arena.guard_index.insert(guard, id);
+        id
+    }
+
+    /// The node that computes this, made if there is none. Sums and products are found in either order.
+    fn intern(&self, op: Op) -> Expr<'_> {
+        let mut arena = self.arena.borrow_mut();
+        let swapped = match op {
+            Op::Add(a, b) => Some(Op::Add(b, a)),
+            Op::Mul(a, b) => Some(Op::Mul(b, a)),
+            _ => None,
+        };
+        if let Some(id) = arena.index.get(&op).or_else(|| swapped.and_then(|op| arena.index.get(&op))) {
+            return Expr::new(self, *id);
+        }
+        let id = NodeId(index(arena.ops.len()));
+        let stage = arena.stage_of(&op);
+        let section = SectionId(index(arena.sections.len() - 1));
+        arena.ops.push(op.clone());
+        arena.stages.push(stage);
+        arena.sections_of.push(section);
+        arena.index.insert(op, id);
+        Expr::new(self, id)
+    }
+
+    fn find(&self, op: &Op) -> Option<Expr<'_>> {
+        self.arena.borrow().index.get(op).map(|id| Expr::new(self, *id))
+    }
+}
+
+impl Arena {
+    fn stage_of(&self, op: &Op) -> Stage {
+        let own = match op {
+            Op::Symbol(Symbol::Parameter(_)) => Stage::Prepared,
+            Op::Symbol(Symbol::Load(..)) => Stage::Loaded,
+            Op::Symbol(_) => Stage::Posed,
+            _ => Stage::Constant,
+        };
+        let guard = match op {
+            Op::Checked { guard, .. } => self.guards[guard.0 as usize].condition.operands().to_vec(),
+            _ => Vec::new(),
+        };
+        op.operands().iter().chain(&guard).map(|id| self.stages[id.index()]).max().unwrap_or(own).max(own)
+    }
+}
+
+impl NodeId {
+    /// Its place in the order of evaluation.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// Graphs stay far below 2³² nodes: a declaration would need gigabytes of source.
+fn index(length: usize) -> u32 {
+    u32::try_from(length).unwrap_or(u32::MAX)
+}

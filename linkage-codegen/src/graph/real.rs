@@ -1,0 +1,140 @@
+//! Number types in which a graph can be evaluated.
+
+use super::number::Number;
+
+/// The arithmetic of the emitted code, for any number type: the order of operations is the graph's own.
+pub trait Real: Clone {
+    /// The nearest number to a constant.
+    fn from_number(number: &Number) -> Self;
+    /// Sum.
+    #[must_use]
+    fn add(&self, other: &Self) -> Self;
+    /// Difference.
+    #[must_use]
+    fn sub(&self, other: &Self) -> Self;
+    /// Product.
+    #[must_use]
+    fn mul(&self, other: &Self) -> Self;
+    /// Quotient.
+    #[must_use]
+    fn div(&self, other: &Self) -> Self;
+    /// Negative.
+    #[must_use]
+    fn neg(&self) -> Self;
+    /// Square root.
+    #[must_use]
+    fn sqrt(&self) -> Self;
+    /// Whether `self > other`.
+    fn above(&self, other: &Self) -> bool;
+    /// Whether `self >= other`.
+    fn at_least(&self, other: &Self) -> bool;
+    /// Whether it is a number, and not infinite.
+    fn is_finite(&self) -> bool;
+    /// Sine and cosine.
+    #[must_use]
+    fn sin_cos(&self) -> (Self, Self);
+    /// Sine and cosine of the sum with a constant.
+    #[must_use]
+    fn sin_cos_sum(&self, phase: &Number) -> (Self, Self);
+    /// Angle of the direction `(x, self)`.
+    #[must_use]
+    fn atan2(&self, x: &Self) -> Self;
+    /// Direction of the vector `(self, y)`.
+    #[must_use]
+    fn unit(&self, y: &Self) -> (Self, Self);
+}
+
+/// Doubles, for what is decided at compile time by comparing sizes; the emitted code has its own functions.
+impl Real for f64 {
+    fn from_number(number: &Number) -> Self {
+        number.to_f64()
+    }
+    fn add(&self, other: &Self) -> Self {
+        self + other
+    }
+    fn sub(&self, other: &Self) -> Self {
+        self - other
+    }
+    fn mul(&self, other: &Self) -> Self {
+        self * other
+    }
+    fn div(&self, other: &Self) -> Self {
+        self / other
+    }
+    fn neg(&self) -> Self {
+        -self
+    }
+    fn sqrt(&self) -> Self {
+        f64::sqrt(*self)
+    }
+    fn above(&self, other: &Self) -> bool {
+        self > other
+    }
+    fn at_least(&self, other: &Self) -> bool {
+        self >= other
+    }
+    fn is_finite(&self) -> bool {
+        f64::is_finite(*self)
+    }
+    fn sin_cos(&self) -> (Self, Self) {
+        f64::sin_cos(*self)
+    }
+    fn sin_cos_sum(&self, phase: &Number) -> (Self, Self) {
+        f64::sin_cos(self + phase.to_f64())
+    }
+    fn atan2(&self, x: &Self) -> Self {
+        f64::atan2(*self, *x)
+    }
+    fn unit(&self, y: &Self) -> (Self, Self) {
+        let size = self.hypot(*y);
+        if size > 0.0 { (self / size, y / size) } else { (0.0, 0.0) }
+    }
+}
+
+/// The extended numbers of the compiler themselves, for answers far beyond the scalar's precision. A square root below zero and a
+/// quotient by zero, which the emitted code reports as errors, are zero.
+impl Real for Number {
+    fn from_number(number: &Number) -> Self {
+        number.clone()
+    }
+    fn add(&self, other: &Self) -> Self {
+        Number::add(self, other)
+    }
+    fn sub(&self, other: &Self) -> Self {
+        Number::sub(self, other)
+    }
+    fn mul(&self, other: &Self) -> Self {
+        Number::mul(self, other)
+    }
+    fn div(&self, other: &Self) -> Self {
+        Number::div(self, other).unwrap_or_else(Number::zero)
+    }
+    fn neg(&self) -> Self {
+        Number::neg(self)
+    }
+    fn sqrt(&self) -> Self {
+        Number::sqrt(self).unwrap_or_else(Number::zero)
+    }
+    fn above(&self, other: &Self) -> bool {
+        self.compare(other).is_gt()
+    }
+    fn at_least(&self, other: &Self) -> bool {
+        self.compare(other).is_ge()
+    }
+    fn is_finite(&self) -> bool {
+        true
+    }
+    fn sin_cos(&self) -> (Self, Self) {
+        Number::sin_cos(self)
+    }
+    fn sin_cos_sum(&self, phase: &Number) -> (Self, Self) {
+        Number::add(self, phase).sin_cos()
+    }
+    fn atan2(&self, x: &Self) -> Self {
+        Number::atan2(self, x)
+    }
+    fn unit(&self, y: &Self) -> (Self, Self) {
+        let size = Real::sqrt(&Number::add(&self.mul(self), &y.mul(y)));
+        (Real::div(self, &size), Real::div(y, &size))
+    }
+}

@@ -1,0 +1,264 @@
+//! Values as written, turned into expressions in the units of the generated functions.
+
+use super::Model;
+use super::ids::{LinkId, ParamId, PointId};
+use super::names::{FUNCTIONS, Names, Role};
+use super::units::{Dimension, Kind, unit, unit_names};
+use crate::diagnostics::{Diagnostic, Place, closest};
+use crate::graph::number::Number;
+use crate::graph::{Expr, Symbol, Vector};
+use crate::syntax::ast::{Direction, DirectionKind, Name, Value, ValueKind, VectorKind, VectorValue};
+
+/// An expression and its dimension; the bare zero has none, and fits all.
+struct Quantity<'m> {
+    expr: Expr<'m>,
+    dimension: Option<Dimension>,
+}
+
+/// Where values are evaluated.
+#[derive(Clone, Copy)]
+pub(super) struct Scope<'m> {
+    pub(super) model: &'m Model,
+    pub(super) names: &'m Names,
+}
+
+type Evaluated<T> = Result<T, Diagnostic>;
+
+impl<'m> Scope<'m> {
+    /// A value that must be of a kind.
+    pub(super) fn scalar(&self, value: &Value, kind: Kind) -> Evaluated<Expr<'m>> {
+        let found = self.quantity(value)?;
+        self.converted(found, kind, value.place)
+    }
+
+    fn converted(&self, found: Quantity<'m>, kind: Kind, place: Place) -> Evaluated<Expr<'m>> {
+        let units = &self.model.units;
+        let Some(dimension) = found.dimension else { return Ok(found.expr) };
+        if let Some(factor) = kind.factor_from(dimension, units) {
+            return Ok(self.model.graph.constant(&factor) * found.expr);
+        }
+        let help = if dimension == Dimension::NUMBER {
+            format!("write the unit: `{}`", kind.example(units))
+        } else {
+            format!("{} is written `{}`", kind.name(), kind.example(units))
+        };
+        Err(Diagnostic::new(place, format!("expected {}, found {dimension}", kind.name())).help(help))
+    }
+
+    /// A vector whose components, or whose size, are of a kind.
+    pub(super) fn vector(&self, vector: &VectorValue, kind: Kind) -> Evaluated<Vector<'m>> {
+        match &vector.kind {
+            VectorKind::Cartesian(x, y) => Ok(Vector::new(self.scalar(x, kind)?, self.scalar(y, kind)?)),
+            VectorKind::Polar(size, angle) => {
+                let size = self.scalar(size, kind)?;
+                Ok(self.scalar(angle, Kind::Angle)?.direction().scaled(size))
+            }
+        }
+    }
+
+    /// A direction in the frame of a link, as a unit vector.
+    pub(super) fn direction(&self, direction: &Direction, link: LinkId) -> Evaluated<Vector<'m>> {
+        match &direction.kind {
+            DirectionKind::Angle(angle) => Ok(self.scalar(angle, Kind::Angle)?.direction()),
+            DirectionKind::Vector(vector) => {
+                let vector = match &vector.kind {
+                    VectorKind::Polar(_, angle) => self.scalar(angle, Kind::Angle)?.direction(),
+                    VectorKind::Cartesian(x, y) => {
+                        let (x, y) = (self.quantity(x)?, self.quantity(y)?);
+                        if let (Some(a), Some(b)) = (x.dimension, y.dimension) {
+                            if a != b {
+                                let problem = format!("the components of a direction are of one kind, not {a} and {b}");
+                                return Err(Diagnostic::new(vector.place, problem));
+                            }
+                        }
+                        Vector::new(x.expr, y.expr)
+                    }
+                };
+                self.normalised(vector, direction.place)
+            }
+            DirectionKind::Points(from, to) => {
+                let from = self.point(link, from)?;
+                let to = self.point(link, to)?;
+                let at = |p: Option<PointId>| {
+                    p.map(|p| self.model.links[link.index()].points[p.index()].at.vector(&self.model.graph))
+                };
+                match (at(from), at(to)) {
+                    (Some(from), Some(to)) => self.normalised(to - from, direction.place),
+                    _ => Ok(self.model.graph.zero().direction()),
+                }
+            }
+        }
+    }
+
+    fn normalised(&self, vector: Vector<'m>, place: Place) -> Evaluated<Vector<'m>> {
+        if vector.is_zero() {
+            return Err(Diagnostic::new(place, "a direction cannot be the zero vector"));
+        }
+        Ok(self.model.graph.unit(vector))
+    }
+
+    /// A point of a link; `None` if the link could not be read.
+    pub(super) fn point(&self, link: LinkId, name: &Name) -> Evaluated<Option<PointId>> {
+        let Some(body) = self.model.links.get(link.index()) else { return Ok(None) };
+        if let Some(index) = body.points.iter().position(|p| p.name.text == name.text) {
+            return Ok(Some(PointId::new(index)));
+        }
+        let problem = format!("the link `{}` has no point `{name}`", body.name);
+        Err(Diagnostic::new(name.place(), problem)
+            .suggest(&name.text, body.points.iter().map(|p| p.name.text.as_str())))
+    }
+
+    fn quantity(&self, value: &Value) -> Evaluated<Quantity<'m>> {
+        let place = value.place;
+        match &value.kind {
+            ValueKind::Number(digits, suffix) => self.number(digits, suffix.as_deref(), place),
+            ValueKind::Name(name) => self.named(name, place),
+            ValueKind::Negative(inner) => {
+                let inner = self.quantity(inner)?;
+                Ok(Quantity { expr: -inner.expr, ..inner })
+            }
+            ValueKind::Sum(a, b) => self.joined(a, b, |a, b| a + b),
+            ValueKind::Difference(a, b) => self.joined(a, b, |a, b| a - b),
+            ValueKind::Product(a, b) => {
+                let (a, b) = (self.quantity(a)?, self.quantity(b)?);
+                let dimension = a.dimension.zip(b.dimension).map(|(a, b)| a.times(b));
+                Ok(Quantity { expr: a.expr * b.expr, dimension })
+            }
+            ValueKind::Quotient(a, b) => {
+                let (a, divisor) = (self.quantity(a)?, self.quantity(b)?);
+                if divisor.expr.is_zero() {
+                    return Err(Diagnostic::new(b.place, "division by zero"));
+                }
+                let dimension = a.dimension.zip(divisor.dimension).map(|(a, b)| a.over(b));
+                Ok(Quantity { expr: a.expr / divisor.expr, dimension })
+            }
+            ValueKind::Power(base, exponent) => {
+                let base = self.quantity(base)?;
+                Ok(Quantity { expr: base.expr.pow(*exponent), dimension: base.dimension.map(|d| d.power(*exponent)) })
+            }
+            ValueKind::Call(function, args) => self.call(function, args, place),
+        }
+    }
+
+    fn number(&self, digits: &str, suffix: Option<&str>, place: Place) -> Evaluated<Quantity<'m>> {
+        let graph = &self.model.graph;
+        let Some(value) = Number::decimal(digits) else {
+            return Err(Diagnostic::new(place, "this number is beyond what a double can hold"));
+        };
+        let Some(suffix) = suffix else {
+            let dimension = (!value.is_zero()).then_some(Dimension::NUMBER);
+            return Ok(Quantity { expr: graph.constant(&value), dimension });
+        };
+        let Some(unit) = unit(suffix) else {
+            return Err(Diagnostic::new(place, format!("there is no unit `{suffix}`")).suggest(suffix, unit_names()));
+        };
+        let value = value.mul(&self.model.units.size_of(&unit));
+        Ok(Quantity { expr: graph.constant(&value), dimension: Some(unit.dimension) })
+    }
+
+    fn named(&self, name: &str, place: Place) -> Evaluated<Quantity<'m>> {
+        let graph = &self.model.graph;
+        if name == "pi" {
+            return Ok(Quantity { expr: graph.constant(&Number::pi(1, 1)), dimension: Some(Dimension::NUMBER) });
+        }
+        if let Some(unit) = unit(name) {
+            let size = self.model.units.size_of(&unit);
+            return Ok(Quantity { expr: graph.constant(&size), dimension: Some(unit.dimension) });
+        }
+        match self.names.role(name) {
+            Some((Role::Param, index)) => {
+                let param = &self.model.params[index];
+                let expr = graph.symbol(Symbol::Parameter(ParamId::new(index)));
+                Ok(Quantity { expr, dimension: Some(param.kind.dimension()) })
+            }
+            Some((Role::Broken, _)) => Ok(Quantity { expr: graph.zero(), dimension: None }),
+            _ => {
+                let mut known: Vec<&str> = self.names.of(Role::Param).collect();
+                unit_names().for_each(|unit| known.push(unit));
+                known.extend(FUNCTIONS);
+                let problem = format!("there is no parameter or unit `{name}`");
+                let found = Diagnostic::new(place, problem);
+                Err(match closest(name, known) {
+                    Some(near) => found.help(format!("did you mean `{near}`?")),
+                    None => found
+                        .help(format!("a dimension that is known at run time is declared as `param {name}: length;`")),
+                })
+            }
+        }
+    }
+
+    fn joined(&self, a: &Value, b: &Value, join: fn(Expr<'m>, Expr<'m>) -> Expr<'m>) -> Evaluated<Quantity<'m>> {
+        let (left, right) = (self.quantity(a)?, self.quantity(b)?);
+        if let (Some(wanted), Some(found)) = (left.dimension, right.dimension) {
+            if wanted != found {
+                return Err(Diagnostic::new(b.place, format!("this is {found}, and it is joined to {wanted}")));
+            }
+        }
+        Ok(Quantity { expr: join(left.expr, right.expr), dimension: left.dimension.or(right.dimension) })
+    }
+
+    fn call(&self, function: &Name, args: &[Value], place: Place) -> Evaluated<Quantity<'m>> {
+        let graph = &self.model.graph;
+        let name = function.text.as_str();
+        let count = match name {
+            "atan2" => 2,
+            _ if FUNCTIONS.contains(&name) => 1,
+            _ => {
+                let problem = format!("there is no function `{name}`");
+                return Err(Diagnostic::new(function.place(), problem).suggest(name, FUNCTIONS));
+            }
+        };
+        if args.len() != count {
+            let problem = format!("`{name}` takes {count} argument{}", if count == 1 { "" } else { "s" });
+            return Err(Diagnostic::new(place, problem));
+        }
+        let number = |expr| Quantity { expr, dimension: Some(Dimension::NUMBER) };
+        let angle = |expr| Quantity { expr, dimension: Some(Dimension::ANGLE) };
+        match name {
+            "sqrt" => {
+                let arg = self.quantity(&args[0])?;
+                if arg.expr.sign() == Some(-1) {
+                    return Err(Diagnostic::new(args[0].place, "the root of a negative number"));
+                }
+                let Some(dimension) = arg.dimension.map(Dimension::root) else { return Ok(arg) };
+                let Some(dimension) = dimension else {
+                    return Err(Diagnostic::new(
+                        args[0].place,
+                        format!("{} has no square root", arg.dimension.unwrap_or_default()),
+                    ));
+                };
+                Ok(Quantity { expr: arg.expr.sqrt(), dimension: Some(dimension) })
+            }
+            "sin" => Ok(number(self.scalar(&args[0], Kind::Angle)?.direction().y)),
+            "cos" => Ok(number(self.scalar(&args[0], Kind::Angle)?.direction().x)),
+            "tan" => {
+                let direction = self.scalar(&args[0], Kind::Angle)?.direction();
+                if direction.x.is_zero() {
+                    return Err(Diagnostic::new(place, "the tangent of a right angle is infinite"));
+                }
+                Ok(number(direction.y / direction.x))
+            }
+            "atan2" => {
+                let (y, x) = (self.quantity(&args[0])?, self.quantity(&args[1])?);
+                if let (Some(a), Some(b)) = (y.dimension, x.dimension) {
+                    if a != b {
+                        return Err(Diagnostic::new(place, format!("`atan2` compares {a} with {b}")));
+                    }
+                }
+                Ok(angle(graph.atan2(y.expr, x.expr)))
+            }
+            _ => {
+                let x = self.scalar(&args[0], Kind::Number)?;
+                let rest = graph.one() - x * x;
+                if name != "atan" && rest.sign() == Some(-1) {
+                    return Err(Diagnostic::new(args[0].place, format!("`{name}` takes a number from −1 to 1")));
+                }
+                Ok(angle(match name {
+                    "asin" => graph.atan2(x, rest.sqrt()),
+                    "acos" => graph.atan2(rest.sqrt(), x),
+                    _ => graph.atan2(x, graph.one()),
+                }))
+            }
+        }
+    }
+}

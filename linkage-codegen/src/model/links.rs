@@ -1,0 +1,280 @@
+//! Parameters, links, points and masses.
+
+use super::evaluate::Scope;
+use super::ids::{GROUND, LinkId, PointId};
+use super::names::{Names, Role};
+use super::units::{Kind, PARAMETER_KINDS};
+use super::{Link, Mass, Model, Param, Point};
+use crate::diagnostics::{Diagnostic, Place, Sink};
+use crate::graph::{Expr, Failure, NodeId, Vector};
+use crate::syntax::ast::{self, Ast, Distances, Item, Name, PointPlace, PointRef};
+
+/// Parameters. Their defaults are constants.
+pub(super) fn params(model: &mut Model, ast: &Ast, sink: &Sink) {
+    for item in &ast.items {
+        let Item::Param(param) = item else { continue };
+        let kind = PARAMETER_KINDS.iter().find(|(name, _)| *name == param.dimension.text);
+        if kind.is_none() {
+            let names = PARAMETER_KINDS.iter().map(|(name, _)| *name);
+            let problem = format!("there is no dimension `{}`", param.dimension);
+            sink.report(Diagnostic::new(param.dimension.place(), problem).suggest(&param.dimension.text, names));
+        }
+        let kind = kind.map_or(Kind::Number, |(_, kind)| *kind);
+        model.params.push(Param { name: param.name.clone(), kind, default: None });
+    }
+    let names = Names::collect(&Ast { items: Vec::new(), ..ast.clone() }, &Sink::default());
+    let mut defaults = Vec::new();
+    for item in &ast.items {
+        let Item::Param(param) = item else { continue };
+        let kind = model.params[defaults.len()].kind;
+        let scope = Scope { model, names: &names };
+        let default = param.default.as_ref().and_then(|value| sink.absorb(scope.scalar(value, kind)));
+        defaults.push(default.map(Expr::id));
+    }
+    for (param, default) in model.params.iter_mut().zip(defaults) {
+        param.default = default;
+    }
+}
+
+/// The ground and the links, with their points.
+pub(super) fn links(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
+    let bodies: Vec<&ast::Link> =
+        ast.items.iter().filter_map(|i| if let Item::Link(l) = i { Some(l) } else { None }).collect();
+    let grounds: Vec<&&ast::Link> = bodies.iter().filter(|l| l.name.is_none()).collect();
+    if let [_, second, ..] = grounds.as_slice() {
+        sink.report(
+            Diagnostic::new(Place::at(second.keyword), "there is one ground")
+                .help("put all its points into one `ground { … }`"),
+        );
+    }
+    let ground_broken = ast.items.iter().any(|i| matches!(i, Item::Broken(None)));
+    if grounds.is_empty() && !ground_broken {
+        sink.report(
+            Diagnostic::new(ast.name.place(), "the linkage has no ground")
+                .help("say where its fixed points are: `ground { A0: (0, 0), B0: (140mm, 0) }`"),
+        );
+    }
+    let ground_name = Name { text: "ground".into(), span: grounds.first().map_or(ast.name.span, |g| g.keyword) };
+    model.links.push(Link { name: ground_name, points: Vec::new(), distances: Vec::new(), mass: None });
+    if let Some(ground) = grounds.first() {
+        points(model, GROUND, ground, names, sink);
+    }
+    for body in bodies.iter().filter(|l| l.name.is_some()) {
+        let id = LinkId::new(model.links.len());
+        let name = body.name.clone().unwrap_or_else(|| ast.name.clone());
+        model.links.push(Link { name, points: Vec::new(), distances: Vec::new(), mass: None });
+        points(model, id, body, names, sink);
+    }
+}
+
+fn points(model: &mut Model, link: LinkId, body: &ast::Link, names: &Names, sink: &Sink) {
+    let mut frame_given = false;
+    for place in &body.places {
+        match place {
+            PointPlace::Frame(from, to, length) => {
+                if frame_given || !model.link(link).points.is_empty() {
+                    let problem = if frame_given { "a link has one frame" } else { "the frame comes first in a link" };
+                    sink.report(
+                        Diagnostic::new(from.place().to(to.place()), problem)
+                            .help(format!("give `{to}` by its coordinates in the frame: `{to}: (x, y)`")),
+                    );
+                }
+                frame_given = true;
+                let length = sink.absorb(frame_length(model, names, link, (from, to), length));
+                let zero = model.graph.zero().id();
+                let length = length.unwrap_or(zero);
+                let start = add_point(model, link, from, (zero, zero), sink);
+                let end = add_point(model, link, to, (length, zero), sink);
+                model.links[link.index()].distances.push((start, end, length));
+            }
+            PointPlace::Origin(name) => {
+                let zero = model.graph.zero().id();
+                add_point(model, link, name, (zero, zero), sink);
+            }
+            PointPlace::At(name, vector) => {
+                let scope = Scope { model, names };
+                let at = sink.absorb(scope.vector(vector, Kind::Length)).unwrap_or_else(|| model.graph.zero_vector());
+                let at = (at.x.id(), at.y.id());
+                let id = add_point(model, link, name, at, sink);
+                polar_distance(model, link, id, vector, names);
+            }
+            PointPlace::Distances(name, distances) => {
+                let found = sink.absorb(by_distances(model, names, link, name, distances));
+                let zero = model.graph.zero().id();
+                let (at, legs) = found.unwrap_or(((zero, zero), Vec::new()));
+                let id = add_point(model, link, name, at, sink);
+                model.links[link.index()].distances.extend(legs.into_iter().map(|(to, length)| (to, id, length)));
+            }
+        }
+    }
+}
+
+type Ids = (NodeId, NodeId);
+
+fn add_point(model: &mut Model, link: LinkId, name: &Name, at: Ids, sink: &Sink) -> PointId {
+    let body = &mut model.links[link.index()];
+    if body.points.iter().any(|p| p.name.text == name.text) {
+        sink.report(Diagnostic::new(name.place(), format!("the link `{}` has a point `{name}` already", body.name)));
+    }
+    if matches!(name.text.as_str(), "angle" | "direction") {
+        sink.report(Diagnostic::new(
+            name.place(),
+            format!("a point cannot be called `{name}`: that is a property of the link"),
+        ));
+    }
+    body.points.push(Point { name: name.clone(), at: super::Pair { x: at.0, y: at.1 } });
+    PointId::new(body.points.len() - 1)
+}
+
+fn frame_length(
+    model: &Model,
+    names: &Names,
+    link: LinkId,
+    (from, to): (&Name, &Name),
+    length: &ast::Value,
+) -> Result<NodeId, Diagnostic> {
+    let value = Scope { model, names }.scalar(length, Kind::Length)?;
+    let body = &model.link(link).name;
+    match value.sign() {
+        Some(1) => Ok(value.id()),
+        Some(_) => Err(Diagnostic::new(length.place, format!("the length of `{body}` from `{from}` to `{to}` must be positive"))
+            .note("the frame's x axis points from the first point to the second: with no length between them it has no direction")),
+        None => {
+            let requirement = format!("{body}: the length {from} -> {to} must be positive");
+            let positive = value.require_above(value, model.graph.zero(), Failure::Parameter { requirement });
+            Ok(positive.known_positive().id())
+        }
+    }
+}
+
+/// A point `size @ angle` is at the distance `size` from a point at the origin.
+fn polar_distance(model: &mut Model, link: LinkId, id: PointId, vector: &ast::VectorValue, names: &Names) {
+    let ast::VectorKind::Polar(size, _) = &vector.kind else { return };
+    let Ok(size) = (Scope { model, names }).scalar(size, Kind::Length) else { return };
+    if size.sign() != Some(1) {
+        return;
+    }
+    let size = size.id();
+    let at_origin = |p: &Point| p.at.vector(&model.graph).is_zero();
+    let origin = model.link(link).points.iter().position(at_origin).map(PointId::new);
+    if let Some(origin) = origin.filter(|o| *o != id) {
+        model.links[link.index()].distances.push((origin, id, size));
+    }
+}
+
+type Triangle = (Ids, Vec<(PointId, NodeId)>);
+
+/// The third corner of a triangle: with `e` the direction of the base of length `d`, it lies at
+/// `x e ± y e⊥`, `x = (r₁² − r₂² + d²)/2d`, `y = √(r₁² − x²)`.
+fn by_distances(
+    model: &Model,
+    names: &Names,
+    link: LinkId,
+    name: &Name,
+    given: &Distances,
+) -> Result<Triangle, Diagnostic> {
+    let scope = Scope { model, names };
+    let r1 = scope.scalar(&given.from_distance, Kind::Length)?;
+    let r2 = scope.scalar(&given.to_distance, Kind::Length)?;
+    let (Some(from), Some(to)) = (scope.point(link, &given.from)?, scope.point(link, &given.to)?) else {
+        let zero = model.graph.zero().id();
+        return Ok(((zero, zero), Vec::new()));
+    };
+    let point = |p: PointId| model.link(link).points[p.index()].at.vector(&model.graph);
+    let base = point(to) - point(from);
+    let d = model.distance(link, from, to);
+    if d.is_zero() {
+        let problem = format!("`{}` and `{}` are at the same place", given.from, given.to);
+        return Err(Diagnostic::new(given.place, problem).help("choose two points that are apart, or give coordinates"));
+    }
+    let along = (r1.squared() - r2.squared() + d.squared()) / (2 * d);
+    let height_squared = r1.squared() - along.squared();
+    let body = &model.link(link).name;
+    if height_squared.sign() == Some(-1) || r1.sign() == Some(-1) || r2.sign() == Some(-1) {
+        let problem = format!("no point is at these distances from `{}` and `{}`", given.from, given.to);
+        return Err(Diagnostic::new(given.place, problem).note(format!(
+            "the three sides of the triangle are {}, {} and {}: none may be longer than the other two together",
+            number(d),
+            number(r1),
+            number(r2)
+        )));
+    }
+    let requirement =
+        format!("{body}: the distances of {name} must close the triangle {} {} {name}", given.from, given.to);
+    let height_squared =
+        height_squared.require_at_least(height_squared, model.graph.zero(), Failure::Parameter { requirement });
+    let height = height_squared.sqrt();
+    let across = if given.left { height } else { -height };
+    let direction = Vector::new(base.x / d, base.y / d);
+    let at = point(from) + Vector::new(along, across).turned_by(direction);
+    let leg = |length: Expr<'_>| (length.sign() != Some(0)).then_some(length.known_positive().id());
+    let legs = [(from, leg(r1)), (to, leg(r2))].into_iter().filter_map(|(p, l)| l.map(|l| (p, l))).collect();
+    Ok(((at.x.id(), at.y.id()), legs))
+}
+
+fn number(value: Expr<'_>) -> String {
+    value.value().map_or_else(|| "a parameter".to_owned(), |v| v.to_f64().to_string())
+}
+
+/// Masses; several on a link are taken together at their common centre, by Steiner's rule.
+pub(super) fn masses(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
+    for item in &ast.items {
+        let Item::Mass(given) = item else { continue };
+        let Some(Some(link)) = sink.absorb(names.find(Role::Link, &given.link)) else { continue };
+        let link = LinkId::new(link);
+        if link == GROUND {
+            sink.report(Diagnostic::new(given.link.place(), "the ground does not move: its mass plays no part"));
+            continue;
+        }
+        let found = mass(Scope { model, names }, link, given);
+        let Some(Some(added)) = sink.absorb(found) else { continue };
+        let total = match model.link(link).mass {
+            None => added,
+            Some(first) => together(model, first, added),
+        };
+        model.links[link.index()].mass = Some(total);
+    }
+}
+
+fn mass(scope: Scope<'_>, link: LinkId, given: &ast::Mass) -> Result<Option<Mass>, Diagnostic> {
+    let graph = &scope.model.graph;
+    let Some(body) = scope.model.links.get(link.index()) else { return Ok(None) };
+    let mass = scope.scalar(&given.mass, Kind::Mass)?;
+    let mass = match mass.sign() {
+        Some(1) => mass,
+        Some(_) => return Err(Diagnostic::new(given.mass.place, "a mass must be positive")),
+        None => {
+            let requirement = format!("{}: the mass must be positive", body.name);
+            mass.require_above(mass, graph.zero(), Failure::Parameter { requirement }).known_positive()
+        }
+    };
+    let centroid = match &given.at {
+        PointRef::At(vector) => scope.vector(vector, Kind::Length)?,
+        PointRef::Named(name) => match scope.point(link, name)? {
+            Some(point) => body.points[point.index()].at.vector(graph),
+            None => return Ok(None),
+        },
+    };
+    let inertia = match &given.inertia {
+        None => graph.zero(),
+        Some(value) => {
+            let inertia = scope.scalar(value, Kind::Inertia)?;
+            if inertia.sign() == Some(-1) {
+                return Err(Diagnostic::new(value.place, "a moment of inertia cannot be negative"));
+            }
+            inertia
+        }
+    };
+    Ok(Some(Mass { mass: mass.id(), centroid: centroid.into(), inertia: inertia.id() }))
+}
+
+fn together(model: &Model, a: Mass, b: Mass) -> Mass {
+    let graph = &model.graph;
+    let (ma, mb) = (graph.expr(a.mass), graph.expr(b.mass));
+    let (ra, rb) = (a.centroid.vector(graph), b.centroid.vector(graph));
+    let mass = ma + mb;
+    let share = mb / mass;
+    let centroid = ra + (rb - ra).scaled(share);
+    let inertia = graph.expr(a.inertia) + graph.expr(b.inertia) + ma * share * (rb - ra).squared();
+    Mass { mass: mass.id(), centroid: centroid.into(), inertia: inertia.id() }
+}

@@ -1,0 +1,499 @@
+//! [`Ast`] in, [`Model`] out. Afterwards every name is resolved, every value has its dimension and stands in the units of the
+//! generated functions, and every item is sound by itself; what only the whole linkage can tell comes later.
+
+mod evaluate;
+pub mod ids;
+mod joints;
+mod links;
+mod loads;
+mod motion;
+mod names;
+mod options;
+mod scenes;
+pub use scenes::type_name;
+pub mod units;
+
+use proc_macro2::TokenStream;
+
+use crate::diagnostics::{Diagnostic, Place, Sink};
+use crate::graph::{Expr, Graph, NodeId, Scalar, Vector};
+use crate::syntax::ast::{Ast, Name};
+use ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
+use units::{Kind, Units};
+
+/// A pair of nodes: a point or a direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair {
+    /// Abscissa.
+    pub x: NodeId,
+    /// Ordinate.
+    pub y: NodeId,
+}
+
+impl Pair {
+    /// As a vector of expressions.
+    #[must_use]
+    pub fn vector(self, graph: &Graph) -> Vector<'_> {
+        Vector::new(graph.expr(self.x), graph.expr(self.y))
+    }
+}
+
+impl From<Vector<'_>> for Pair {
+    fn from(vector: Vector<'_>) -> Self {
+        Self { x: vector.x.id(), y: vector.y.id() }
+    }
+}
+
+/// A linkage whose names and values are known.
+#[derive(Debug)]
+pub struct Model {
+    /// Name of the module.
+    pub name: Name,
+    /// Its attributes.
+    pub attributes: TokenStream,
+    /// Its visibility.
+    pub visibility: TokenStream,
+    /// The units of the generated functions.
+    pub units: Units,
+    /// Path of the run-time crate.
+    pub runtime: Option<TokenStream>,
+    /// Whether the module is to hold its own source.
+    pub emit_source: bool,
+    /// All expressions.
+    pub graph: Graph,
+    /// Run-time dimensions.
+    pub params: Vec<Param>,
+    /// The links, the ground first.
+    pub links: Vec<Link>,
+    /// The joints.
+    pub joints: Vec<Joint>,
+    /// The drives.
+    pub drives: Vec<Drive>,
+    /// What balances.
+    pub unknowns: Vec<Unknown>,
+    /// Chosen closures.
+    pub closures: Vec<Closure>,
+    /// The loads.
+    pub loads: Vec<Load>,
+    /// What is wanted.
+    pub scenes: Vec<Scene>,
+}
+
+/// A run-time dimension.
+#[derive(Debug)]
+pub struct Param {
+    /// Its name.
+    pub name: Name,
+    /// What it is.
+    pub kind: Kind,
+    /// Its default, a constant in the units of the generated functions.
+    pub default: Option<NodeId>,
+}
+
+/// A rigid body.
+#[derive(Debug)]
+pub struct Link {
+    /// Its name; `ground` for the fixed link.
+    pub name: Name,
+    /// Its points.
+    pub points: Vec<Point>,
+    /// Distances between points that were given as such.
+    pub distances: Vec<(PointId, PointId, NodeId)>,
+    /// Its masses taken together.
+    pub mass: Option<Mass>,
+}
+
+/// A point of a link.
+#[derive(Debug)]
+pub struct Point {
+    /// Its name.
+    pub name: Name,
+    /// Its coordinates in the link's frame.
+    pub at: Pair,
+}
+
+/// The mass of a link.
+#[derive(Clone, Copy, Debug)]
+pub struct Mass {
+    /// How much.
+    pub mass: NodeId,
+    /// Its centre in the link's frame.
+    pub centroid: Pair,
+    /// Its moment of inertia about that centre.
+    pub inertia: NodeId,
+}
+
+/// A point on a link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct End {
+    /// The link.
+    pub link: LinkId,
+    /// Its point.
+    pub point: PointId,
+}
+
+/// A joint.
+#[derive(Debug)]
+pub struct Joint {
+    /// Its name.
+    pub name: Name,
+    /// The link that acts.
+    pub from: End,
+    /// The link that feels: the reaction is what it feels.
+    pub to: End,
+    /// What it constrains.
+    pub kind: JointKind,
+}
+
+impl Joint {
+    /// The two ends.
+    #[must_use]
+    pub fn ends(&self) -> [End; 2] {
+        [self.from, self.to]
+    }
+
+    /// The end on a link.
+    #[must_use]
+    pub fn end_on(&self, link: LinkId) -> Option<End> {
+        self.ends().into_iter().find(|end| end.link == link)
+    }
+
+    /// The end that is not on a link.
+    #[must_use]
+    pub fn end_off(&self, link: LinkId) -> Option<End> {
+        if self.from.link == link { Some(self.to) } else { (self.to.link == link).then_some(self.from) }
+    }
+}
+
+/// What a joint constrains.
+#[derive(Clone, Copy, Debug)]
+pub enum JointKind {
+    /// The two points coincide.
+    Revolute,
+    /// The second point lies on the line through the first along the axis; the angle between the links is fixed.
+    Prismatic {
+        /// The link in whose frame the axis is given: one of the two.
+        carrier: LinkId,
+        /// The axis, a direction in the carrier's frame.
+        axis: Pair,
+        /// Angle of the second link minus angle of the first, a direction.
+        turn: Pair,
+        /// The same as an angle.
+        angle: NodeId,
+    },
+}
+
+/// A known motion.
+#[derive(Debug)]
+pub struct Drive {
+    /// Its name.
+    pub name: Name,
+    /// The joint whose coordinate it is.
+    pub joint: JointId,
+}
+
+/// What balances the loads.
+#[derive(Debug)]
+pub struct Unknown {
+    /// Its name.
+    pub name: String,
+    /// Where it was declared.
+    pub place: Place,
+    /// What it is.
+    pub kind: UnknownKind,
+}
+
+/// What an unknown is.
+#[derive(Clone, Copy, Debug)]
+pub enum UnknownKind {
+    /// The effort at the joint of a drive.
+    Drive(DriveId),
+    /// A torque on the second link by the first.
+    Torque(LinkId, LinkId),
+    /// A force on a point along a direction that is fixed in a link's frame.
+    Force {
+        /// Where it acts.
+        at: End,
+        /// Along which direction.
+        along: Pair,
+        /// In whose frame that is given.
+        frame: LinkId,
+    },
+}
+
+/// A chosen closure of a group.
+#[derive(Debug)]
+pub struct Closure {
+    /// The group's inner joint.
+    pub joint: JointId,
+    /// On which side it lies.
+    pub side: Side,
+    /// Of the outer joint, or of the line between the two.
+    pub of: Vec<JointId>,
+    /// For a motion through folds: the driver's angle at which the side is meant.
+    pub smooth_at: Option<NodeId>,
+    /// Where it was declared.
+    pub place: Place,
+}
+
+/// A side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Left of the line.
+    Left,
+    /// Right of the line.
+    Right,
+    /// Further along the slide.
+    Ahead,
+    /// Less far along the slide.
+    Behind,
+}
+
+impl Side {
+    /// Its word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Ahead => "ahead",
+            Self::Behind => "behind",
+        }
+    }
+
+    /// The other side.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+            Self::Ahead => Self::Behind,
+            Self::Behind => Self::Ahead,
+        }
+    }
+}
+
+/// A load.
+#[derive(Debug)]
+pub struct Load {
+    /// Its name.
+    pub name: Name,
+    /// What it is.
+    pub kind: LoadKind,
+}
+
+/// What a load is; values that are given at run time are symbols.
+#[derive(Clone, Copy, Debug)]
+pub enum LoadKind {
+    /// A force on a point.
+    Force {
+        /// Where it acts.
+        at: End,
+        /// Its components.
+        force: Pair,
+        /// In whose frame these are given.
+        frame: LinkId,
+    },
+    /// A moment.
+    Moment {
+        /// On this link.
+        on: LinkId,
+        /// Reacted by this one.
+        from: Option<LinkId>,
+        /// How much.
+        moment: NodeId,
+    },
+    /// The weight of every link that has mass.
+    Gravity {
+        /// The acceleration, ground axes.
+        acceleration: Pair,
+    },
+}
+
+/// What is wanted.
+#[derive(Debug)]
+pub struct Scene {
+    /// Its name.
+    pub name: Name,
+    /// How it is solved.
+    pub method: Method,
+    /// With which loads.
+    pub loads: Vec<LoadId>,
+    /// For which results.
+    pub results: Vec<Wanted>,
+}
+
+/// How a scene is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Where everything is.
+    Position,
+    /// All loads at once.
+    Equilibrium,
+    /// Every load by itself.
+    Superposition,
+    /// By velocities of the loads' points.
+    VirtualWork,
+    /// All of these against the general solution.
+    Verify,
+}
+
+/// A wanted result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// An unknown.
+    Unknown(UnknownId),
+    /// The reaction of a joint; in a position scene, its place.
+    Joint(JointId),
+    /// A load's term of virtual work.
+    Load(LoadId),
+    /// The place of a point.
+    Point(End),
+    /// The angle of a link.
+    Angle(LinkId),
+}
+
+impl Model {
+    /// A link.
+    #[must_use]
+    pub fn link(&self, id: LinkId) -> &Link {
+        &self.links[id.index()]
+    }
+
+    /// A joint.
+    #[must_use]
+    pub fn joint(&self, id: JointId) -> &Joint {
+        &self.joints[id.index()]
+    }
+
+    /// A load.
+    #[must_use]
+    pub fn load(&self, id: LoadId) -> &Load {
+        &self.loads[id.index()]
+    }
+
+    /// A drive.
+    #[must_use]
+    pub fn drive(&self, id: DriveId) -> &Drive {
+        &self.drives[id.index()]
+    }
+
+    /// A parameter.
+    #[must_use]
+    pub fn param(&self, id: ParamId) -> &Param {
+        &self.params[id.index()]
+    }
+
+    /// An unknown.
+    #[must_use]
+    pub fn unknown(&self, id: UnknownId) -> &Unknown {
+        &self.unknowns[id.index()]
+    }
+
+    /// Coordinates of a point in its link's frame.
+    #[must_use]
+    pub fn local(&self, end: End) -> Vector<'_> {
+        self.link(end.link).points[end.point.index()].at.vector(&self.graph)
+    }
+
+    /// Name of a point, as `crank.A`.
+    #[must_use]
+    pub fn end_name(&self, end: End) -> String {
+        format!("{}.{}", self.link(end.link).name, self.point_name(end))
+    }
+
+    /// Name of a point alone.
+    #[must_use]
+    pub fn point_name(&self, end: End) -> &str {
+        &self.link(end.link).points[end.point.index()].name.text
+    }
+
+    /// Distance of two points of a link: as declared, if it was declared as such.
+    #[must_use]
+    pub fn distance(&self, link: LinkId, a: PointId, b: PointId) -> Expr<'_> {
+        let declared = self.link(link).distances.iter().find(|(p, q, _)| (*p, *q) == (a, b) || (*p, *q) == (b, a));
+        match declared {
+            Some((.., distance)) => self.graph.expr(*distance),
+            None => (self.local(End { link, point: b }) - self.local(End { link, point: a })).size(),
+        }
+    }
+
+    /// All links but the ground.
+    pub fn moving_links(&self) -> impl Iterator<Item = LinkId> + use<> {
+        (1..self.links.len()).map(LinkId::new)
+    }
+
+    /// All joints.
+    pub fn joint_ids(&self) -> impl Iterator<Item = JointId> + use<> {
+        (0..self.joints.len()).map(JointId::new)
+    }
+
+    /// The drive of a joint.
+    #[must_use]
+    pub fn drive_of(&self, joint: JointId) -> Option<DriveId> {
+        self.drives.iter().position(|d| d.joint == joint).map(DriveId::new)
+    }
+
+    /// Names of links in a row: `coupler + rocker`.
+    #[must_use]
+    pub fn link_names(&self, links: &[LinkId]) -> String {
+        links.iter().map(|l| self.link(*l).name.text.as_str()).collect::<Vec<_>>().join(" + ")
+    }
+}
+
+/// Resolves a declaration. What is wrong is reported; the model is whole only if nothing was.
+pub fn resolve(ast: &Ast, sink: &Sink) -> Model {
+    let names = names::Names::collect(ast, sink);
+    let options = options::options(ast, sink);
+    let mut model = Model {
+        name: ast.name.clone(),
+        attributes: ast.attributes.clone(),
+        visibility: ast.visibility.clone(),
+        units: options.units,
+        runtime: options.runtime,
+        emit_source: options.emit_source,
+        graph: Graph::new(options.scalar),
+        params: Vec::new(),
+        links: Vec::new(),
+        joints: Vec::new(),
+        drives: Vec::new(),
+        unknowns: Vec::new(),
+        closures: Vec::new(),
+        loads: Vec::new(),
+        scenes: Vec::new(),
+    };
+    links::params(&mut model, ast, sink);
+    links::links(&mut model, ast, &names, sink);
+    links::masses(&mut model, ast, &names, sink);
+    joints::joints(&mut model, ast, &names, sink);
+    motion::drives(&mut model, ast, &names, sink);
+    motion::unknowns(&mut model, ast, &names, sink);
+    motion::closures(&mut model, ast, &names, sink);
+    loads::loads(&mut model, ast, &names, sink);
+    scenes::scenes(&mut model, ast, &names, sink);
+    if sink.is_clean() {
+        check_connected(&model, sink);
+    }
+    model
+}
+
+/// Every link hangs on a joint, and there is something to move.
+fn check_connected(model: &Model, sink: &Sink) {
+    for id in model.moving_links() {
+        if model.joints.iter().all(|j| j.end_on(id).is_none()) {
+            let name = &model.link(id).name;
+            sink.report(
+                Diagnostic::new(name.place(), format!("no joint connects the link `{name}`"))
+                    .help(format!("join it: `revolute A: ground -> {name};`")),
+            );
+        }
+    }
+    if model.links.len() <= GROUND.index() + 1 {
+        sink.report(Diagnostic::new(model.name.place(), "a linkage needs a link besides the ground"));
+    }
+}
+
+/// A scalar type's name in `scalar …;`.
+fn scalar_of(name: &str) -> Option<Scalar> {
+    [Scalar::F64, Scalar::F32].into_iter().find(|s| s.name() == name)
+}

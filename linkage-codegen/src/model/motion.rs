@@ -1,0 +1,182 @@
+//! Drives, unknowns and closures.
+
+use super::evaluate::Scope;
+use super::ids::{DriveId, GROUND, JointId, LinkId};
+use super::joints::end;
+use super::names::{Names, Role};
+use super::units::Kind;
+use super::{Closure, Drive, JointKind, Model, Side, Unknown, UnknownKind};
+use crate::diagnostics::{Diagnostic, Place, Sink};
+use crate::syntax::ast::{self, Ast, Effort, Item, Name};
+
+/// Drives: each at a joint of its own.
+pub(super) fn drives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
+    for item in &ast.items {
+        let Item::Drive(given) = item else { continue };
+        let joint = sink.absorb(names.find(Role::Joint, &given.joint)).flatten().map(JointId::new);
+        if let Some(joint) = joint {
+            check_drive(model, given, joint, sink);
+        }
+        if let Some(place) = given.motion {
+            sink.report(
+                Diagnostic::new(place, "a motion that is known at compile time is not supported yet")
+                    .help("leave it out: statics needs no rates"),
+            );
+        }
+        model.drives.push(Drive { name: given.name.clone(), joint: joint.unwrap_or(JointId::new(0)) });
+    }
+}
+
+fn check_drive(model: &Model, given: &ast::Drive, joint: JointId, sink: &Sink) {
+    let target = model.joint(joint);
+    if let Some(first) = model.drives.iter().find(|d| d.joint == joint) {
+        let problem = format!("the joint `{}` is driven by `{}` already", target.name, first.name);
+        sink.report(
+            Diagnostic::new(given.joint.place(), problem)
+                .note("both drives would say the same coordinate: one is too many, and another freedom stays loose"),
+        );
+    }
+    let Some(coordinate) = &given.coordinate else { return };
+    let (kind, has) = match target.kind {
+        JointKind::Revolute => ("revolute", "angle"),
+        JointKind::Prismatic { .. } => ("prismatic", "travel"),
+    };
+    if coordinate.text != has {
+        let problem = format!("the coordinate of the {kind} joint `{}` is its {has}, not `{coordinate}`", target.name);
+        sink.report(Diagnostic::new(coordinate.place(), problem).help(format!("write `{}`", given.joint)));
+    }
+}
+
+/// Unknowns: as declared, or the efforts at the driven joints.
+pub(super) fn unknowns(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
+    let given: Vec<&ast::Unknown> =
+        ast.items.iter().filter_map(|i| if let Item::Unknown(u) = i { Some(u) } else { None }).collect();
+    let broken = ast.items.iter().any(|i| matches!(i, Item::Broken(_)));
+    if given.is_empty() {
+        for (index, drive) in model.drives.iter().enumerate() {
+            let kind = UnknownKind::Drive(DriveId::new(index));
+            let name = format!("effort_{}", drive.name);
+            if names.role(&name).is_some() && !broken {
+                let problem =
+                    format!("the effort at the drive `{}` is called `{name}`, and that name is taken", drive.name);
+                sink.report(Diagnostic::new(drive.name.place(), problem).help(format!(
+                    "name the effort yourself, as in `unknown {}_effort: torque(ground -> crank);`, or rename the other item",
+                    drive.name
+                )));
+            }
+            model.unknowns.push(Unknown { name, place: drive.name.place(), kind });
+        }
+        return;
+    }
+    for unknown in &given {
+        let kind = sink.absorb(effort(Scope { model, names }, unknown));
+        let kind = kind.unwrap_or(UnknownKind::Torque(GROUND, GROUND));
+        model.unknowns.push(Unknown { name: unknown.name.text.clone(), place: unknown.name.place(), kind });
+    }
+    let (found, wanted) = (given.len(), model.drives.len());
+    if found != wanted && !broken {
+        let last = given.last().map_or(ast.name.place(), |u| u.name.place());
+        let problem = format!("{} for {}: there must be as many", count(found, "unknown"), count(wanted, "drive"));
+        sink.report(Diagnostic::new(last, problem).note(
+            "every drive fixes one freedom, and one effort, wherever it acts, must hold the linkage against its loads in that freedom",
+        ));
+    }
+}
+
+fn count(n: usize, noun: &str) -> String {
+    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
+}
+
+fn effort(scope: Scope<'_>, unknown: &ast::Unknown) -> Result<UnknownKind, Diagnostic> {
+    let nothing = UnknownKind::Torque(GROUND, GROUND);
+    match &unknown.effort {
+        Effort::Torque(from, to) => {
+            let (Some(a), Some(b)) = (scope.names.find(Role::Link, from)?, scope.names.find(Role::Link, to)?) else {
+                return Ok(nothing);
+            };
+            if a == b {
+                let problem = format!("a torque on `{to}` by itself");
+                return Err(Diagnostic::new(from.place().to(to.place()), problem)
+                    .help(format!("say which other link it comes from: `torque(ground -> {to})`")));
+            }
+            Ok(UnknownKind::Torque(LinkId::new(a), LinkId::new(b)))
+        }
+        Effort::Force(at, direction) => {
+            let Some(at_end) = end(scope, at, None)? else { return Ok(nothing) };
+            if at_end.link == GROUND {
+                return Err(Diagnostic::new(at.place(), "a force on the ground balances nothing")
+                    .help("the unknown acts on a moving link"));
+            }
+            let frame = match &direction.of {
+                None => GROUND,
+                Some(name) => match scope.names.find(Role::Link, name)? {
+                    Some(link) => LinkId::new(link),
+                    None => return Ok(nothing),
+                },
+            };
+            let along = scope.direction(direction, frame)?;
+            Ok(UnknownKind::Force { at: at_end, along: along.into(), frame })
+        }
+        Effort::Thrust(place) => {
+            Err(Diagnostic::new(*place, "an unknown thrust between two points is not supported yet")
+                .help("a force along a line at one point, or a torque between two links, is"))
+        }
+    }
+}
+
+/// Closures: the words are checked here, and that the joints make a group when the groups are known.
+pub(super) fn closures(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
+    for item in &ast.items {
+        let Item::Assemble(given) = item else { continue };
+        let found = closure(Scope { model, names }, given);
+        let Some(Some(closure)) = sink.absorb(found) else { continue };
+        if model.closures.iter().any(|c| c.joint == closure.joint) {
+            let problem = format!("the closure at `{}` is chosen already", given.joint);
+            sink.report(Diagnostic::new(closure.place, problem));
+        }
+        model.closures.push(closure);
+    }
+}
+
+fn closure(scope: Scope<'_>, given: &ast::Assemble) -> Result<Option<Closure>, Diagnostic> {
+    let joint = |name: &Name| scope.names.find(Role::Joint, name).map(|found| found.map(JointId::new));
+    let (side, wanted) = match given.side.text.as_str() {
+        "left" => (Side::Left, 2),
+        "right" => (Side::Right, 2),
+        "ahead" => (Side::Ahead, 1),
+        "behind" => (Side::Behind, 1),
+        "either" => {
+            return Err(Diagnostic::new(
+                given.side.place(),
+                "a closure that is chosen at run time is not supported yet",
+            )
+            .help("choose it here: `left(A -> B0)`, `right(A -> B0)`, or with a slider `ahead(A)`, `behind(A)`"));
+        }
+        other => {
+            let problem = format!("`{other}` is no side");
+            return Err(
+                Diagnostic::new(given.side.place(), problem).suggest(other, ["left", "right", "ahead", "behind"])
+            );
+        }
+    };
+    if given.joints.len() != wanted {
+        let how =
+            if wanted == 2 { "of a line between two joints: `left(A -> B0)`" } else { "of one joint: `ahead(A)`" };
+        let place = given.joints.iter().fold(given.side.place(), |place, name| place.to(name.place()));
+        return Err(Diagnostic::new(place, format!("`{}` is meant {how}", given.side)));
+    }
+    let Some(inner) = joint(&given.joint)? else { return Ok(None) };
+    let mut of = Vec::new();
+    for name in &given.joints {
+        match joint(name)? {
+            Some(outer) => of.push(outer),
+            None => return Ok(None),
+        }
+    }
+    let smooth_at = match &given.smooth {
+        Some(value) => Some(scope.scalar(value, Kind::Angle)?.id()),
+        None => None,
+    };
+    let place = Place::at(given.keyword).to(given.joint.place());
+    Ok(Some(Closure { joint: inner, side, of, smooth_at, place }))
+}

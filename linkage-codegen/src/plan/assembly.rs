@@ -1,0 +1,87 @@
+//! The motion side of a plan while it is made: what is placed, which angles are known, which closures were used.
+
+use std::collections::BTreeSet;
+
+use super::pivots::Pivots;
+use super::placement::Placement;
+use crate::diagnostics::Diagnostic;
+use crate::graph::{Expr, Graph, Symbol};
+use crate::model::ids::{DriveId, JointId};
+use crate::model::{Closure, Model, Side};
+use crate::topology::{Group, Topology};
+
+/// A pivot of a dyad under its joint's name.
+#[derive(Clone, Debug)]
+pub struct DyadPivot<'m> {
+    /// The dyad's inner joint.
+    pub joint: JointId,
+    /// Sine of the transmission angle, zero where it is no larger than its rounding.
+    pub sine: Expr<'m>,
+}
+
+/// What the groups solved so far have placed.
+#[derive(Debug)]
+pub struct Assembly<'m> {
+    /// Where the links are.
+    pub placement: Placement<'m>,
+    /// Which angles are known.
+    pub pivots: Pivots<'m>,
+    /// The dyads' transmission angles.
+    pub dyads: Vec<DyadPivot<'m>>,
+    /// The groups of motion.
+    pub topology: &'m Topology,
+    used: BTreeSet<JointId>,
+}
+
+impl<'m> Assembly<'m> {
+    /// Before any group is solved.
+    #[must_use]
+    pub fn new(model: &'m Model, topology: &'m Topology) -> Self {
+        Self {
+            placement: Placement::of_ground(model),
+            pivots: Pivots::default(),
+            dyads: Vec::new(),
+            topology,
+            used: BTreeSet::new(),
+        }
+    }
+
+    /// The linkage.
+    #[must_use]
+    pub fn model(&self) -> &'m Model {
+        self.placement.model
+    }
+
+    /// All expressions.
+    #[must_use]
+    pub fn graph(&self) -> &'m Graph {
+        self.placement.graph()
+    }
+
+    /// The coordinate of a drive.
+    #[must_use]
+    pub fn coordinate(&self, drive: DriveId) -> Expr<'m> {
+        self.graph().symbol(Symbol::Drive(drive))
+    }
+
+    /// The declared closure of a group with this inner joint.
+    pub fn closure(&mut self, inner: JointId) -> Option<&'m Closure> {
+        self.used.insert(inner);
+        self.model().closures.iter().find(|c| c.joint == inner)
+    }
+
+    /// Closures that no group asked for.
+    pub fn unused_closures(&self) -> impl Iterator<Item = &'m Closure> {
+        self.model().closures.iter().filter(|c| !self.used.contains(&c.joint))
+    }
+
+    /// A group that closes in two ways, and no word which one is meant.
+    #[must_use]
+    pub fn missing_closure(&self, group: &Group, inner: JointId, sides: [Side; 2], of: &str) -> Diagnostic {
+        let model = self.model();
+        let joint = &model.joint(inner).name;
+        let [one, other] = sides.map(|side| format!("assemble {joint}: {}({of});", side.word()));
+        Diagnostic::new(joint.place(), format!("{} can be assembled in two ways", model.link_names(&group.links)))
+            .help(format!("choose one of\n{one}\n{other}"))
+    }
+}

@@ -1,0 +1,202 @@
+//! Equilibrium of one load case: what acts on every link, and what the groups solved so far exert.
+//!
+//! Groups are solved from the last to the first: the reactions of a group load the groups before it.
+
+use std::collections::BTreeMap;
+
+use super::framed::Framed;
+use super::pivots::Pivots;
+use super::placement::Placement;
+use crate::equations::loads::Action;
+use crate::graph::{Expr, Graph, Vector};
+use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
+use crate::model::{End, Model};
+
+/// What acts on a link: forces at places along and across its direction, and a couple.
+#[derive(Clone, Debug)]
+struct Wrench<'m> {
+    forces: Vec<(Vector<'m>, Framed<'m>)>,
+    couple: Expr<'m>,
+}
+
+/// The reaction of a joint on its second link, at the joint's second point.
+#[derive(Clone, Copy, Debug)]
+pub struct Reaction<'m> {
+    /// The force.
+    pub force: Framed<'m>,
+    /// The couple of a slide.
+    pub couple: Option<Expr<'m>>,
+}
+
+/// The equilibrium of a load case.
+#[derive(Debug)]
+pub struct Balance<'m, 'p> {
+    /// Where the links are.
+    pub placement: &'p Placement<'m>,
+    /// Known angles.
+    pub pivots: &'p Pivots<'m>,
+    /// What distinguishes the names of this case.
+    pub prefix: String,
+    wrenches: Vec<Wrench<'m>>,
+    reactions: BTreeMap<JointId, Reaction<'m>>,
+    efforts: BTreeMap<UnknownId, Expr<'m>>,
+}
+
+impl<'m, 'p> Balance<'m, 'p> {
+    /// Under some loads, before any group is solved.
+    #[must_use]
+    pub fn new(placement: &'p Placement<'m>, pivots: &'p Pivots<'m>, prefix: String, actions: &[Action]) -> Self {
+        let nothing = Wrench { forces: Vec::new(), couple: placement.graph().zero() };
+        let wrenches = vec![nothing; placement.model.links.len()];
+        let mut balance =
+            Self { placement, pivots, prefix, wrenches, reactions: BTreeMap::new(), efforts: BTreeMap::new() };
+        for action in actions {
+            let graph = placement.graph();
+            match *action {
+                Action::Force { link, at, force, frame } => {
+                    let at = placement.carried(link, at.vector(graph));
+                    let force = balance.force_in_frame(force.vector(graph), frame);
+                    balance.push(link, at, force);
+                }
+                Action::Couple { link, moment } => balance.couple(link, graph.expr(moment)),
+            }
+        }
+        balance
+    }
+
+    /// The linkage.
+    #[must_use]
+    pub fn model(&self) -> &'m Model {
+        self.placement.model
+    }
+
+    /// All expressions.
+    #[must_use]
+    pub fn graph(&self) -> &'m Graph {
+        self.placement.graph()
+    }
+
+    /// A force given in the axes of a link's frame.
+    #[must_use]
+    pub fn force_in_frame(&self, components: Vector<'m>, frame: LinkId) -> Framed<'m> {
+        Framed { components: self.placement.carried(frame, components), axes: self.placement.direction(frame) }
+    }
+
+    /// A force in ground axes.
+    #[must_use]
+    pub fn ground_force(&self, components: Vector<'m>) -> Framed<'m> {
+        Framed { components, axes: self.placement.direction(GROUND) }
+    }
+
+    /// Puts a force on a link, at a place along and across its direction. Forces at one place are added up.
+    pub fn push(&mut self, link: LinkId, at: Vector<'m>, force: Framed<'m>) {
+        if link == GROUND || force.components.is_zero() {
+            return;
+        }
+        let ground = self.placement.direction(GROUND);
+        let forces = &mut self.wrenches[link.index()].forces;
+        match forces.iter_mut().find(|(place, _)| *place == at) {
+            Some((_, there)) => *there = there.plus(&force, ground),
+            None => forces.push((at, force)),
+        }
+    }
+
+    /// Puts a couple on a link.
+    pub fn couple(&mut self, link: LinkId, moment: Expr<'m>) {
+        let couple = &mut self.wrenches[link.index()].couple;
+        *couple = *couple + moment;
+    }
+
+    /// The sum of the forces on a link.
+    #[must_use]
+    pub fn total(&self, link: LinkId) -> Framed<'m> {
+        let ground = self.placement.direction(GROUND);
+        let forces = self.wrenches[link.index()].forces.iter().map(|(_, force)| *force);
+        forces
+            .reduce(|sum, force| sum.plus(&force, ground))
+            .unwrap_or(Framed { components: self.graph().zero_vector(), axes: ground })
+    }
+
+    /// The sum of the moments on a link about a place along and across its direction, times a factor:
+    /// `factor Σ (r × F) + factor C`.
+    #[must_use]
+    pub fn moment(&self, link: LinkId, about: Vector<'m>, factor: Expr<'m>) -> Expr<'m> {
+        let direction = self.placement.direction(link);
+        let wrench = &self.wrenches[link.index()];
+        let moments = wrench.forces.iter().map(|(at, force)| {
+            let arm = (*at - about).scaled(factor);
+            arm.cross(force.along(direction))
+        });
+        moments.fold(factor * wrench.couple, |sum, moment| sum + moment)
+    }
+
+    /// Whether nothing acts on a link.
+    #[must_use]
+    pub fn is_free(&self, link: LinkId) -> bool {
+        let wrench = &self.wrenches[link.index()];
+        wrench.forces.is_empty() && wrench.couple.is_zero()
+    }
+
+    /// A pin exerts a force on a link; the other link gets the opposite one. Gives the force on the link as it was named: in ground
+    /// axes, by the joint's own sign.
+    pub fn pin(&mut self, joint: JointId, on: LinkId, force: Framed<'m>) -> Framed<'m> {
+        let data = self.model().joint(joint);
+        let sign = if data.to.link == on { 1 } else { -1 };
+        let signed = |v: Vector<'m>| if sign > 0 { v } else { -v };
+        let (from, to) = (&self.model().link(data.from.link).name, &self.model().link(data.to.link).name);
+        let meaning = format!("force on {to} by {from}");
+        let reaction = signed(force.ground()).named(&self.name(&data.name.text), &meaning);
+        let reaction = self.ground_force(reaction);
+        self.reactions.insert(joint, Reaction { force: reaction, couple: None });
+        let force = if sign > 0 { reaction } else { reaction.opposite() };
+        if let Some(far) = data.end_off(on) {
+            self.push(far.link, self.placement.point(far), force.opposite());
+        }
+        force
+    }
+
+    /// The reaction of a slide on its second link, found from the equilibrium of the link `on`; the other link gets its part.
+    pub fn slide(&mut self, joint: JointId, on: LinkId, force: Framed<'m>, couple: Expr<'m>) {
+        let data = self.model().joint(joint);
+        self.reactions.insert(joint, Reaction { force, couple: Some(couple) });
+        let (far, force, couple) = if data.to.link == on {
+            (data.from.link, force.opposite(), -couple)
+        } else {
+            (data.to.link, force, couple)
+        };
+        let at = self.placement.slide_point(joint, far);
+        self.push(far, at, force);
+        self.couple(far, couple);
+    }
+
+    /// An unknown effort is found.
+    pub fn found(&mut self, unknown: UnknownId, value: Expr<'m>) {
+        self.efforts.insert(unknown, value);
+    }
+
+    /// The effort of an unknown.
+    #[must_use]
+    pub fn effort(&self, unknown: UnknownId) -> Expr<'m> {
+        self.efforts.get(&unknown).copied().unwrap_or_else(|| self.graph().zero())
+    }
+
+    /// The reaction of a joint.
+    #[must_use]
+    pub fn reaction(&self, joint: JointId) -> Reaction<'m> {
+        let nothing = Reaction { force: self.ground_force(self.graph().zero_vector()), couple: None };
+        self.reactions.get(&joint).copied().unwrap_or(nothing)
+    }
+
+    /// The name of a quantity of this case.
+    #[must_use]
+    pub fn name(&self, name: &str) -> String {
+        format!("{}{name}", self.prefix)
+    }
+
+    /// The end of a joint on a link.
+    #[must_use]
+    pub fn end(&self, joint: JointId, link: LinkId) -> End {
+        let joint = self.model().joint(joint);
+        joint.end_on(link).unwrap_or(joint.from)
+    }
+}

@@ -1,0 +1,270 @@
+//! [`Topology`] in, [`Plan`] out: every group solved by its rule, every scene's results as expressions.
+//!
+//! Afterwards each result is a node of the graph, reduced by division through named pivots only. What a function needs of it is taken
+//! out later, by demand.
+
+mod assembly;
+mod balance;
+mod framed;
+mod half_angle;
+mod output;
+mod pivots;
+mod placement;
+pub mod rules;
+mod scenes;
+mod velocities;
+
+pub use assembly::Assembly;
+pub use balance::Balance;
+pub use output::{Field, Meaning, Output};
+pub use pivots::Pivots;
+pub use placement::Placement;
+pub use velocities::Motion;
+
+use crate::diagnostics::{Diagnostic, Sink};
+use crate::graph::{Expr, NodeId, Op};
+use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
+use crate::model::units::Kind;
+use crate::model::{End, Model};
+use crate::topology::{Group, Input, Topology};
+
+/// The solution of a linkage.
+#[derive(Debug)]
+pub struct Plan {
+    /// What a pose keeps beside the drives' coordinates.
+    pub pose: Vec<Kept>,
+    /// What can be asked of a pose by itself.
+    pub accessors: Vec<Accessor>,
+    /// The scenes' results, in the order of the scenes.
+    pub scenes: Vec<Output>,
+    /// The rules that solve the groups of motion, in their order.
+    pub motion_rules: Vec<&'static str>,
+    /// The rules that solve the groups of forces.
+    pub force_rules: Vec<&'static str>,
+}
+
+/// A value that a pose keeps.
+#[derive(Clone, Debug)]
+pub struct Kept {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub meaning: String,
+    /// Its node.
+    pub node: NodeId,
+}
+
+/// A method of a pose.
+#[derive(Debug)]
+pub struct Accessor {
+    /// Its name.
+    pub name: String,
+    /// What it gives.
+    pub meaning: String,
+    /// The result.
+    pub output: Output,
+}
+
+impl Plan {
+    /// Solves a linkage. `None` if that is not possible; why is reported.
+    #[must_use]
+    pub fn of(model: &Model, topology: &Topology, sink: &Sink) -> Option<Self> {
+        let motion_rules = rules_of(model, &topology.motion, "place", sink)?;
+        let force_rules = rules_of(model, &topology.forces, "find the forces of", sink)?;
+        let mut assembly = Assembly::new(model, topology);
+        for (index, (group, rule)) in topology.motion.iter().zip(&motion_rules).enumerate() {
+            model.graph.begin_section(heading(model, index, group, rule.class(), "position"));
+            if let Err(error) = rule.place(&mut assembly, group) {
+                sink.report(error);
+            }
+        }
+        for closure in assembly.unused_closures() {
+            let joint = &model.joint(closure.joint).name;
+            sink.report(
+                Diagnostic::new(closure.place, format!("there is nothing to choose at `{joint}`"))
+                    .note("a closure is chosen at the inner joint of a dyad: of the joint between its two links"),
+            );
+        }
+        if !sink.is_clean() {
+            return None;
+        }
+        let plan = Self {
+            pose: kept(&assembly),
+            accessors: accessors(&assembly),
+            scenes: scenes::outputs(model, topology, &assembly, &force_rules),
+            motion_rules: motion_rules.iter().map(|rule| rule.class()).collect(),
+            force_rules: force_rules.iter().map(|rule| rule.class()).collect(),
+        };
+        check_possible(model, sink);
+        sink.is_clean().then_some(plan)
+    }
+}
+
+type Rules = Vec<&'static dyn rules::Rule>;
+
+fn rules_of(model: &Model, groups: &[Group], what: &str, sink: &Sink) -> Option<Rules> {
+    let mut found = Vec::new();
+    for group in groups {
+        match rules::rule_of(model, group) {
+            Some(rule) => found.push(rule),
+            None => sink.report(unsupported(model, group, what)),
+        }
+    }
+    sink.is_clean().then_some(found)
+}
+
+/// A group for which there is no rule.
+fn unsupported(model: &Model, group: &Group, what: &str) -> Diagnostic {
+    let links = model.link_names(&group.links);
+    let place = match group.inputs.first() {
+        Some(Input::Unknown(unknown)) => model.unknown(*unknown).place,
+        Some(Input::Drive(drive)) => model.drive(*drive).name.place(),
+        None => model.link(group.links[0]).name.place(),
+    };
+    let letters = group.letters(model);
+    let joints = group.outer.iter().chain(&group.inner).map(|j| model.joint(*j).name.text.as_str());
+    let joints = joints.collect::<Vec<_>>().join(", ");
+    Diagnostic::new(place, format!("groups of the class of {links} are not supported yet: there is no rule to {what} them"))
+        .note(format!(
+            "the group has {} link{} and the joints {joints} ({letters}); supported are links on one pin or one slide, and RRR and RRP dyads",
+            group.links.len(),
+            if group.links.len() == 1 { "" } else { "s" },
+        ))
+}
+
+/// The heading of a group's steps.
+fn heading(model: &Model, index: usize, group: &Group, class: &str, what: &str) -> String {
+    let joints = group.outer.iter().chain(&group.inner).map(|j| model.joint(*j).name.text.as_str());
+    let joints = joints.collect::<Vec<_>>().join(", ");
+    format!("Group {}, {class}: {} ({joints}): {what}", index + 1, model.link_names(&group.links))
+}
+
+/// Directions, travels and pivots, each once; what is constant is not kept.
+fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
+    let model = assembly.model();
+    let mut all: Vec<Kept> = Vec::new();
+    let mut keep = |name: String, meaning: String, value: Expr<'_>| {
+        if matches!(value.op(), Op::Held(_)) && all.iter().all(|kept| kept.node != value.id()) {
+            all.push(Kept { name, meaning, node: value.id() });
+        }
+    };
+    for link in model.moving_links() {
+        let direction = assembly.placement.direction(link);
+        let name = &model.link(link).name;
+        keep(format!("{name}_cos"), format!("cosine of the direction carried by `{name}`"), direction.x);
+        keep(format!("{name}_sin"), format!("sine of the direction carried by `{name}`"), direction.y);
+    }
+    for (joint, travel) in assembly.placement.travels() {
+        let name = &model.joint(joint).name;
+        let unit = Kind::Length.unit(&model.units);
+        keep(format!("travel_{name}"), format!("travel of the slide `{name}`, {unit}"), travel);
+    }
+    for dyad in &assembly.dyads {
+        let name = &model.joint(dyad.joint).name;
+        keep(
+            format!("sin_mu_{name}"),
+            format!("sine of the transmission angle at `{name}`, zero where it is no larger than its rounding"),
+            dyad.sine,
+        );
+    }
+    all
+}
+
+/// Places, directions and transmission angles.
+fn accessors(assembly: &Assembly<'_>) -> Vec<Accessor> {
+    let model = assembly.model();
+    let placement = &assembly.placement;
+    let unit = Kind::Length.unit(&model.units);
+    let mut all = Vec::new();
+    model.graph.begin_section("");
+    for (index, drive) in model.drives.iter().enumerate() {
+        let value = assembly.coordinate(DriveId::new(index));
+        let meaning = format!("The coordinate of the drive `{}`.", drive.name);
+        all.push(Accessor {
+            name: drive.name.text.clone(),
+            meaning,
+            output: Output::scalar(value, Meaning::Coordinate),
+        });
+    }
+    for joint in model.joint_ids() {
+        let name = &model.joint(joint).name;
+        let meaning = format!("Place of the joint `{name}`, {unit}, ground axes.");
+        let output = Output::vector(placement.place(model.joint(joint).to), Meaning::Place);
+        all.push(Accessor { name: name.text.clone(), meaning, output });
+    }
+    for link in model.moving_links() {
+        let name = &model.link(link).name;
+        let meaning = format!("Direction of the x axis of the frame of `{name}`, a unit vector.");
+        let output = Output::vector(placement.frame(link), Meaning::Direction);
+        all.push(Accessor { name: format!("{name}_direction"), meaning, output });
+        for (index, point) in model.link(link).points.iter().enumerate() {
+            let end = End { link, point: crate::model::ids::PointId::new(index) };
+            let meaning = format!("Place of the point `{}` of `{name}`, {unit}, ground axes.", point.name);
+            let output = Output::vector(placement.place(end), Meaning::Place);
+            all.push(Accessor { name: format!("{name}_{}", point.name), meaning, output });
+        }
+    }
+    for dyad in &assembly.dyads {
+        let name = &model.joint(dyad.joint).name;
+        let meaning = format!(
+            "Sine of the transmission angle at `{name}`: zero at a dead centre of its dyad, and where it is no larger than its rounding."
+        );
+        let output = Output::scalar(dyad.sine, Meaning::Sine);
+        all.push(Accessor { name: format!("sin_mu_{name}"), meaning, output });
+    }
+    all
+}
+
+/// The angle of a link: of one that is driven from the ground the drive's own value, of others from the direction of its frame.
+fn angle<'m>(assembly: &Assembly<'m>, link: LinkId) -> Expr<'m> {
+    let model = assembly.model();
+    let driven =
+        assembly.topology.motion.iter().find_map(|group| match (group.links.as_slice(), group.inputs.as_slice()) {
+            ([own], [Input::Drive(drive)]) if *own == link => {
+                let joint = model.joint(model.drive(*drive).joint);
+                let from_ground = matches!(joint.kind, crate::model::JointKind::Revolute)
+                    && joint.end_off(link).is_some_and(|end| end.link == GROUND);
+                let value = assembly.coordinate(*drive);
+                from_ground.then_some(if joint.to.link == link { value } else { -value })
+            }
+            _ => None,
+        });
+    driven.unwrap_or_else(|| {
+        let frame = assembly.placement.frame(link);
+        assembly.graph().atan2(frame.y, frame.x)
+    })
+}
+
+/// A check that constants fail stands for a linkage that works at no pose.
+fn check_possible(model: &Model, sink: &Sink) {
+    for guard in model.graph.impossible_guards() {
+        use crate::graph::Failure;
+        let found = match &guard.failure {
+            Failure::CannotAssemble { group, joint, .. } => Diagnostic::new(
+                joint_place(model, joint),
+                format!("{group} cannot be assembled at `{joint}`, at any pose"),
+            ),
+            Failure::CoincidentPivots { group, joint } => Diagnostic::new(
+                joint_place(model, joint),
+                format!("the outer joints of {group} coincide at every pose: the place of `{joint}` is undetermined"),
+            ),
+            Failure::DeadCentre { group, pivot } => Diagnostic::new(
+                model.unknowns.first().map_or(model.name.place(), |u| u.place),
+                format!("at every pose, nothing holds {group}: `{pivot}` is zero"),
+            )
+            .note("the unknown does no work on the motion that the loads drive, whatever the pose"),
+            Failure::Parameter { requirement } => Diagnostic::new(model.name.place(), requirement.clone()),
+        };
+        sink.report(found);
+    }
+}
+
+fn joint_place(model: &Model, name: &str) -> crate::diagnostics::Place {
+    let joint = model.joints.iter().find(|j| j.name.text == name);
+    joint.map_or(model.name.place(), |j| j.name.place())
+}
+
+/// The name of a joint, for headings.
+fn joint_name(model: &Model, joint: JointId) -> &str {
+    &model.joint(joint).name.text
+}

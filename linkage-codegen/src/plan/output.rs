@@ -1,0 +1,147 @@
+//! Results: trees of named nodes.
+
+use crate::graph::{Expr, NodeId, Vector};
+
+/// What a result is, for its unit and its documentation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    /// The coordinate of a drive.
+    Coordinate,
+    /// A place.
+    Place,
+    /// A direction.
+    Direction,
+    /// An angle.
+    Angle,
+    /// The sine of a transmission angle.
+    Sine,
+    /// A force.
+    Force,
+    /// A moment.
+    Moment,
+    /// A term of virtual work of a force.
+    ForceTerm,
+    /// A term of virtual work of a moment.
+    MomentTerm,
+    /// A plain number.
+    Number,
+}
+
+/// A result.
+#[derive(Clone, Debug)]
+pub enum Output {
+    /// A number.
+    Scalar(NodeId, Meaning),
+    /// A vector.
+    Vector([NodeId; 2], Meaning),
+    /// The reaction of a slide.
+    Slider {
+        /// The force in ground axes.
+        force: [NodeId; 2],
+        /// Its signed size along the slide's normal.
+        normal: NodeId,
+        /// The couple.
+        couple: NodeId,
+    },
+    /// A term of virtual work.
+    Term {
+        /// Velocity of the load's point along the load, for unit rate.
+        velocity: NodeId,
+        /// Load times velocity.
+        work: NodeId,
+        /// Of a force or a moment.
+        meaning: Meaning,
+    },
+    /// Named results.
+    Record(Vec<Field>),
+}
+
+/// A named result.
+#[derive(Clone, Debug)]
+pub struct Field {
+    /// Its name.
+    pub name: String,
+    /// What it is, in a sentence.
+    pub doc: String,
+    /// The result.
+    pub value: Output,
+}
+
+impl Output {
+    /// A number.
+    #[must_use]
+    pub fn scalar(value: Expr<'_>, meaning: Meaning) -> Self {
+        Self::Scalar(value.id(), meaning)
+    }
+
+    /// A vector.
+    #[must_use]
+    pub fn vector(value: Vector<'_>, meaning: Meaning) -> Self {
+        Self::Vector([value.x.id(), value.y.id()], meaning)
+    }
+
+    /// All its numbers, each with its path: `B.x`.
+    #[must_use]
+    pub fn leaves(&self) -> Vec<(String, NodeId)> {
+        let mut all = Vec::new();
+        self.collect("", &mut all);
+        all
+    }
+
+    /// The values that are added up where parts are summed: every number by itself, or of a superposition the same number of all
+    /// parts. A sum is finite only if all its terms are.
+    #[must_use]
+    pub fn sums(&self) -> Vec<Vec<NodeId>> {
+        let Self::Record(fields) = self else { return self.leaves().into_iter().map(|(_, node)| vec![node]).collect() };
+        let parts: Vec<Vec<NodeId>> = self.parts();
+        if parts.len() < 2 || !fields.iter().any(|field| matches!(field.value, Self::Record(_))) {
+            return self.leaves().into_iter().map(|(_, node)| vec![node]).collect();
+        }
+        let mut sums: Vec<Vec<NodeId>> = (0..parts[0].len())
+            .map(|index| parts.iter().filter_map(|part| part.get(index).copied()).collect())
+            .collect();
+        // The weights of all links have a sum of their own.
+        let weights = fields.iter().filter(|field| field.value.parts().len() > 1);
+        sums.extend(weights.flat_map(|field| field.value.sums()));
+        sums
+    }
+
+    /// The numbers of each innermost record.
+    fn parts(&self) -> Vec<Vec<NodeId>> {
+        let Self::Record(fields) = self else { return Vec::new() };
+        if fields.iter().any(|field| !matches!(field.value, Self::Record(_))) {
+            return vec![self.leaves().into_iter().map(|(_, node)| node).collect()];
+        }
+        fields.iter().flat_map(|field| field.value.parts()).collect()
+    }
+
+    fn collect(&self, path: &str, all: &mut Vec<(String, NodeId)>) {
+        let mut leaf = |part: &str, node: NodeId| {
+            let separator = if path.is_empty() || part.is_empty() { "" } else { "." };
+            all.push((format!("{path}{separator}{part}"), node));
+        };
+        match self {
+            Self::Scalar(node, _) => leaf("", *node),
+            Self::Vector([x, y], _) => {
+                leaf("x", *x);
+                leaf("y", *y);
+            }
+            Self::Slider { force: [x, y], normal, couple } => {
+                leaf("force.x", *x);
+                leaf("force.y", *y);
+                leaf("normal", *normal);
+                leaf("couple", *couple);
+            }
+            Self::Term { velocity, work, .. } => {
+                leaf("velocity", *velocity);
+                leaf("work", *work);
+            }
+            Self::Record(fields) => {
+                for field in fields {
+                    let separator = if path.is_empty() { "" } else { "." };
+                    field.value.collect(&format!("{path}{separator}{}", field.name), all);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! Pivots: the quantities that a group's forces and velocities are divided by, each a named sine or cosine of the geometry.
+//!
+//! A pivot that is no larger than the rounding that could have produced it counts as zero, and dividing by it is a typed error: a
+//! dead centre. What the closure of a group knows of an angle is kept, because a cross product of rounded directions would lose it.
+
+use crate::graph::{Expr, Failure, Vector};
+
+/// Rounding of the cross product of two unit vectors, each true to 3 ε, in epsilons.
+const ROUNDING: i64 = 8;
+
+/// Sine and cosine between two directions, as far as a closure knows them.
+#[derive(Clone, Copy, Debug)]
+struct Known<'m> {
+    from: Vector<'m>,
+    to: Vector<'m>,
+    sine: Option<Expr<'m>>,
+    cosine: Option<Expr<'m>>,
+}
+
+/// The angles between directions that closures know.
+#[derive(Clone, Debug, Default)]
+pub struct Pivots<'m> {
+    known: Vec<Known<'m>>,
+}
+
+impl<'m> Pivots<'m> {
+    /// States the sine and the cosine of the angle between two directions. What is used as a divisor is zero where it is no larger
+    /// than its rounding.
+    pub fn state(&mut self, from: Vector<'m>, to: Vector<'m>, sine: Option<Expr<'m>>, cosine: Option<Expr<'m>>) {
+        self.known.push(Known { from, to, sine, cosine });
+    }
+
+    /// `from × to`.
+    #[must_use]
+    pub fn sine(&self, from: Vector<'m>, to: Vector<'m>) -> Expr<'m> {
+        self.find(from, to, |k| k.sine, -1).unwrap_or_else(|| from.cross(to))
+    }
+
+    /// `from · to`.
+    #[must_use]
+    pub fn cosine(&self, from: Vector<'m>, to: Vector<'m>) -> Expr<'m> {
+        self.find(from, to, |k| k.cosine, 1).unwrap_or_else(|| from.dot(to))
+    }
+
+    /// `from × to` as a divisor.
+    #[must_use]
+    pub fn dividing_sine(&self, from: Vector<'m>, to: Vector<'m>, name: &str, group: &str) -> Expr<'m> {
+        let known = self.find(from, to, |k| k.sine, -1);
+        divisor(known.unwrap_or_else(|| significant(from.cross(to).named(name, ""))), name, group)
+    }
+
+    /// `from · to` as a divisor.
+    #[must_use]
+    pub fn dividing_cosine(&self, from: Vector<'m>, to: Vector<'m>, name: &str, group: &str) -> Expr<'m> {
+        let known = self.find(from, to, |k| k.cosine, 1);
+        divisor(known.unwrap_or_else(|| significant(from.dot(to).named(name, ""))), name, group)
+    }
+
+    /// What is known of the directions, in either order and of either sense. `swapped` is the sign that an exchange brings.
+    fn find(
+        &self,
+        from: Vector<'m>,
+        to: Vector<'m>,
+        part: impl Fn(&Known<'m>) -> Option<Expr<'m>>,
+        swapped: i64,
+    ) -> Option<Expr<'m>> {
+        let sense = |a: Vector<'m>, b: Vector<'m>| {
+            if a == b { Some(1) } else { (a == -b).then_some(-1) }
+        };
+        self.known.iter().find_map(|k| {
+            let found = part(k)?;
+            let straight = sense(from, k.from).zip(sense(to, k.to)).map(|(a, b)| a * b);
+            let crossed = sense(from, k.to).zip(sense(to, k.from)).map(|(a, b)| a * b * swapped);
+            straight.or(crossed).map(|sign| sign * found)
+        })
+    }
+}
+
+/// The value, or zero where it is no larger than the rounding of a product of unit vectors.
+fn significant(value: Expr<'_>) -> Expr<'_> {
+    value.where_above(value.abs(), value.graph().epsilons(ROUNDING))
+}
+
+/// A pivot as a divisor: zero is a dead centre.
+#[must_use]
+pub(super) fn divisor<'m>(pivot: Expr<'m>, name: &str, group: &str) -> Expr<'m> {
+    let failure = Failure::DeadCentre { group: group.into(), pivot: name.into() };
+    pivot.require_above(pivot.abs(), pivot.graph().zero(), failure)
+}

@@ -1,0 +1,300 @@
+//! Where the links are: what the groups solved so far have placed.
+//!
+//! A link is placed by a direction, a unit vector, never by an angle. Places are not kept as coordinates of the plane: the way from a
+//! point to another goes through the links between them, so that nothing depends on where the origin is.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+use crate::graph::{Expr, Graph, Vector};
+use crate::model::ids::{GROUND, JointId, LinkId};
+use crate::model::{End, JointKind, Model};
+
+/// The direction that a link carries.
+#[derive(Clone, Copy, Debug)]
+pub struct Orientation<'m> {
+    /// The carried direction, in ground axes.
+    pub direction: Vector<'m>,
+    /// The same in the link's own frame: a constant, or a parameter.
+    pub axis: Vector<'m>,
+}
+
+/// A part of the way from a point to another: a vector that turns with a link.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment<'m> {
+    /// The direction with which it turns.
+    pub direction: Vector<'m>,
+    /// Its components along and across that direction.
+    pub along: Vector<'m>,
+    /// Its length.
+    pub size: Expr<'m>,
+}
+
+/// The way from a point to another.
+#[derive(Clone, Debug)]
+pub struct Way<'m> {
+    /// Its parts.
+    pub segments: Vec<Segment<'m>>,
+    graph: &'m Graph,
+}
+
+impl<'m> Way<'m> {
+    /// The vector from its start to its end.
+    #[must_use]
+    pub fn vector(&self) -> Vector<'m> {
+        let parts = self.segments.iter().map(|s| s.along.turned_by(s.direction));
+        parts.reduce(|sum, part| sum + part).unwrap_or_else(|| self.graph.zero_vector())
+    }
+
+    /// Its components along and across a direction: each part by itself, so that constant parts fold exactly.
+    #[must_use]
+    pub fn resolved_along(&self, direction: Vector<'m>) -> Vector<'m> {
+        let part = |s: &Segment<'m>| {
+            if s.direction == direction { s.along } else { s.along.turned_by(s.direction.resolved_along(direction)) }
+        };
+        self.segments.iter().map(part).reduce(|sum, part| sum + part).unwrap_or_else(|| self.graph.zero_vector())
+    }
+
+    /// The sum of the lengths of its parts: the size of the rounding in its vector, in epsilons.
+    #[must_use]
+    pub fn length(&self) -> Expr<'m> {
+        self.segments.iter().fold(self.graph.zero(), |sum, s| sum + s.size)
+    }
+}
+
+/// What is placed so far.
+#[derive(Debug)]
+pub struct Placement<'m> {
+    /// The linkage.
+    pub model: &'m Model,
+    orientations: Vec<Option<Orientation<'m>>>,
+    travels: BTreeMap<JointId, Expr<'m>>,
+    placed: BTreeSet<JointId>,
+}
+
+impl<'m> Placement<'m> {
+    /// Only the ground.
+    #[must_use]
+    pub fn of_ground(model: &'m Model) -> Self {
+        let x_axis = Vector::new(model.graph.one(), model.graph.zero());
+        let mut orientations = vec![None; model.links.len()];
+        orientations[GROUND.index()] = Some(Orientation { direction: x_axis, axis: x_axis });
+        Self { model, orientations, travels: BTreeMap::new(), placed: BTreeSet::new() }
+    }
+
+    /// All expressions.
+    #[must_use]
+    pub fn graph(&self) -> &'m Graph {
+        &self.model.graph
+    }
+
+    /// Places a link. A pose keeps its direction.
+    pub fn orient(&mut self, link: LinkId, orientation: Orientation<'m>) {
+        let direction = orientation.direction.held();
+        self.orientations[link.index()] = Some(Orientation { direction, ..orientation });
+    }
+
+    /// From here on, ways may go through this joint.
+    pub fn connect(&mut self, joint: JointId) {
+        self.placed.insert(joint);
+    }
+
+    /// The travel of a slide is known. A pose keeps it.
+    pub fn set_travel(&mut self, joint: JointId, travel: Expr<'m>) {
+        self.travels.insert(joint, travel.held());
+        self.placed.insert(joint);
+    }
+
+    /// The travel of a slide: of its second point from its first, along its direction.
+    #[must_use]
+    pub fn travel(&self, joint: JointId) -> Expr<'m> {
+        self.travels.get(&joint).copied().unwrap_or_else(|| self.graph().zero())
+    }
+
+    /// All slides with their travels.
+    pub fn travels(&self) -> impl Iterator<Item = (JointId, Expr<'m>)> {
+        self.travels.iter().map(|(joint, travel)| (*joint, *travel))
+    }
+
+    /// The direction of a link. A link whose group is not solved yet has that of the ground; no rule asks for it.
+    #[must_use]
+    pub fn orientation(&self, link: LinkId) -> Orientation<'m> {
+        let x_axis = Vector::new(self.graph().one(), self.graph().zero());
+        self.orientations[link.index()].unwrap_or(Orientation { direction: x_axis, axis: x_axis })
+    }
+
+    /// The carried direction of a link.
+    #[must_use]
+    pub fn direction(&self, link: LinkId) -> Vector<'m> {
+        self.orientation(link).direction
+    }
+
+    /// A vector of a link's frame, along and across the direction that the link carries.
+    #[must_use]
+    pub fn carried(&self, link: LinkId, local: Vector<'m>) -> Vector<'m> {
+        let axis = self.orientation(link).axis;
+        let x_axis = Vector::new(self.graph().one(), self.graph().zero());
+        if local == axis {
+            x_axis
+        } else if local == -axis {
+            -x_axis
+        } else {
+            local.resolved_along(axis)
+        }
+    }
+
+    /// A point of a link, along and across the direction that the link carries.
+    #[must_use]
+    pub fn point(&self, end: End) -> Vector<'m> {
+        self.carried(end.link, self.model.local(end))
+    }
+
+    /// A vector of a link's frame in ground axes.
+    #[must_use]
+    pub fn turned(&self, link: LinkId, local: Vector<'m>) -> Vector<'m> {
+        self.carried(link, local).turned_by(self.direction(link))
+    }
+
+    /// The direction of the x axis of a link's frame.
+    #[must_use]
+    pub fn frame(&self, link: LinkId) -> Vector<'m> {
+        let Orientation { direction, axis } = self.orientation(link);
+        axis.conjugate().turned_by(direction)
+    }
+
+    /// The direction along which a slide goes, in ground axes.
+    #[must_use]
+    pub fn slide_direction(&self, joint: JointId) -> Vector<'m> {
+        match self.model.joint(joint).kind {
+            JointKind::Prismatic { carrier, axis, .. } => self.turned(carrier, axis.vector(self.graph())),
+            JointKind::Revolute => self.direction(GROUND),
+        }
+    }
+
+    /// The place of a slide's second point on one of its links, along and across that link's direction.
+    #[must_use]
+    pub fn slide_point(&self, joint: JointId, link: LinkId) -> Vector<'m> {
+        let data = self.model.joint(joint);
+        match data.kind {
+            // Both links carry the same direction, so that the slide's direction is the same vector for both.
+            JointKind::Prismatic { carrier, axis, .. } if data.from.link == link => {
+                let along = self.carried(carrier, axis.vector(self.graph()));
+                self.point(data.from) + along.scaled(self.travel(joint))
+            }
+            _ => self.point(data.to),
+        }
+    }
+
+    /// The place of a point in ground axes.
+    #[must_use]
+    pub fn place(&self, end: End) -> Vector<'m> {
+        let on_ground = self.placed.iter().find_map(|joint| self.model.joint(*joint).end_on(GROUND));
+        match on_ground {
+            Some(start) if end.link != GROUND => {
+                let mut way = self.way(start, end);
+                let ground = self.direction(GROUND);
+                let start = Segment { direction: ground, along: self.model.local(start), size: self.graph().zero() };
+                let mut segments = vec![start];
+                way.segments.drain(..).for_each(|segment| self.push(&mut segments, segment));
+                Way { segments, ..way }.vector()
+            }
+            _ => self.model.local(end),
+        }
+    }
+
+    /// The orientation of a link that a slide joins to a placed one: they turn together.
+    #[must_use]
+    pub fn along_slide(&self, joint: JointId, link: LinkId) -> Orientation<'m> {
+        let JointKind::Prismatic { turn, .. } = self.model.joint(joint).kind else { return self.orientation(link) };
+        let turn = turn.vector(self.graph());
+        let joint = self.model.joint(joint);
+        let other = if joint.from.link == link { joint.to.link } else { joint.from.link };
+        let Orientation { direction, axis } = self.orientation(other);
+        // The second link's frame is turned by `turn` against the first one's.
+        let axis = if joint.to.link == link { axis.resolved_along(turn) } else { axis.turned_by(turn) };
+        Orientation { direction, axis }
+    }
+
+    /// The shortest way between two points of placed links.
+    #[must_use]
+    pub fn way(&self, from: End, to: End) -> Way<'m> {
+        let mut segments: Vec<Segment<'m>> = Vec::new();
+        let mut at = from;
+        for joint in self.route(from.link, to.link) {
+            let joint_data = self.model.joint(joint);
+            let (Some(near), Some(far)) = (joint_data.end_on(at.link), joint_data.end_off(at.link)) else { continue };
+            self.push(&mut segments, self.within(at, near));
+            if let JointKind::Prismatic { .. } = joint_data.kind {
+                let travel = self.travel(joint);
+                let signed = if joint_data.from == near { travel } else { -travel };
+                self.push(&mut segments, self.slid(joint, signed));
+            }
+            at = far;
+        }
+        self.push(&mut segments, self.within(at, to));
+        segments.retain(|s| !s.along.is_zero());
+        Way { segments, graph: self.graph() }
+    }
+
+    /// From a point to another of the same link.
+    fn within(&self, from: End, to: End) -> Segment<'m> {
+        let along = self.point(to) - self.point(from);
+        Segment {
+            direction: self.direction(from.link),
+            along,
+            size: self.model.distance(from.link, from.point, to.point),
+        }
+    }
+
+    /// Along a slide.
+    fn slid(&self, joint: JointId, travel: Expr<'m>) -> Segment<'m> {
+        let JointKind::Prismatic { carrier, axis, .. } = self.model.joint(joint).kind else {
+            return Segment {
+                direction: self.direction(GROUND),
+                along: self.graph().zero_vector(),
+                size: self.graph().zero(),
+            };
+        };
+        let along = self.carried(carrier, axis.vector(self.graph())).scaled(travel);
+        Segment { direction: self.direction(carrier), along, size: travel.abs() }
+    }
+
+    /// Adds a segment; what turns together is added up in its own axes.
+    fn push(&self, segments: &mut Vec<Segment<'m>>, segment: Segment<'m>) {
+        match segments.iter_mut().find(|s| s.direction == segment.direction) {
+            Some(same) if same.along.is_zero() => *same = segment,
+            Some(_) if segment.along.is_zero() => {}
+            Some(same) => {
+                same.along = same.along + segment.along;
+                let constant = same.along.x.value().is_some() && same.along.y.value().is_some();
+                same.size = if constant { same.along.size() } else { same.size + segment.size };
+            }
+            None => segments.push(segment),
+        }
+    }
+
+    /// The joints on the shortest route between two placed links.
+    fn route(&self, from: LinkId, to: LinkId) -> Vec<JointId> {
+        let mut reached: BTreeMap<LinkId, Option<(LinkId, JointId)>> = BTreeMap::from([(from, None)]);
+        let mut open = VecDeque::from([from]);
+        while let Some(link) = open.pop_front() {
+            if link == to {
+                break;
+            }
+            for &joint in &self.placed {
+                let Some(next) = self.model.joint(joint).end_off(link) else { continue };
+                if let std::collections::btree_map::Entry::Vacant(entry) = reached.entry(next.link) {
+                    entry.insert(Some((link, joint)));
+                    open.push_back(next.link);
+                }
+            }
+        }
+        let mut route = Vec::new();
+        let mut at = to;
+        while let Some(Some((before, joint))) = reached.get(&at) {
+            route.push(*joint);
+            at = *before;
+        }
+        route.reverse();
+        route
+    }
+}

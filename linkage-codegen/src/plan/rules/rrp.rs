@@ -1,0 +1,272 @@
+//! The RRP dyad: a link with pins at both ends, the inner one on a slider.
+//!
+//! With the outer pin A, the inner pin B, `r = |AB|`, the slide's direction e and its normal `n = e⊥`, and Q the vector from A to where B is
+//! when the slide's travel is zero:
+//!
+//! ```text
+//! g = e × Q      h = ±√((r − g)(r + g))      + where B is ahead of A
+//! u = (h e + g n)/r                           direction A → B
+//! travel = h − e·Q
+//! ```
+//!
+//! Forces: with W the sum of the loads on the slider and m the moment of the link's loads about A, the force on the link at B is
+//! `p e + f n`, `p = e·W`, and with `t = −m/r` across the link `f = (t − p (u × e))/(u·e)`. The guide exerts `N = f − n·W` across
+//! the slide. `u·e = h/r` is the pivot: sin μ, with μ the angle between the link and the normal of the slide.
+
+use super::Rule;
+use crate::diagnostics::Diagnostic;
+use crate::graph::{Expr, Failure, Vector};
+use crate::model::ids::{GROUND, JointId, LinkId};
+use crate::model::{End, JointKind, Model, Side};
+use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::balance::Balance;
+use crate::plan::framed::Framed;
+use crate::plan::placement::{Orientation, Placement, Way};
+use crate::plan::velocities::{Motion, Twist};
+use crate::topology::Group;
+
+/// The rule.
+pub(super) struct Rrp;
+
+/// The parts of an RRP dyad.
+struct Dyad<'a> {
+    model: &'a Model,
+    rod: LinkId,
+    slider: LinkId,
+    outer: JointId,
+    inner: JointId,
+    slide: JointId,
+}
+
+fn dyad<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
+    let pinned = |joint: JointId| matches!(model.joint(joint).kind, JointKind::Revolute);
+    let ([_, _], &[inner], &[a, b], []) = (&*group.links, &*group.inner, &*group.outer, &*group.inputs) else {
+        return None;
+    };
+    let (outer, slide) = match (pinned(a), pinned(b)) {
+        (true, false) => (a, b),
+        (false, true) => (b, a),
+        _ => return None,
+    };
+    let (rod, slider) = (group.own_link(model, outer), group.own_link(model, slide));
+    (pinned(inner) && rod != slider).then_some(Dyad { model, rod, slider, outer, inner, slide })
+}
+
+impl<'a> Dyad<'a> {
+    fn end(&self, joint: JointId, link: LinkId) -> End {
+        let joint = self.model.joint(joint);
+        joint.end_on(link).unwrap_or(joint.from)
+    }
+
+    fn length(&self) -> Expr<'a> {
+        let (outer, inner) = (self.end(self.outer, self.rod), self.end(self.inner, self.rod));
+        self.model.distance(self.rod, outer.point, inner.point)
+    }
+
+    /// The direction from the outer pin to the inner one in the rod's own frame.
+    fn axis(&self) -> Vector<'a> {
+        let (outer, inner) = (self.end(self.outer, self.rod), self.end(self.inner, self.rod));
+        let (arm, length) = (self.model.local(inner) - self.model.local(outer), self.length());
+        Vector::new(arm.x / length, arm.y / length)
+    }
+
+    fn direction(&self, placement: &Placement<'a>) -> Vector<'a> {
+        placement.turned(self.rod, self.axis())
+    }
+
+    fn joint_name(&self, joint: JointId) -> &'a str {
+        &self.model.joint(joint).name.text
+    }
+
+    fn link_name(&self, link: LinkId) -> &'a str {
+        &self.model.link(link).name.text
+    }
+
+    fn group_name(&self) -> String {
+        self.model.link_names(&[self.rod, self.slider])
+    }
+
+    fn pivot_name(&self) -> String {
+        format!("sin_mu_{}", self.joint_name(self.inner))
+    }
+}
+
+impl Rule for Rrp {
+    fn class(&self) -> &'static str {
+        "RRP dyad"
+    }
+
+    fn fits(&self, model: &Model, group: &Group) -> bool {
+        dyad(model, group).is_some()
+    }
+
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> Result<(), Diagnostic> {
+        let Some(dyad) = dyad(assembly.model(), group) else { return Ok(()) };
+        close(assembly, group, &dyad)
+    }
+
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) {
+        let model = balance.model();
+        let Some(dyad) = dyad(model, group) else { return };
+        let (rod, inner) = (dyad.link_name(dyad.rod), dyad.joint_name(dyad.inner));
+        let (outer, slider) = (dyad.joint_name(dyad.outer), dyad.link_name(dyad.slider));
+        let e = balance.placement.slide_direction(dyad.slide);
+        let u = dyad.direction(balance.placement);
+        let load = balance.total(dyad.slider).along(e);
+        let about = balance.placement.point(dyad.end(dyad.outer, dyad.rod));
+        let across = (-balance.moment(dyad.rod, about, balance.graph().one() / dyad.length())).named(
+            balance.name(&format!("{inner}_across_{rod}")),
+            format!("−ΣM({outer})/|{outer} {inner}| of the loads on {rod}"),
+        );
+        let along_slide = load.x.named(
+            balance.name(&format!("{inner}_along_slide")),
+            format!("ΣF of the loads on {slider} along the slide"),
+        );
+        let side = if across.is_zero() && along_slide.is_zero() {
+            balance.graph().zero()
+        } else {
+            let cosine = balance.pivots.dividing_cosine(u, e, &dyad.pivot_name(), &dyad.group_name());
+            let needed = across - along_slide * balance.pivots.sine(u, e);
+            (needed / cosine).named(
+                balance.name(&format!("{inner}_across_slide")),
+                format!("({inner}_across_{rod} − {inner}_along_slide (u × e))/(u·e)"),
+            )
+        };
+        let force = Framed { components: Vector::new(along_slide, side), axes: e };
+        let ground = balance.placement.direction(GROUND);
+        let loads = balance.total(dyad.rod);
+        // The pin puts its part on the slider, whose moments give the couple of the guide.
+        let force = balance.pin(dyad.inner, dyad.rod, force);
+        balance.pin(dyad.outer, dyad.rod, loads.plus(&force, ground).opposite());
+        super::slide::guide(balance, dyad.slide, dyad.slider, load.y - side);
+    }
+
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) {
+        let model = motion.model();
+        let Some(dyad) = dyad(model, group) else { return };
+        let e = motion.placement.slide_direction(dyad.slide);
+        let u = dyad.direction(motion.placement);
+        let slide = model.joint(dyad.slide);
+        let far = if slide.to.link == dyad.slider { slide.from.link } else { slide.to.link };
+        // The slider turns with the link that guides it, and B moves with that link but for the sliding:
+        // v_A + ω r u⊥ = v_C + ṡ e, multiplied by n and by u.
+        let slider_rate = motion.rate(far);
+        let at = motion.placement.slide_point(dyad.slide, dyad.slider);
+        let guided = motion.of_place(far, motion.placement.slide_point(dyad.slide, far));
+        let inner = motion.placement.point(dyad.end(dyad.inner, dyad.slider));
+        let ground = motion.placement.direction(GROUND);
+        let turning = Framed {
+            components: (inner - at).perp().scaled(slider_rate),
+            axes: motion.placement.direction(dyad.slider),
+        };
+        let carried = guided.plus(&turning, ground);
+        let outer_end = model.joint(dyad.outer).end_off(dyad.rod).unwrap_or(model.joint(dyad.outer).from);
+        let outer = motion.of_point(outer_end);
+        let gap = motion.difference(&carried, &outer);
+        let cosine = motion.pivots.dividing_cosine(u, e, &dyad.pivot_name(), &dyad.group_name());
+        let rod = dyad.link_name(dyad.rod);
+        let across = motion.part(&gap, e.perp());
+        let rate = if across.is_zero() { across } else { (across / cosine) / dyad.length() };
+        let rate = rate.named(
+            motion.name(&format!("rate_{rod}")),
+            format!("rate of rotation of {rod}: the pins' relative velocity across the slide over length times u·e"),
+        );
+        let along = motion.part(&gap, u);
+        let speed = if along.is_zero() { along } else { -(along / cosine) };
+        let speed = speed.named(
+            motion.name(&format!("speed_{}", dyad.joint_name(dyad.slide))),
+            format!(
+                "speed of {} along the slide: the pins' relative velocity along {rod} over u·e",
+                dyad.link_name(dyad.slider)
+            ),
+        );
+        let rod_at = motion.placement.point(dyad.end(dyad.outer, dyad.rod));
+        motion.found(dyad.rod, Twist { rate, at: rod_at, velocity: outer });
+        let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes: e };
+        motion.found(dyad.slider, Twist { rate: slider_rate, at, velocity: guided.plus(&sliding, ground) });
+    }
+}
+
+fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Result<(), Diagnostic> {
+    let model = dyad.model;
+    let graph = assembly.graph();
+    let (outer, inner) = (dyad.joint_name(dyad.outer), dyad.joint_name(dyad.inner));
+    let r = dyad.length();
+    if r.is_zero() {
+        let problem =
+            format!("the link `{}` has no length between its joints `{outer}` and `{inner}`", dyad.link_name(dyad.rod));
+        return Err(Diagnostic::new(model.link(dyad.rod).name.place(), problem)
+            .help("put the two points apart, or join the slider by one pin"));
+    }
+    let Some(closure) = assembly.closure(dyad.inner) else {
+        return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], outer));
+    };
+    if !matches!(closure.side, Side::Ahead | Side::Behind) || closure.of != [dyad.outer] {
+        let problem = format!(
+            "`{inner}` closes {} along the slide `{}`, from the joint `{outer}`",
+            dyad.group_name(),
+            dyad.joint_name(dyad.slide)
+        );
+        return Err(Diagnostic::new(closure.place, problem).help(format!(
+            "say whether it lies ahead of that joint or behind it\nassemble {inner}: ahead({outer});\nassemble {inner}: behind({outer});"
+        )));
+    }
+    if closure.smooth_at.is_some() {
+        return Err(Diagnostic::new(closure.place, "a dyad with a slider does not fold")
+            .help("`smooth` is for dyads of three pins: leave it out"));
+    }
+    let orientation = assembly.placement.along_slide(dyad.slide, dyad.slider);
+    assembly.placement.orient(dyad.slider, orientation);
+    let e = assembly.placement.slide_direction(dyad.slide);
+    // With the travel still zero, the way goes from A over the guide to B.
+    assembly.placement.connect(dyad.slide);
+    let outer_end = model.joint(dyad.outer).end_off(dyad.rod).unwrap_or(model.joint(dyad.outer).from);
+    let way = assembly.placement.way(outer_end, dyad.end(dyad.inner, dyad.slider));
+    let q = way.resolved_along(e);
+    let g = q.y.named(format!("g_{inner}"), format!("g = e × Q, Q from {outer} to {inner} at no travel"));
+    let h2 = ((r - g) * (r + g)).named(format!("h2_{inner}"), "h² = (r − g)(r + g)");
+    let reach = reach_across(&way, e);
+    let (h2, rounding) = if (r - reach).sign() == Some(1) {
+        (h2.known_positive(), graph.zero())
+    } else {
+        (h2, graph.epsilons(4) * (r * (r + reach)))
+    };
+    let failure = Failure::CannotAssemble { group: dyad.group_name(), joint: inner.into(), gap: (g.abs() - r).id() };
+    let h2 = h2.require_at_least(h2, -rounding, failure);
+    let side = if closure.side == Side::Ahead { 1 } else { -1 };
+    let h = side * h2.non_negative().sqrt();
+    let h = h.named(format!("h_{inner}"), "h = ±√(h²), + ahead");
+    let (cosine, sine) = (
+        (h / r).named(dyad.pivot_name(), "sin μ = u·e = h/r"),
+        (g / r).named(format!("g_over_r_{inner}"), "u·n = g/r"),
+    );
+    let pivot = cosine.where_above(h2, rounding);
+    let pivot =
+        pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding").held();
+    let name = dyad.link_name(dyad.rod);
+    let direction = Vector::new(cosine, sine).turned_by(e);
+    let direction = direction.named_direction(name, &format!("direction of {name} from {outer} to {inner}"));
+    assembly.placement.orient(dyad.rod, Orientation { direction, axis: dyad.axis() });
+    assembly.placement.connect(dyad.outer);
+    assembly.placement.connect(dyad.inner);
+    // From the guide's point to the slider's, whichever of the two is the slide's second.
+    let forwards = model.joint(dyad.slide).to.link == dyad.slider;
+    let travel = if forwards { h - q.x } else { q.x - h };
+    let slide = dyad.joint_name(dyad.slide);
+    let travel = travel.named(format!("travel_{slide}"), format!("travel of the slide {slide}: ±(h − e·Q)"));
+    assembly.placement.set_travel(dyad.slide, travel);
+    let u = dyad.direction(&assembly.placement);
+    assembly.pivots.state(u, e, None, Some(pivot));
+    assembly.dyads.push(DyadPivot { joint: dyad.inner, sine: pivot });
+    Ok(())
+}
+
+/// How far across the slide the parts of a way reach together.
+fn reach_across<'m>(way: &Way<'m>, e: Vector<'m>) -> Expr<'m> {
+    let graph = e.graph();
+    way.segments.iter().fold(graph.zero(), |sum, segment| {
+        let constant = segment.along.turned_by(segment.direction.resolved_along(e)).y;
+        let size = if constant.value().is_some() { constant.abs() } else { segment.size };
+        sum + size
+    })
+}

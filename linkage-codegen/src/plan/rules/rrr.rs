@@ -1,0 +1,561 @@
+//! The RRR dyad: two links, a pin between them, a pin at each outer end.
+//!
+//! With the outer pins P and Q, the inner pin B, `r₁ = |PB|`, `r₂ = |QB|`, `d = Q − P`, `D² = d·d`, `S = r₁ + r₂`, `M = r₁ − r₂`:
+//!
+//! ```text
+//! p = S² − D²    q = D² − M²    K = ±√(p q) = 2 r₁ r₂ sin μ         + where B is on the left of P → Q
+//! u₁ = [(D² + r₁² − r₂²) d + K d⊥] / (2 r₁ D²)                       direction P → B
+//! u₂ = [−(D² − r₁² + r₂²) d + K d⊥] / (2 r₂ D²)                      direction Q → B
+//! ```
+//!
+//! each followed by one step `u ← u (3 − u·u)/2` towards unit size. `sin μ = u₁ × u₂` is the pivot of velocities and forces, and the
+//! closure knows it better than the directions do.
+//!
+//! Forces, by the textbooks' resolution along and across the links: with `m₁`, `m₂` the moments of the loads about P and Q, the
+//! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`.
+
+use super::Rule;
+use crate::diagnostics::Diagnostic;
+use crate::graph::number::Number;
+use crate::graph::{Expr, Failure, Scalar, Vector};
+use crate::model::ids::{JointId, LinkId};
+use crate::model::{Closure, End, JointKind, Model, Side};
+use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::balance::Balance;
+use crate::plan::framed::Framed;
+use crate::plan::half_angle::{HalfAngle, first_dyad_on};
+use crate::plan::placement::{Orientation, Placement, Way};
+use crate::plan::velocities::{Motion, Twist};
+use crate::topology::Group;
+
+/// The rule.
+pub(super) struct Rrr;
+
+/// A link of the dyad: its outer pin and its inner one.
+#[derive(Clone, Copy, Debug)]
+struct Leg {
+    link: LinkId,
+    outer: JointId,
+}
+
+/// The parts of an RRR dyad.
+#[derive(Clone, Copy, Debug)]
+pub struct PinnedDyad<'a> {
+    model: &'a Model,
+    legs: [Leg; 2],
+    inner: JointId,
+}
+
+/// The group as an RRR dyad, if it is one. Its first leg is the one whose outer pin the closure names first.
+#[must_use]
+pub fn pinned_dyad<'a>(model: &'a Model, group: &Group) -> Option<PinnedDyad<'a>> {
+    let pinned = |joint: &JointId| matches!(model.joint(*joint).kind, JointKind::Revolute);
+    let ([_, _], &[inner], [a, b], []) = (&*group.links, &*group.inner, &*group.outer, &*group.inputs) else {
+        return None;
+    };
+    if ![a, b, &inner].into_iter().all(pinned) {
+        return None;
+    }
+    let leg = |outer: &JointId| Leg { link: group.own_link(model, *outer), outer: *outer };
+    let mut legs = [leg(a), leg(b)];
+    if legs[0].link == legs[1].link {
+        return None;
+    }
+    let closure = model.closures.iter().find(|c| c.joint == inner);
+    if closure.is_some_and(|c| c.of.first() == Some(b)) {
+        legs.swap(0, 1);
+    }
+    Some(PinnedDyad { model, legs, inner })
+}
+
+impl<'a> PinnedDyad<'a> {
+    /// The outer pins, on the links outside the group.
+    #[must_use]
+    pub fn outer_ends(&self) -> [End; 2] {
+        self.legs.map(|leg| {
+            let joint = self.model.joint(leg.outer);
+            joint.end_off(leg.link).unwrap_or(joint.from)
+        })
+    }
+
+    fn end(&self, joint: JointId, link: LinkId) -> End {
+        let joint = self.model.joint(joint);
+        joint.end_on(link).unwrap_or(joint.from)
+    }
+
+    /// Distance of a leg's pins.
+    fn length(&self, leg: Leg) -> Expr<'a> {
+        let (outer, inner) = (self.end(leg.outer, leg.link), self.end(self.inner, leg.link));
+        self.model.distance(leg.link, outer.point, inner.point)
+    }
+
+    /// The direction from the outer pin to the inner one, in the leg's own frame.
+    fn axis(&self, leg: Leg) -> Vector<'a> {
+        let (outer, inner) = (self.end(leg.outer, leg.link), self.end(self.inner, leg.link));
+        let (arm, length) = (self.model.local(inner) - self.model.local(outer), self.length(leg));
+        Vector::new(arm.x / length, arm.y / length)
+    }
+
+    /// The same in ground axes, of a placed dyad.
+    fn direction(&self, placement: &Placement<'a>, leg: Leg) -> Vector<'a> {
+        placement.turned(leg.link, self.axis(leg))
+    }
+
+    fn other(&self, leg: Leg) -> Leg {
+        self.legs[usize::from(leg.link == self.legs[0].link)]
+    }
+
+    fn link_name(&self, leg: Leg) -> &'a str {
+        &self.model.link(leg.link).name.text
+    }
+
+    fn joint_name(&self, joint: JointId) -> &'a str {
+        &self.model.joint(joint).name.text
+    }
+
+    fn group_name(&self) -> String {
+        self.model.link_names(&self.legs.map(|leg| leg.link))
+    }
+
+    /// The length of a leg as text: `|A B|`.
+    fn length_name(&self, leg: Leg) -> String {
+        format!("|{} {}|", self.joint_name(leg.outer), self.joint_name(self.inner))
+    }
+
+    fn sum_name(&self) -> String {
+        let [first, second] = self.legs.map(|leg| self.length_name(leg));
+        format!("({first} + {second})")
+    }
+
+    fn difference_name(&self) -> String {
+        let [first, second] = self.legs.map(|leg| self.length_name(leg));
+        format!("({first} − {second})")
+    }
+
+    fn separation_meaning(&self) -> String {
+        let [first, second] = self.legs.map(|leg| self.joint_name(leg.outer));
+        format!("d, from {first} to {second}")
+    }
+
+    /// The name of the pivot.
+    fn pivot_name(&self) -> String {
+        format!("sin_mu_{}", self.joint_name(self.inner))
+    }
+}
+
+impl Rule for Rrr {
+    fn class(&self) -> &'static str {
+        "RRR dyad"
+    }
+
+    fn fits(&self, model: &Model, group: &Group) -> bool {
+        pinned_dyad(model, group).is_some()
+    }
+
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> Result<(), Diagnostic> {
+        let Some(dyad) = pinned_dyad(assembly.model(), group) else { return Ok(()) };
+        close(assembly, group, &dyad)
+    }
+
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) {
+        let model = balance.model();
+        let Some(dyad) = pinned_dyad(model, group) else { return };
+        let [first, second] = dyad.legs;
+        let [u1, u2] = dyad.legs.map(|leg| dyad.direction(balance.placement, leg));
+        // Moments of the loads about the outer pins, over the lengths.
+        let [across_first, across_second] = dyad.legs.map(|leg| {
+            let about = balance.placement.point(dyad.end(leg.outer, leg.link));
+            balance.moment(leg.link, about, balance.graph().one() / dyad.length(leg))
+        });
+        let (inner, link) = (dyad.joint_name(dyad.inner), dyad.link_name(first));
+        let (outer, other) = (dyad.joint_name(first.outer), dyad.joint_name(second.outer));
+        let across = (-across_first).named(
+            balance.name(&format!("{inner}_across_{link}")),
+            format!("−ΣM({outer})/|{outer} {inner}| of the loads on {link}"),
+        );
+        let needed = across_second.named(
+            balance.name(&format!("{inner}_across_{}", dyad.link_name(second))),
+            format!("ΣM({other})/|{other} {inner}| of the loads on {}", dyad.link_name(second)),
+        );
+        let along = if across.is_zero() && needed.is_zero() {
+            balance.graph().zero()
+        } else {
+            let cosine = balance
+                .pivots
+                .cosine(u1, u2)
+                .named(format!("cos_mu_{inner}"), format!("cos μ between {link} and {}", dyad.link_name(second)));
+            let sine = balance.pivots.dividing_sine(u1, u2, &dyad.pivot_name(), &dyad.group_name());
+            ((across * cosine - needed) / sine).named(
+                balance.name(&format!("{inner}_along_{link}")),
+                format!("({inner}_across_{link} cos μ − {inner}_across_{})/sin μ", dyad.link_name(second)),
+            )
+        };
+        let force = Framed { components: Vector::new(along, across), axes: u1 };
+        let ground = balance.placement.direction(crate::model::ids::GROUND);
+        let loads = [first, second].map(|leg| balance.total(leg.link));
+        let force = balance.pin(dyad.inner, first.link, force);
+        balance.pin(first.outer, first.link, loads[0].plus(&force, ground).opposite());
+        balance.pin(second.outer, second.link, loads[1].plus(&force.opposite(), ground).opposite());
+    }
+
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) {
+        let model = motion.model();
+        let Some(dyad) = pinned_dyad(model, group) else { return };
+        let [u1, u2] = dyad.legs.map(|leg| dyad.direction(motion.placement, leg));
+        let [p, q] = dyad.outer_ends().map(|end| motion.of_point(end));
+        // v_P + ω₁ r₁ u₁⊥ = v_Q + ω₂ r₂ u₂⊥, multiplied by u₂ and by u₁.
+        let gap = motion.difference(&q, &p);
+        let sine = motion.pivots.dividing_sine(u1, u2, &dyad.pivot_name(), &dyad.group_name());
+        let rates = [(u2, dyad.legs[0], p), (u1, dyad.legs[1], q)].map(|(along, leg, velocity)| {
+            let part = motion.part(&gap, along);
+            let rate = if part.is_zero() { part } else { (part / sine) / dyad.length(leg) };
+            let name = dyad.link_name(leg);
+            let other = dyad.link_name(dyad.other(leg));
+            let rate = rate.named(
+                motion.name(&format!("rate_{name}")),
+                format!(
+                    "rate of rotation of {name}: the pins' relative velocity along {other} over length times sin μ"
+                ),
+            );
+            (leg, rate, velocity)
+        });
+        for (leg, rate, velocity) in rates {
+            let at = motion.placement.point(dyad.end(leg.outer, leg.link));
+            motion.found(leg.link, Twist { rate, at, velocity });
+        }
+    }
+}
+
+/// What the closure needs to know of the outer pins.
+struct Closing<'m> {
+    /// From the first outer pin to the second.
+    d: Vector<'m>,
+    /// Its square.
+    d2: Expr<'m>,
+    /// `K = ±√(p q)`.
+    k: Expr<'m>,
+    /// `sin μ = K/(2 r₁ r₂)`, zero where it is no larger than its rounding.
+    pivot: Expr<'m>,
+}
+
+fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) -> Result<(), Diagnostic> {
+    let model = dyad.model;
+    let [first, second] = dyad.legs;
+    for leg in dyad.legs {
+        if dyad.length(leg).is_zero() {
+            let (outer, inner) = (dyad.joint_name(leg.outer), dyad.joint_name(dyad.inner));
+            let problem =
+                format!("the link `{}` has no length between its joints `{outer}` and `{inner}`", dyad.link_name(leg));
+            return Err(Diagnostic::new(model.link(leg.link).name.place(), problem)
+                .help("put the two points apart, or join the two other links by one pin"));
+        }
+    }
+    let outer_names = [first, second].map(|leg| dyad.joint_name(leg.outer));
+    let of = format!("{} -> {}", outer_names[0], outer_names[1]);
+    let Some(closure) = assembly.closure(dyad.inner) else {
+        return Err(assembly.missing_closure(group, dyad.inner, [Side::Left, Side::Right], &of));
+    };
+    check_closure(dyad, closure, &of)?;
+    let [p, q] = dyad.outer_ends();
+    let closing = match half_angle(assembly, dyad, [p, q]) {
+        Some((arms, swapped)) => by_half_angle(dyad, closure, &arms, swapped)?,
+        None => {
+            if closure.smooth_at.is_some() {
+                return Err(not_folding(
+                    dyad,
+                    closure,
+                    "its outer joints do not hang on the two links of one driven pin",
+                ));
+            }
+            by_distance(dyad, closure, &assembly.placement.way(p, q))
+        }
+    };
+    let (r1, r2) = (dyad.length(first), dyad.length(second));
+    let name = dyad.joint_name(dyad.inner);
+    let difference = r1.squared() - r2.squared();
+    let inverse = (assembly.graph().one() / closing.d2).named(format!("inverse_D2_{name}"), format!("1/D2_{name}"));
+    let legs = [(first, r1, r2, closing.d2 + difference, 1), (second, r2, r1, closing.d2 - difference, -1)];
+    for (leg, own, other, sum, sense) in legs {
+        let link = dyad.link_name(leg);
+        let (mine, its) = (dyad.length_name(leg), dyad.length_name(dyad.other(leg)));
+        let sum = sum.named(format!("sum_{link}"), format!("D2_{name} + {mine}² − {its}²"));
+        let scale = (inverse / (2 * own)).named(format!("scale_{link}"), format!("1/(2 {mine} D2_{name})"));
+        let along = (sum * scale)
+            .named(format!("along_{link}"), format!("sum_{link} · scale_{link}, the part of the direction along d"));
+        let across =
+            (closing.k * scale).named(format!("across_{link}"), format!("±K_{name} · scale_{link}, the part across d"));
+        let rough = closing.d.scaled(sense * along) + closing.d.perp().scaled(across);
+        let rough = rough.named_direction(&format!("rough_{link}"), &format!("±along_{link} d + across_{link} d⊥"));
+        let direction = normalised(rough, own, other, link);
+        let meaning = format!("direction of {link} from {} to {name}", dyad.joint_name(leg.outer));
+        let direction = direction.named_direction(link, &meaning);
+        assembly.placement.orient(leg.link, Orientation { direction, axis: dyad.axis(leg) });
+        assembly.placement.connect(leg.outer);
+    }
+    assembly.placement.connect(dyad.inner);
+    let [u1, u2] = dyad.legs.map(|leg| dyad.direction(&assembly.placement, leg));
+    let pivot = closing.pivot.held();
+    assembly.pivots.state(u1, u2, Some(pivot), None);
+    assembly.dyads.push(DyadPivot { joint: dyad.inner, sine: pivot });
+    Ok(())
+}
+
+fn check_closure(dyad: &PinnedDyad<'_>, closure: &Closure, of: &str) -> Result<(), Diagnostic> {
+    let outer = dyad.legs.map(|leg| leg.outer);
+    let fits = matches!(closure.side, Side::Left | Side::Right) && closure.of == outer;
+    if fits {
+        return Ok(());
+    }
+    let joint = dyad.joint_name(dyad.inner);
+    let problem = format!("`{joint}` closes {} between the joints {}", dyad.group_name(), of.replace(" -> ", " and "));
+    Err(Diagnostic::new(closure.place, problem)
+        .help(format!("say on which side of the line between them it lies\nassemble {joint}: left({of});\nassemble {joint}: right({of});")))
+}
+
+fn not_folding(dyad: &PinnedDyad<'_>, closure: &Closure, why: &str) -> Diagnostic {
+    let joint = dyad.joint_name(dyad.inner);
+    Diagnostic::new(closure.place, format!("the dyad at `{joint}` does not fold: {why}"))
+        .help("without a fold there is nothing to go through smoothly: leave `smooth` out")
+        .note("a dyad folds with its driver where the lengths of its links and of the two arms satisfy r₁ + r₂ = a + b or |r₁ − r₂| = |a − b|, exactly")
+}
+
+/// The half-angle form, if the outer pins hang on the two links of a driven pin, and whether the first of them is on the unmoved one.
+///
+/// It costs nothing for the dyad for which the drive's angle is halved anyway; for another one it is taken where that dyad comes near
+/// its folds.
+fn half_angle<'m>(assembly: &Assembly<'m>, dyad: &PinnedDyad<'m>, [p, q]: [End; 2]) -> Option<(HalfAngle<'m>, bool)> {
+    let model = dyad.model;
+    [(p, q, false), (q, p, true)].into_iter().find_map(|(moved, other, swapped)| {
+        let drive = model.drives.iter().position(|drive| {
+            let joint = model.joint(drive.joint);
+            let group = assembly.topology.motion.iter().find(|g| g.links == [moved.link]);
+            joint.end_on(moved.link).is_some() && group.is_some_and(|g| g.outer == [drive.joint])
+        })?;
+        let arms = HalfAngle::between(assembly, moved, other)?;
+        let first = first_dyad_on(assembly, crate::model::ids::DriveId::new(drive), moved.link) == Some((moved, other));
+        (first || comes_near_a_fold(dyad, &arms)).then_some((arms, swapped))
+    })
+}
+
+/// Whether constant lengths let `p` or `q` fall below a sixteenth of its largest value.
+fn comes_near_a_fold(dyad: &PinnedDyad<'_>, arms: &HalfAngle<'_>) -> bool {
+    let [r1, r2] = dyad.legs.map(|leg| dyad.length(leg));
+    let (kp, kq) = fold_margins(arms, r1, r2);
+    let span = 4 * (arms.a * arms.b);
+    [kp, kq].into_iter().any(|k| (16 * k - span).sign() != Some(1))
+}
+
+/// `k_p = S² − (a + b)²` and `k_q = (a − b)² − M²`, as products that keep small differences: the least values of p and q.
+fn fold_margins<'m>(arms: &HalfAngle<'m>, r1: Expr<'m>, r2: Expr<'m>) -> (Expr<'m>, Expr<'m>) {
+    let (s, m) = (r1 + r2, r1 - r2);
+    let (sum, difference) = (arms.a + arms.b, arms.b - arms.a);
+    ((s - sum) * (s + sum), (difference - m) * (difference + m))
+}
+
+fn by_half_angle<'m>(
+    dyad: &PinnedDyad<'m>,
+    closure: &Closure,
+    arms: &HalfAngle<'m>,
+    swapped: bool,
+) -> Result<Closing<'m>, Diagnostic> {
+    let graph = arms.a.graph();
+    let joint = dyad.joint_name(dyad.inner);
+    let [r1, r2] = dyad.legs.map(|leg| dyad.length(leg));
+    let (c, s) = (arms.half.x, arms.half.y);
+    let (kp, kq) = fold_margins(arms, r1, r2);
+    let span = 4 * (arms.a * arms.b);
+    let (sum, difference) = (dyad.sum_name(), dyad.difference_name());
+    let spread = (span * arms.sine_squared()).named(format!("spread_{joint}"), "4ab sin²(ψ/2), a and b the arms of ψ");
+    let p = (kp + span * c.squared()).named(format!("p_{joint}"), format!("{sum}² − D2_{joint}, as k + 4ab cos²(ψ/2)"));
+    let q = (kq + spread).named(format!("q_{joint}"), format!("D2_{joint} − {difference}², as k + spread_{joint}"));
+    let d = arms.separation();
+    let d = if swapped { -d } else { d }.named(&format!("d_{joint}"), &dyad.separation_meaning());
+    // ψ itself is rounded: at half a turn, cos(ψ/2) of the rounded angle is not zero.
+    let theta = graph.symbol(crate::graph::Symbol::Drive(arms.drive)).abs();
+    let fixed = graph.constant(&arms.phase.abs().add(&Number::one()));
+    let rounding = graph.epsilons(2) * (theta + fixed);
+    let apart = arms.b - arms.a;
+    let d2 = (apart.squared() + spread).named(format!("D2_{joint}"), format!("d·d = (b − a)² + spread_{joint}"));
+    let d2 = if apart.sign().is_some_and(|s| s != 0) || (r1 - r2).sign().is_some_and(|s| s != 0) {
+        // Arms or legs of different lengths keep the outer pins apart.
+        d2.known_positive()
+    } else {
+        let failure = Failure::CoincidentPivots { group: dyad.group_name(), joint: joint.into() };
+        d2.require_above(d2, (rounding * (arms.a + arms.b)).squared(), failure)
+    };
+    // Where k is exactly zero, the root of p or q is that of its only term, and in a smooth motion keeps its sign through the fold.
+    let smooth = closure.smooth_at.is_some();
+    let folds = [kp.is_zero(), kq.is_zero()];
+    if smooth && folds == [false, false] {
+        return Err(not_folding(dyad, closure, "its lengths leave a gap"));
+    }
+    let (p, q) = (assembled(dyad, p, kp, true, d2), assembled(dyad, q, kq, false, d2));
+    let signed = |part: Expr<'m>| {
+        if smooth { part } else { part.abs() }
+    };
+    let root_span = span.sqrt();
+    let root = match folds {
+        [true, true] => signed(c) * signed(s),
+        [true, false] => signed(c) * q.non_negative().sqrt(),
+        [false, true] => signed(s) * p.non_negative().sqrt(),
+        [false, false] => (p.non_negative() * q.non_negative()).sqrt(),
+    };
+    // A factor of p or q that is a square has been taken out of its root.
+    let factor = match folds {
+        [true, true] => span,
+        [false, false] => graph.one(),
+        _ => root_span,
+    };
+    let root = root.named(format!("root_{joint}"), format!("√(p_{joint} q_{joint}) but for constant factors"));
+    let sign = side_sign(dyad, closure, arms, folds)?;
+    let k = sign * (factor * root).named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
+    let sine = sine_of(dyad, factor * root, sign);
+    let mut pivot = sine;
+    for (part, fold, value, k) in [(c, folds[0], p, kp), (s, folds[1], q, kq)] {
+        pivot = if fold {
+            pivot.where_above(part.abs().named(format!("fold_{joint}"), "distance from the fold"), rounding)
+        } else {
+            pivot.where_above(value, fold_rounding(dyad, k))
+        };
+    }
+    let pivot = pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding");
+    Ok(Closing { d, d2, k, pivot })
+}
+
+/// `sin μ = ±K/(2 r₁ r₂)`.
+fn sine_of<'m>(dyad: &PinnedDyad<'m>, k: Expr<'m>, sign: i64) -> Expr<'m> {
+    let [r1, r2] = dyad.legs.map(|leg| dyad.length(leg));
+    let [n1, n2] = dyad.legs.map(|leg| dyad.length_name(leg));
+    let joint = dyad.joint_name(dyad.inner);
+    sign * (k / (2 * (r1 * r2))).named(dyad.pivot_name(), format!("sin μ at {joint} = K_{joint}/(2 {n1} {n2})"))
+}
+
+/// The rounding of `p` or `q` in the half-angle form: that of its constant, of which a positive one has none that matters.
+fn fold_rounding<'m>(dyad: &PinnedDyad<'m>, k: Expr<'m>) -> Expr<'m> {
+    let graph = k.graph();
+    match k.sign() {
+        Some(1) => graph.zero(),
+        Some(_) => graph.epsilons(4) * k.abs(),
+        None => {
+            let [r1, r2] = dyad.legs.map(|leg| dyad.length(leg));
+            graph.epsilons(4) * (r1 + r2).squared()
+        }
+    }
+}
+
+/// `p` or `q`, checked: below its rounding the dyad cannot be assembled.
+fn assembled<'m>(dyad: &PinnedDyad<'m>, value: Expr<'m>, k: Expr<'m>, far: bool, d2: Expr<'m>) -> Expr<'m> {
+    value.require_at_least(value, -fold_rounding(dyad, k), gap(dyad, value, far, d2))
+}
+
+/// The failure to assemble, with the gap: how much too far apart (`p < 0`) or too close together (`q < 0`) the outer pins are.
+fn gap<'m>(dyad: &PinnedDyad<'m>, value: Expr<'m>, far: bool, d2: Expr<'m>) -> Failure {
+    let [r1, r2] = dyad.legs.map(|leg| dyad.length(leg));
+    let limit = if far { r1 + r2 } else { (r1 - r2).abs() };
+    let gap = -value / (d2.sqrt() + limit);
+    Failure::CannotAssemble { group: dyad.group_name(), joint: dyad.joint_name(dyad.inner).into(), gap: gap.id() }
+}
+
+/// The sign of K: of the side, and in a smooth motion of the fold factor at the stated angle.
+fn side_sign(
+    dyad: &PinnedDyad<'_>,
+    closure: &Closure,
+    arms: &HalfAngle<'_>,
+    folds: [bool; 2],
+) -> Result<i64, Diagnostic> {
+    let side = if closure.side == Side::Left { 1 } else { -1 };
+    let Some(at) = closure.smooth_at else { return Ok(side) };
+    let Some(at) = dyad.model.graph.constant_value(at) else {
+        return Err(Diagnostic::new(closure.place, "the angle at which a smooth closure starts must be a constant"));
+    };
+    let (cosine, sine) = arms.half_at(&at);
+    let sign = |part: &Number, counts: bool| if counts { i64::from(part.signum()) } else { 1 };
+    match sign(&cosine, folds[0]) * sign(&sine, folds[1]) {
+        0 => Err(Diagnostic::new(closure.place, "at this angle the linkage is folded: it has no side there")
+            .help("state the side at an angle away from the folds")),
+        sign => Ok(side * sign),
+    }
+}
+
+/// The general form: from the vector between the outer pins.
+fn by_distance<'m>(dyad: &PinnedDyad<'m>, closure: &Closure, way: &Way<'m>) -> Closing<'m> {
+    let joint = dyad.joint_name(dyad.inner);
+    let [r1, r2] = dyad.legs.map(|leg| dyad.length(leg));
+    let graph = r1.graph();
+    let (s, m) = (r1 + r2, (r1 - r2).abs());
+    let d = way.vector().named(&format!("d_{joint}"), &dyad.separation_meaning());
+    let d2 = d.squared().named(format!("D2_{joint}"), "d·d");
+    let p = (s.squared() - d2).named(format!("p_{joint}"), format!("{}² − D2_{joint}", dyad.sum_name()));
+    let q = (d2 - m.squared()).named(format!("q_{joint}"), format!("D2_{joint} − {}²", dyad.difference_name()));
+    // Near p = 0, D is near S, and near q = 0 it is near M; d is rounded to the length of its way.
+    let length = way.length();
+    let (least, most) = reach(way);
+    let never = |bound: Option<Expr<'m>>| bound.and_then(Expr::sign) == Some(1);
+    let (p, p_rounding) = if never(most.map(|most| s - most)) {
+        (p.known_positive(), graph.zero())
+    } else {
+        (p, graph.epsilons(2) * (s.squared() + s * length))
+    };
+    let (q, q_rounding) = if never(least.map(|least| least - m)) {
+        (q.known_positive(), graph.zero())
+    } else {
+        (q, graph.epsilons(2) * (m.squared() + m * length))
+    };
+    let p = p.require_at_least(p, -p_rounding, gap(dyad, p, true, d2));
+    let q = q.require_at_least(q, -q_rounding, gap(dyad, q, false, d2));
+    // Coincident outer pins leave the direction open. Where |r₁ − r₂| keeps them apart, q has seen to that.
+    let close = (2 * graph.epsilons(1) * length).squared();
+    let apart = never(least) || (m - graph.epsilons(4) * length).sign() == Some(1);
+    let d2 = if apart {
+        d2.known_positive()
+    } else {
+        let failure = Failure::CoincidentPivots { group: dyad.group_name(), joint: joint.into() };
+        d2.require_above(d2, close, failure)
+    };
+    let side = if closure.side == Side::Left { 1 } else { -1 };
+    let root =
+        (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
+    let k = side * root;
+    let sine = sine_of(dyad, root, side);
+    let pivot = sine.where_above(p, p_rounding).where_above(q, q_rounding);
+    let pivot = pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding");
+    Closing { d, d2, k, pivot }
+}
+
+/// The least and the largest distance that constant parts of a way can make up.
+fn reach<'m>(way: &Way<'m>) -> (Option<Expr<'m>>, Option<Expr<'m>>) {
+    let sizes: Option<Vec<Number>> = way.segments.iter().map(|s| s.size.value()).collect();
+    let Some(sizes) = sizes else { return (None, None) };
+    let sum = sizes.iter().fold(Number::zero(), |sum, size| sum.add(size));
+    let longest = sizes
+        .iter()
+        .fold(Number::zero(), |longest, size| if size.compare(&longest).is_gt() { size.clone() } else { longest });
+    let graph = way.length().graph();
+    let least = longest.mul(&Number::integer(2)).sub(&sum);
+    let least = if least.signum() < 0 { Number::zero() } else { least };
+    (Some(graph.constant(&least)), Some(graph.constant(&sum)))
+}
+
+/// One step towards unit size, which squares the error; for legs so different that this does not suffice, by root and division.
+fn normalised<'m>(rough: Vector<'m>, own: Expr<'m>, other: Expr<'m>, link: &str) -> Vector<'m> {
+    let graph = rough.graph();
+    let square = rough.squared();
+    if lengths_are_alike(graph.scalar(), own, other) {
+        let three_halves = graph.constant(&Number::ratio(3, 2));
+        let half = graph.constant(&Number::ratio(1, 2));
+        let factor = three_halves - half * square;
+        rough.scaled(factor.named(format!("unit_{link}"), format!("(3 − u·u)/2, u = rough_{link}")))
+    } else {
+        let factor = graph.one() / square.sqrt();
+        rough.scaled(factor.named(format!("unit_{link}"), format!("1/|u|, u = rough_{link}")))
+    }
+}
+
+/// Whether the ratio of two constant lengths is at most `0.8/√ε`.
+fn lengths_are_alike(scalar: Scalar, a: Expr<'_>, b: Expr<'_>) -> bool {
+    let (Some(a), Some(b)) = (a.value(), b.value()) else { return false };
+    let (larger, smaller) = if a.compare(&b).is_gt() { (a, b) } else { (b, a) };
+    // ratio² ε ≤ 0.64
+    let limit = Number::ratio(64, 100).mul(&smaller).mul(&smaller);
+    larger.mul(&larger).mul(&scalar.epsilon()).compare(&limit).is_le()
+}

@@ -1,0 +1,307 @@
+//! The results of every scene, by its method.
+
+use super::rules::Rule;
+use super::{Assembly, Balance, Meaning, Motion, Output, angle, heading, joint_name};
+use crate::equations::loads::{Action, Case, cases_of};
+use crate::model::ids::{GROUND, JointId, LoadId, UnknownId};
+use crate::model::units::Kind;
+use crate::model::{JointKind, LoadKind, Method, Model, Scene, UnknownKind, Wanted};
+use crate::plan::output::Field;
+use crate::topology::{Group, Topology};
+
+/// What the solution of forces needs.
+struct Forces<'a, 'm> {
+    model: &'m Model,
+    groups: &'a [Group],
+    rules: &'a [&'static dyn Rule],
+    assembly: &'a Assembly<'m>,
+}
+
+/// The results of all scenes.
+pub(super) fn outputs(
+    model: &Model,
+    topology: &Topology,
+    assembly: &Assembly<'_>,
+    rules: &[&'static dyn Rule],
+) -> Vec<Output> {
+    let forces = Forces { model, groups: &topology.forces, rules, assembly };
+    model
+        .scenes
+        .iter()
+        .map(|scene| match scene.method {
+            Method::Position => position(&forces, scene),
+            Method::Equilibrium => forces.equilibrium(scene),
+            Method::Superposition => forces.superposition(scene),
+            Method::VirtualWork => forces.virtual_work(scene),
+            Method::Verify => Output::Record(Vec::new()),
+        })
+        .collect()
+}
+
+fn position(forces: &Forces<'_, '_>, scene: &Scene) -> Output {
+    let (model, placement) = (forces.model, &forces.assembly.placement);
+    let unit = Kind::Length.unit(&model.units);
+    model.graph.begin_section("Places");
+    let fields = scene.results.iter().filter_map(|wanted| match *wanted {
+        Wanted::Joint(joint) => Some(Field {
+            name: joint_name(model, joint).into(),
+            doc: format!("Place of the joint `{}`, {unit}, ground axes.", joint_name(model, joint)),
+            value: Output::vector(placement.place(model.joint(joint).to), Meaning::Place),
+        }),
+        Wanted::Point(end) => Some(Field {
+            name: model.end_name(end).replace('.', "_"),
+            doc: format!("Place of the point `{}`, {unit}, ground axes.", model.end_name(end)),
+            value: Output::vector(placement.place(end), Meaning::Place),
+        }),
+        Wanted::Angle(link) => Some(Field {
+            name: format!("{}_angle", model.link(link).name),
+            doc: format!(
+                "Angle of the x axis of the frame of `{}`, rad, counter-clockwise from the ground's.",
+                model.link(link).name
+            ),
+            value: Output::scalar(angle(forces.assembly, link), Meaning::Angle),
+        }),
+        Wanted::Unknown(_) | Wanted::Load(_) => None,
+    });
+    Output::Record(fields.collect())
+}
+
+impl<'m> Forces<'_, 'm> {
+    /// The equilibrium under some actions.
+    fn balance(&self, prefix: &str, actions: &[Action]) -> Balance<'m, '_> {
+        let case =
+            if prefix.is_empty() { "forces".to_owned() } else { format!("forces by {}", prefix.trim_end_matches('_')) };
+        let mut balance = Balance::new(&self.assembly.placement, &self.assembly.pivots, prefix.into(), actions);
+        for (index, (group, rule)) in self.groups.iter().zip(self.rules).enumerate().rev() {
+            self.model.graph.begin_section(heading(self.model, index, group, rule.class(), &case));
+            rule.balance(&mut balance, group);
+        }
+        balance
+    }
+
+    /// All actions of some loads.
+    fn actions(&self, loads: &[LoadId]) -> Vec<Action> {
+        loads.iter().flat_map(|load| cases_of(self.model, *load)).flat_map(|(_, actions)| actions).collect()
+    }
+
+    fn equilibrium(&self, scene: &Scene) -> Output {
+        let prefix = self.prefix_of(scene);
+        let balance = self.balance(&prefix, &self.actions(&scene.loads));
+        Output::Record(self.results(&balance, &scene.results))
+    }
+
+    /// Scenes under other loads than all name their quantities apart.
+    fn prefix_of(&self, scene: &Scene) -> String {
+        match scene.loads.as_slice() {
+            all if all.len() == self.model.loads.len() => String::new(),
+            [one] => format!("{}_", self.model.load(*one).name),
+            _ => format!("{}_", scene.name),
+        }
+    }
+
+    fn results(&self, balance: &Balance<'m, '_>, wanted: &[Wanted]) -> Vec<Field> {
+        let fields = wanted.iter().filter_map(|wanted| match *wanted {
+            Wanted::Unknown(unknown) => Some(Field {
+                name: self.model.unknown(unknown).name.clone(),
+                doc: unknown_doc(self.model, unknown),
+                value: Output::scalar(balance.effort(unknown), unknown_meaning(self.model, unknown)),
+            }),
+            Wanted::Joint(joint) => Some(Field {
+                name: joint_name(self.model, joint).into(),
+                doc: reaction_doc(self.model, joint),
+                value: reaction(balance, joint),
+            }),
+            _ => None,
+        });
+        fields.collect()
+    }
+
+    fn superposition(&self, scene: &Scene) -> Output {
+        let fields = scene.loads.iter().map(|load| {
+            let name = &self.model.load(*load).name;
+            let cases = cases_of(self.model, *load);
+            let one = |case: &Case, actions: &[Action]| {
+                let balance = self.balance(&case_prefix(self.model, case), actions);
+                Output::Record(self.results(&balance, &scene.results))
+            };
+            let value = match self.model.load(*load).kind {
+                LoadKind::Gravity { .. } => {
+                    let weights = cases.iter().filter_map(|(case, actions)| {
+                        let link = &self.model.link(case.link?).name;
+                        let doc = format!("By the weight of `{link}`.");
+                        Some(Field { name: link.text.clone(), doc, value: one(case, actions) })
+                    });
+                    Output::Record(weights.collect())
+                }
+                _ => cases.first().map_or_else(|| Output::Record(Vec::new()), |(case, actions)| one(case, actions)),
+            };
+            Field { name: name.text.clone(), doc: format!("By `{name}` alone."), value }
+        });
+        Output::Record(fields.collect())
+    }
+
+    fn virtual_work(&self, scene: &Scene) -> Output {
+        let unknowns: Vec<UnknownId> = (0..self.model.unknowns.len()).map(UnknownId::new).collect();
+        let single = unknowns.len() == 1;
+        let prefix =
+            |unknown: UnknownId| if single { String::new() } else { format!("{}_", self.model.unknown(unknown).name) };
+        let motions: Vec<Motion<'m, '_>> =
+            unknowns.iter().map(|unknown| self.motion(*unknown, prefix(*unknown))).collect();
+        self.model.graph.begin_section("Virtual work");
+        let loads =
+            Balance::new(&self.assembly.placement, &self.assembly.pivots, String::new(), &self.actions(&scene.loads));
+        let fields = scene.results.iter().filter_map(|wanted| match *wanted {
+            Wanted::Unknown(unknown) => {
+                let motion = &motions[unknown.index()];
+                let power = self
+                    .model
+                    .moving_links()
+                    .fold(self.model.graph.zero(), |sum, link| sum + motion.power_of(&loads, link));
+                let name = &self.model.unknown(unknown).name;
+                let effort = (-power).named(name.clone(), "−(Σ F·v + Σ M ω), at unit rate of its own coordinate");
+                let value = Output::scalar(effort, unknown_meaning(self.model, unknown));
+                Some(Field { name: name.clone(), doc: unknown_doc(self.model, unknown), value })
+            }
+            Wanted::Load(load) => {
+                let name = self.model.load(load).name.text.clone();
+                let doc = format!("Term of `{name}`: velocity along it for unit rate, and the work.");
+                let value = if single {
+                    self.terms(&motions[0], load)
+                } else {
+                    let each = motions.iter().map(|motion| {
+                        let unknown = &self.model.unknown(motion.unknown).name;
+                        let doc = format!("In the motion at unit rate of the coordinate of `{unknown}`.");
+                        Field { name: unknown.clone(), doc, value: self.terms(motion, load) }
+                    });
+                    Output::Record(each.collect())
+                };
+                Some(Field { name, doc, value })
+            }
+            _ => None,
+        });
+        Output::Record(fields.collect())
+    }
+
+    fn motion(&self, unknown: UnknownId, prefix: String) -> Motion<'m, '_> {
+        let mut motion = Motion::new(&self.assembly.placement, &self.assembly.pivots, unknown, prefix);
+        for (index, (group, rule)) in self.groups.iter().zip(self.rules).enumerate() {
+            self.model.graph.begin_section(heading(self.model, index, group, rule.class(), "virtual velocities"));
+            rule.follow(&mut motion, group);
+        }
+        motion
+    }
+
+    /// The term of a load; of gravity one for each link.
+    fn terms(&self, motion: &Motion<'m, '_>, load: LoadId) -> Output {
+        let cases = cases_of(self.model, load);
+        match self.model.load(load).kind {
+            LoadKind::Gravity { .. } => {
+                let each = cases.iter().filter_map(|(case, actions)| {
+                    let link = &self.model.link(case.link?).name;
+                    let doc = format!("Term of the weight of `{link}`.");
+                    Some(Field { name: link.text.clone(), doc, value: term(motion, actions) })
+                });
+                Output::Record(each.collect())
+            }
+            _ => cases.first().map_or_else(|| Output::Record(Vec::new()), |(_, actions)| term(motion, actions)),
+        }
+    }
+}
+
+/// Velocity along the load, and the work: `v = v·F/|F|`, `F v`; of a moment the relative rate, `M ω`.
+fn term(motion: &Motion<'_, '_>, actions: &[Action]) -> Output {
+    let graph = motion.graph();
+    match actions {
+        [Action::Force { link, at, force, frame }] => {
+            let velocity = motion.of_place(*link, motion.placement.carried(*link, at.vector(graph)));
+            let velocity = velocity.along(motion.placement.direction(*frame));
+            let force = motion.placement.carried(*frame, force.vector(graph));
+            let along = velocity.dot(graph.unit(force));
+            Output::Term { velocity: along.id(), work: velocity.dot(force).id(), meaning: Meaning::ForceTerm }
+        }
+        couples => {
+            let work = couples.iter().fold(graph.zero(), |sum, action| sum + motion.power(action));
+            let rate = couples.iter().fold((graph.zero(), 1), |(sum, sign), action| match action {
+                Action::Couple { link, .. } if sign > 0 => (sum + motion.rate(*link), -1),
+                Action::Couple { link, .. } => (sum - motion.rate(*link), -1),
+                Action::Force { .. } => (sum, sign),
+            });
+            Output::Term { velocity: rate.0.id(), work: work.id(), meaning: Meaning::MomentTerm }
+        }
+    }
+}
+
+fn case_prefix(model: &Model, case: &Case) -> String {
+    let load = &model.load(case.load).name;
+    match case.link {
+        Some(link) => format!("{load}_{}_", model.link(link).name),
+        None => format!("{load}_"),
+    }
+}
+
+/// The reaction of a joint, in ground axes.
+fn reaction(balance: &Balance<'_, '_>, joint: JointId) -> Output {
+    let name = balance.name(joint_name(balance.model(), joint));
+    let reaction = balance.reaction(joint);
+    let force = reaction.force.ground().named(&name, &format!("{name} in ground axes"));
+    match balance.model().joint(joint).kind {
+        JointKind::Revolute => Output::vector(force, Meaning::Force),
+        JointKind::Prismatic { .. } => {
+            let normal = reaction.force.along(balance.placement.slide_direction(joint)).y;
+            let couple = reaction.couple.unwrap_or_else(|| balance.graph().zero());
+            Output::Slider { force: [force.x.id(), force.y.id()], normal: normal.id(), couple: couple.id() }
+        }
+    }
+}
+
+fn unknown_meaning(model: &Model, unknown: UnknownId) -> Meaning {
+    match model.unknown(unknown).kind {
+        UnknownKind::Torque(..) => Meaning::Moment,
+        UnknownKind::Force { .. } => Meaning::Force,
+        UnknownKind::Drive(drive) => match model.joint(model.drive(drive).joint).kind {
+            JointKind::Revolute => Meaning::Moment,
+            JointKind::Prismatic { .. } => Meaning::Force,
+        },
+    }
+}
+
+fn unknown_doc(model: &Model, unknown: UnknownId) -> String {
+    let (force, moment) = (Kind::Force.unit(&model.units), Kind::Moment.unit(&model.units));
+    let name = |link: crate::model::ids::LinkId| &model.link(link).name.text;
+    match model.unknown(unknown).kind {
+        UnknownKind::Torque(from, to) => {
+            format!("Torque on `{}` by `{}`, {moment}, counter-clockwise.", name(to), name(from))
+        }
+        UnknownKind::Force { at, frame, .. } => {
+            let turning = if frame == GROUND { String::new() } else { format!(", which turns with `{}`", name(frame)) };
+            format!("Force on `{}` along its line{turning}, {force}.", model.end_name(at))
+        }
+        UnknownKind::Drive(drive) => {
+            let joint = model.joint(model.drive(drive).joint);
+            let (from, to) = (name(joint.from.link), name(joint.to.link));
+            match joint.kind {
+                JointKind::Revolute => {
+                    format!("Torque on `{to}` by `{from}` at `{}`, {moment}, counter-clockwise.", joint.name)
+                }
+                JointKind::Prismatic { .. } => {
+                    format!("Force on `{to}` by `{from}` along the slide `{}`, {force}.", joint.name)
+                }
+            }
+        }
+    }
+}
+
+fn reaction_doc(model: &Model, joint: JointId) -> String {
+    let (force, moment) = (Kind::Force.unit(&model.units), Kind::Moment.unit(&model.units));
+    let data = model.joint(joint);
+    let (from, to) = (&model.link(data.from.link).name, &model.link(data.to.link).name);
+    match data.kind {
+        JointKind::Revolute => format!("Force on `{to}` by `{from}`, {force}, ground axes."),
+        JointKind::Prismatic { .. } => {
+            format!(
+                "Force ({force}, ground axes) and couple ({moment}) on `{to}` by `{from}`, about `{}`.",
+                model.end_name(data.to)
+            )
+        }
+    }
+}

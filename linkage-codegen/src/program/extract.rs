@@ -1,0 +1,180 @@
+//! Taking out of the graph what a function's results need.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{Definition, Input, Program, Step, Value, ValueId};
+use crate::graph::{Graph, Guard, NodeId, Op, Stage, Symbol};
+
+/// What a function starts from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// The parameters alone.
+    Prepare,
+    /// The drives.
+    Direct,
+    /// A pose.
+    FromPose,
+}
+
+/// Takes programs out of a graph.
+#[derive(Clone, Copy, Debug)]
+pub struct Extract<'g> {
+    /// The graph.
+    pub graph: &'g Graph,
+    /// What the function starts from.
+    pub form: Form,
+}
+
+impl Extract<'_> {
+    /// The program of some results, each with its path, and the sums of them that must be finite.
+    #[must_use]
+    pub fn program(self, results: &[(String, NodeId)], sums: &[Vec<NodeId>]) -> Program {
+        let needed = self.needed(results.iter().map(|(_, node)| *node));
+        let mut building = Building {
+            extract: self,
+            program: Program { values: Vec::new(), steps: Vec::new(), outputs: Vec::new() },
+            placed: BTreeMap::new(),
+        };
+        for node in &needed {
+            if let Op::Symbol(Symbol::Drive(_)) = self.graph.op(*node) {
+                let value = building.value(*node);
+                building.program.steps.push(Step::FiniteInput(value));
+            }
+        }
+        for node in needed {
+            building.place(node);
+        }
+        let outputs: Vec<(String, ValueId)> =
+            results.iter().map(|(path, node)| (path.clone(), building.value(*node))).collect();
+        let program = &mut building.program;
+        let constant =
+            |value: &ValueId| matches!(program.values[value.index()].definition, Definition::Computed(Op::Constant(_)));
+        let mut groups: Vec<Vec<ValueId>> = Vec::new();
+        for sum in sums {
+            let terms = sum.iter().filter_map(|node| building.placed.get(node).copied());
+            let terms: Vec<ValueId> = terms.filter(|value| !constant(value)).collect();
+            if !terms.is_empty() && !groups.contains(&terms) {
+                groups.push(terms);
+            }
+        }
+        if !groups.is_empty() {
+            program.steps.push(Step::FiniteResults(groups));
+        }
+        program.outputs = outputs;
+        building.program
+    }
+
+    /// All nodes that are evaluated for some results, in order.
+    fn needed(self, results: impl Iterator<Item = NodeId>) -> BTreeSet<NodeId> {
+        let mut needed = BTreeSet::new();
+        let mut open: Vec<NodeId> = results.collect();
+        while let Some(node) = open.pop() {
+            if needed.insert(node) && self.input(node).is_none() {
+                let op = self.graph.op(node);
+                open.extend(op.operands());
+                if let Op::Checked { guard, .. } = op {
+                    open.extend(self.graph.guard(guard).condition.operands());
+                }
+            }
+        }
+        needed
+    }
+
+    /// The input that a node is for this function, if it is one.
+    fn input(self, node: NodeId) -> Option<Input> {
+        let op = self.graph.op(node);
+        if let Op::Symbol(symbol) = op {
+            if !matches!(symbol, Symbol::Parameter(_)) || self.form == Form::Prepare {
+                return Some(Input::Symbol(symbol));
+            }
+        }
+        if matches!(op, Op::Held(_)) && self.form == Form::FromPose {
+            return Some(Input::Kept(node));
+        }
+        (self.graph.stage(node) == Stage::Prepared && self.form != Form::Prepare).then_some(Input::Prepared(node))
+    }
+}
+
+struct Building<'g> {
+    extract: Extract<'g>,
+    program: Program,
+    /// The value of each node that is placed.
+    placed: BTreeMap<NodeId, ValueId>,
+}
+
+impl Building<'_> {
+    fn add(&mut self, node: NodeId, definition: Definition) -> ValueId {
+        let graph = self.extract.graph;
+        let id = ValueId::new(self.program.values.len());
+        self.program.values.push(Value { definition, label: graph.label(node), section: graph.section(node) });
+        self.placed.insert(node, id);
+        id
+    }
+
+    /// The value of a node; its operands are placed.
+    fn value(&mut self, node: NodeId) -> ValueId {
+        if let Some(value) = self.placed.get(&node) {
+            return *value;
+        }
+        match self.extract.input(node) {
+            Some(input) => self.add(node, Definition::Input(input)),
+            None => {
+                let op = self.extract.graph.op(node);
+                match op {
+                    // A named value is the value, a kept one too where nothing is kept, a checked one because its check has its own
+                    // step. A name passes on to it.
+                    Op::Quantity(inner) | Op::Held(inner) | Op::Checked { value: inner, .. } => {
+                        let value = self.value(inner);
+                        self.placed.insert(node, value);
+                        let label = self.extract.graph.label(node);
+                        let own = &mut self.program.values[value.index()].label;
+                        if own.is_none() {
+                            *own = label;
+                        }
+                        value
+                    }
+                    op => {
+                        let op = op.map(|operand| self.value(operand));
+                        self.add(node, Definition::Computed(op))
+                    }
+                }
+            }
+        }
+    }
+
+    fn place(&mut self, node: NodeId) {
+        let graph = self.extract.graph;
+        let known = self.placed.contains_key(&node);
+        let value = self.value(node);
+        if known || self.extract.input(node).is_some() {
+            return;
+        }
+        match graph.op(node) {
+            Op::Constant(_) | Op::Quantity(_) | Op::Held(_) => {}
+            Op::Checked { guard, .. } => self.check(&graph.guard(guard)),
+            _ => self.program.steps.push(Step::Let(value)),
+        }
+    }
+
+    fn check(&mut self, guard: &Guard) {
+        let before = self.program.values.len();
+        let failure = guard.failure.map(|node| self.value(node));
+        let condition = guard.condition.map(|node| self.value(node));
+        // What the report alone needs is computed when it is made.
+        let report = (before..self.program.values.len())
+            .map(ValueId::new)
+            .filter(|value| match &self.program.values[value.index()].definition {
+                Definition::Computed(op) => !matches!(op, Op::Constant(_)),
+                Definition::Input(_) => false,
+            })
+            .collect();
+        let report: Vec<ValueId> = report;
+        self.placed.retain(|_, value| !report.contains(value));
+        let guard = Guard { condition, failure };
+        let repeated =
+            self.program.steps.iter().any(|step| matches!(step, Step::Check { guard: other, .. } if *other == guard));
+        if !repeated {
+            self.program.steps.push(Step::Check { guard, report });
+        }
+    }
+}

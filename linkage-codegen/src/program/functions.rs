@@ -1,0 +1,72 @@
+//! All functions of a module.
+
+use std::collections::BTreeSet;
+
+use super::{Extract, Form, Input, Program, passes};
+use crate::graph::{Graph, NodeId};
+use crate::plan::Plan;
+
+/// The programs of a linkage.
+#[derive(Clone, Debug)]
+pub struct Functions {
+    /// From the parameters: what all other functions need of them alone.
+    pub prepare: Program,
+    /// From the drives: what a pose keeps.
+    pub pose: Program,
+    /// From a pose: places, directions, transmission angles; in the order of the plan's accessors.
+    pub accessors: Vec<Program>,
+    /// In the order of the plan's scenes.
+    pub scenes: Vec<SceneFunctions>,
+    /// What the parameters alone determine, in the order of the preparation's results.
+    pub prepared: Vec<NodeId>,
+}
+
+/// The two forms of a scene.
+#[derive(Clone, Debug)]
+pub struct SceneFunctions {
+    /// From a pose.
+    pub from_pose: Program,
+    /// From the drives.
+    pub direct: Program,
+}
+
+impl Functions {
+    /// Takes all functions of a plan out of its graph.
+    #[must_use]
+    pub fn of(graph: &Graph, plan: &Plan) -> Self {
+        let program = |form, results: &[(String, NodeId)], sums: &[Vec<NodeId>]| {
+            passes::optimised(Extract { graph, form }.program(results, sums), graph)
+        };
+        let single = |results: &[(String, NodeId)]| results.iter().map(|(_, node)| vec![*node]).collect::<Vec<_>>();
+        let kept: Vec<(String, NodeId)> = plan.pose.iter().map(|kept| (kept.name.clone(), kept.node)).collect();
+        let pose = program(Form::Direct, &kept, &single(&kept));
+        let accessors: Vec<Program> =
+            plan.accessors.iter().map(|accessor| program(Form::FromPose, &accessor.output.leaves(), &[])).collect();
+        let scenes: Vec<SceneFunctions> = plan
+            .scenes
+            .iter()
+            .map(|output| {
+                let results = output.leaves();
+                SceneFunctions {
+                    from_pose: program(Form::FromPose, &results, &output.sums()),
+                    direct: program(Form::Direct, &results, &output.sums()),
+                }
+            })
+            .collect();
+        let both = scenes.iter().flat_map(|scene| [&scene.from_pose, &scene.direct]);
+        let all = core::iter::once(&pose).chain(&accessors).chain(both);
+        let prepared: BTreeSet<NodeId> = all.flat_map(prepared_inputs).collect();
+        let prepared: Vec<NodeId> = prepared.into_iter().collect();
+        let results: Vec<(String, NodeId)> = prepared.iter().map(|node| (String::new(), *node)).collect();
+        let prepare = program(Form::Prepare, &results, &single(&results));
+        Self { prepare, pose, accessors, scenes, prepared }
+    }
+}
+
+fn prepared_inputs(program: &Program) -> Vec<NodeId> {
+    let prepared = program.inputs().filter_map(|(_, input)| match input {
+        Input::Prepared(node) => Some(node),
+        _ => None,
+    });
+    prepared.collect()
+}

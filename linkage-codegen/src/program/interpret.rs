@@ -1,0 +1,117 @@
+//! The interpreter: a program carried out with any number type.
+
+use super::{Definition, Input, Program, Step, ValueId};
+use crate::graph::number::Number;
+use crate::graph::real::Real;
+use crate::graph::{Condition, Failure, Graph, Op};
+
+/// Why a program stopped.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// A check failed.
+    Failed(Failure<()>),
+    /// An argument or a result is not finite.
+    NotFinite,
+}
+
+/// Carries programs out.
+#[derive(Clone, Copy, Debug)]
+pub struct Run<'a> {
+    /// The program.
+    pub program: &'a Program,
+    /// The graph that holds its constants.
+    pub graph: &'a Graph,
+}
+
+impl Run<'_> {
+    /// The results, in the order of the program's outputs.
+    ///
+    /// # Errors
+    ///
+    /// As the emitted function: where a check fails or a number is not finite.
+    pub fn with<T: Real>(self, inputs: &dyn Fn(Input) -> T) -> Result<Vec<T>, Fault> {
+        let mut values: Vec<Option<T>> = vec![None; self.program.values.len()];
+        for step in &self.program.steps {
+            match step {
+                Step::Let(value) => drop(self.value(*value, inputs, &mut values)),
+                Step::Check { guard, .. } => {
+                    let passes = match guard.condition {
+                        Condition::Above { value, limit } => {
+                            let limit = self.value(limit, inputs, &mut values);
+                            self.value(value, inputs, &mut values).above(&limit)
+                        }
+                        Condition::AtLeast { value, limit } => {
+                            let limit = self.value(limit, inputs, &mut values);
+                            self.value(value, inputs, &mut values).at_least(&limit)
+                        }
+                    };
+                    if !passes {
+                        return Err(Fault::Failed(guard.failure.map(|_| ())));
+                    }
+                }
+                Step::FiniteInput(value) => {
+                    if !self.value(*value, inputs, &mut values).is_finite() {
+                        return Err(Fault::NotFinite);
+                    }
+                }
+                Step::FiniteResults(groups) => {
+                    for group in groups {
+                        let terms: Vec<T> = group.iter().map(|term| self.value(*term, inputs, &mut values)).collect();
+                        let sum = terms.into_iter().reduce(|sum, term| sum.add(&term));
+                        if sum.is_some_and(|sum| !sum.is_finite()) {
+                            return Err(Fault::NotFinite);
+                        }
+                    }
+                }
+            }
+        }
+        Ok(self.program.outputs.iter().map(|(_, value)| self.value(*value, inputs, &mut values)).collect())
+    }
+
+    fn value<T: Real>(self, id: ValueId, inputs: &dyn Fn(Input) -> T, values: &mut Vec<Option<T>>) -> T {
+        if let Some(value) = &values[id.index()] {
+            return value.clone();
+        }
+        let zero = || T::from_number(&Number::zero());
+        let value = match &self.program.value(id).definition {
+            Definition::Input(input) => inputs(*input),
+            Definition::Computed(op) => {
+                let mut of = |operand: &ValueId| self.value(*operand, inputs, values);
+                match op {
+                    Op::Constant(number) => T::from_number(&self.graph.number(*number)),
+                    // Symbols are inputs; none is computed.
+                    Op::Symbol(_) => zero(),
+                    Op::Neg(a) => of(a).neg(),
+                    Op::Abs(a) => {
+                        let a = of(a);
+                        if zero().above(&a) { a.neg() } else { a }
+                    }
+                    Op::NonNegative(a) => {
+                        let a = of(a);
+                        if a.above(&zero()) { a } else { zero() }
+                    }
+                    Op::Sqrt(a) => of(a).sqrt(),
+                    Op::Add(a, b) => of(a).add(&of(b)),
+                    Op::Sub(a, b) => of(a).sub(&of(b)),
+                    Op::Mul(a, b) => of(a).mul(&of(b)),
+                    Op::Div(a, b) => of(a).div(&of(b)),
+                    Op::Where { value, limit, then } => {
+                        if of(value).above(&of(limit)) {
+                            of(then)
+                        } else {
+                            zero()
+                        }
+                    }
+                    Op::Quantity(a) | Op::Held(a) | Op::Checked { value: a, .. } => of(a),
+                    Op::Kernel { kernel, args, part } => {
+                        let args: Vec<T> = args.iter().map(of).collect();
+                        let (first, second) = self.graph.apply(*kernel, &args);
+                        if *part == 0 { first } else { second }
+                    }
+                }
+            }
+        };
+        values[id.index()] = Some(value.clone());
+        value
+    }
+}

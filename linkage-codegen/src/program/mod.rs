@@ -1,0 +1,161 @@
+//! [`Plan`] in, [`Program`]s out: straight-line code, one program for every function of the module.
+//!
+//! A program holds what its results need and nothing else, in an order of evaluation, each value computed once. Checks stand where
+//! what they protect is first used.
+
+mod counts;
+mod extract;
+mod functions;
+mod interpret;
+pub mod passes;
+
+pub use counts::Counts;
+pub use extract::{Extract, Form};
+pub use functions::{Functions, SceneFunctions};
+pub use interpret::{Fault, Run};
+
+use crate::graph::{Guard, Label, NodeId, Op, Symbol};
+
+/// A value of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ValueId(u32);
+
+impl ValueId {
+    /// Its place in the list of definitions.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    fn new(index: usize) -> Self {
+        Self(u32::try_from(index).unwrap_or(u32::MAX))
+    }
+}
+
+/// Where an input comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// A drive, a load or a parameter.
+    Symbol(Symbol),
+    /// Kept by the pose.
+    Kept(NodeId),
+    /// Prepared from the parameters.
+    Prepared(NodeId),
+}
+
+/// How a value comes about.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Definition {
+    /// It is given.
+    Input(Input),
+    /// It is computed.
+    Computed(Op<ValueId>),
+}
+
+/// A value.
+#[derive(Clone, Debug)]
+pub struct Value {
+    /// How it comes about.
+    pub definition: Definition,
+    /// Its name and equation.
+    pub label: Option<Label>,
+    /// The heading under which it stands.
+    pub section: String,
+}
+
+/// A step of a program.
+#[derive(Clone, Debug)]
+pub enum Step {
+    /// Computes a value.
+    Let(ValueId),
+    /// Checks a condition.
+    Check {
+        /// What must hold, and what is reported otherwise.
+        guard: Guard<ValueId>,
+        /// What is computed only to be reported.
+        report: Vec<ValueId>,
+    },
+    /// An argument must be a finite number.
+    FiniteInput(ValueId),
+    /// The results must be finite, and so must their sums where they are added up.
+    FiniteResults(Vec<Vec<ValueId>>),
+}
+
+/// Straight-line code.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// All values, in an order of evaluation.
+    pub values: Vec<Value>,
+    /// What is done, in order. Inputs and constants need no step.
+    pub steps: Vec<Step>,
+    /// The results, each with its path.
+    pub outputs: Vec<(String, ValueId)>,
+}
+
+impl Program {
+    /// A value.
+    #[must_use]
+    pub fn value(&self, id: ValueId) -> &Value {
+        &self.values[id.index()]
+    }
+
+    /// What a computed value computes.
+    #[must_use]
+    pub fn op(&self, id: ValueId) -> Option<&Op<ValueId>> {
+        match &self.value(id).definition {
+            Definition::Computed(op) => Some(op),
+            Definition::Input(_) => None,
+        }
+    }
+
+    /// All inputs that are read.
+    pub fn inputs(&self) -> impl Iterator<Item = (ValueId, Input)> {
+        self.values.iter().enumerate().filter_map(|(index, value)| match value.definition {
+            Definition::Input(input) => Some((ValueId::new(index), input)),
+            Definition::Computed(_) => None,
+        })
+    }
+
+    /// Whether any load is read.
+    #[must_use]
+    pub fn reads_loads(&self) -> bool {
+        self.inputs().any(|(_, input)| matches!(input, Input::Symbol(Symbol::Load(..))))
+    }
+
+    /// How often each value is read: by other values, by checks, and as a result.
+    #[must_use]
+    pub fn uses(&self) -> Vec<usize> {
+        let mut uses = vec![0; self.values.len()];
+        for step in &self.steps {
+            for operand in self.operands_of(step) {
+                uses[operand.index()] += 1;
+            }
+            if let Step::Check { report, .. } = step {
+                for value in report {
+                    for operand in self.op(*value).map(Op::operands).unwrap_or_default() {
+                        uses[operand.index()] += 1;
+                    }
+                }
+            }
+        }
+        for (_, value) in &self.outputs {
+            uses[value.index()] += 1;
+        }
+        uses
+    }
+
+    /// What a step reads.
+    #[must_use]
+    pub fn operands_of(&self, step: &Step) -> Vec<ValueId> {
+        match step {
+            Step::Let(value) => self.op(*value).map(Op::operands).unwrap_or_default(),
+            Step::Check { guard, .. } => {
+                let reported = guard.failure.operand();
+                guard.condition.operands().into_iter().chain(reported).collect()
+            }
+            Step::FiniteInput(value) => vec![*value],
+            // Results are counted as such.
+            Step::FiniteResults(_) => Vec::new(),
+        }
+    }
+}

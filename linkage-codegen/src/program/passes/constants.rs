@@ -1,0 +1,149 @@
+//! Constant factors are brought together: `(k₁ x)(k₂ y) = (k₁k₂)(x y)` and `k (a x ± b y) = (ka) x ± (kb) y`, where nothing else
+//! reads the inner values. The constants are multiplied exactly and rounded once.
+
+use std::collections::BTreeMap;
+
+use crate::graph::number::Number;
+use crate::graph::{Graph, NumberId, Op};
+use crate::program::{Definition, Program, Step, Value, ValueId};
+
+pub(super) fn merge(program: Program, graph: &Graph) -> Program {
+    let uses = program.uses();
+    let mut merging = Merging { uses, graph, before: BTreeMap::new(), program };
+    let order: Vec<ValueId> = merging
+        .program
+        .steps
+        .iter()
+        .filter_map(|step| if let Step::Let(value) = step { Some(*value) } else { None })
+        .collect();
+    for value in order {
+        merging.value(value);
+    }
+    merging.finish()
+}
+
+struct Merging<'g> {
+    program: Program,
+    graph: &'g Graph,
+    uses: Vec<usize>,
+    /// New values, with the old one before which each is computed.
+    before: BTreeMap<ValueId, Vec<ValueId>>,
+}
+
+impl Merging<'_> {
+    fn constant(&self, value: ValueId) -> Option<Number> {
+        match self.program.op(value) {
+            Some(Op::Constant(number)) => Some(self.graph.number(*number)),
+            _ => None,
+        }
+    }
+
+    /// A value that only one other reads, and that has no name of its own.
+    fn is_inner(&self, value: ValueId) -> bool {
+        self.uses.get(value.index()) == Some(&1) && self.program.value(value).label.is_none()
+    }
+
+    /// A product with a constant: the constant and the rest.
+    fn scaled(&self, value: ValueId) -> Option<(Number, ValueId)> {
+        match self.program.op(value)? {
+            Op::Mul(k, x) => Some((self.constant(*k)?, *x)),
+            _ => None,
+        }
+    }
+
+    fn value(&mut self, value: ValueId) {
+        let Some(op) = self.program.op(value).cloned() else { return };
+        match op {
+            Op::Mul(a, b) if self.constant(a).is_none() => self.product(value, a, b),
+            Op::Mul(k, x) => {
+                let Some(k) = self.constant(k) else { return };
+                self.constant_times(value, &k, x);
+            }
+            _ => {}
+        }
+    }
+
+    /// Takes constants out of both factors.
+    fn product(&mut self, value: ValueId, a: ValueId, b: ValueId) {
+        let inner = |s: &Self, v| if s.is_inner(v) { s.scaled(v) } else { None };
+        let (left, right) = (inner(self, a), inner(self, b));
+        if left.is_none() && right.is_none() {
+            return;
+        }
+        let (ka, x) = left.unwrap_or((Number::one(), a));
+        let (kb, y) = right.unwrap_or((Number::one(), b));
+        let rest = self.add(value, Op::Mul(x, y));
+        self.uses.resize(self.program.values.len(), 1);
+        self.constant_times(value, &ka.mul(&kb), rest);
+    }
+
+    /// `value := k x`, the constant merged with those in x.
+    fn constant_times(&mut self, value: ValueId, k: &Number, x: ValueId) {
+        if self.is_inner(x) {
+            if let Some((inner, rest)) = self.scaled(x) {
+                return self.constant_times(value, &k.mul(&inner), rest);
+            }
+            let terms = match self.program.op(x).cloned() {
+                Some(Op::Add(a, b)) => Some((a, b, false)),
+                Some(Op::Sub(a, b)) => Some((a, b, true)),
+                _ => None,
+            };
+            if let Some((a, b, minus)) = terms {
+                if let (Some(a), Some(b)) = (self.rescaled(value, k, a), self.rescaled(value, k, b)) {
+                    let op = if minus { Op::Sub(a, b) } else { Op::Add(a, b) };
+                    self.program.values[value.index()].definition = Definition::Computed(op);
+                    return;
+                }
+            }
+        }
+        let k = self.number(value, k);
+        self.program.values[value.index()].definition = Definition::Computed(Op::Mul(k, x));
+    }
+
+    /// A constant, or a constant multiple that nothing else reads, times `k`.
+    fn rescaled(&mut self, before: ValueId, k: &Number, term: ValueId) -> Option<ValueId> {
+        if let Some(constant) = self.constant(term) {
+            return Some(self.number(before, &k.mul(&constant)));
+        }
+        if !self.is_inner(term) {
+            return None;
+        }
+        let (inner, rest) = self.scaled(term)?;
+        let product = k.mul(&inner);
+        let factor = self.number(before, &product);
+        Some(self.add(before, Op::Mul(factor, rest)))
+    }
+
+    fn number(&mut self, before: ValueId, number: &Number) -> ValueId {
+        let id: Option<NumberId> = match self.graph.constant(number).op() {
+            Op::Constant(id) => Some(id),
+            _ => None,
+        };
+        let section = self.program.value(before).section.clone();
+        let op = id.map_or(Op::Neg(before), Op::Constant);
+        self.program.values.push(Value { definition: Definition::Computed(op), label: None, section });
+        self.uses.resize(self.program.values.len(), 1);
+        ValueId::new(self.program.values.len() - 1)
+    }
+
+    fn add(&mut self, before: ValueId, op: Op<ValueId>) -> ValueId {
+        let section = self.program.value(before).section.clone();
+        self.program.values.push(Value { definition: Definition::Computed(op), label: None, section });
+        self.uses.resize(self.program.values.len(), 1);
+        let id = ValueId::new(self.program.values.len() - 1);
+        self.before.entry(before).or_default().push(id);
+        id
+    }
+
+    fn finish(mut self) -> Program {
+        let mut steps = Vec::new();
+        for step in core::mem::take(&mut self.program.steps) {
+            if let Step::Let(value) = &step {
+                steps.extend(self.before.remove(value).unwrap_or_default().into_iter().map(Step::Let));
+            }
+            steps.push(step);
+        }
+        self.program.steps = steps;
+        self.program
+    }
+}

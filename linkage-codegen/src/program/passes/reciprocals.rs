@@ -1,0 +1,56 @@
+//! Several quotients by one divisor become products with its reciprocal.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::graph::number::Number;
+use crate::graph::{Graph, Label, Op};
+use crate::program::{Definition, Program, Step, Value, ValueId};
+
+pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
+    let mut divisors: BTreeMap<ValueId, usize> = BTreeMap::new();
+    for step in &program.steps {
+        if let Step::Let(value) = step {
+            if let Some(Op::Div(_, divisor)) = program.op(*value) {
+                *divisors.entry(*divisor).or_default() += 1;
+            }
+        }
+    }
+    let shared: BTreeSet<ValueId> =
+        divisors.into_iter().filter(|(_, uses)| *uses > 1).map(|(divisor, _)| divisor).collect();
+    let mut reciprocals: BTreeMap<ValueId, ValueId> = BTreeMap::new();
+    let mut steps = Vec::new();
+    for step in core::mem::take(&mut program.steps) {
+        if let Step::Let(value) = step {
+            if let Some(Op::Div(dividend, divisor)) = program.op(value).cloned() {
+                if shared.contains(&divisor) {
+                    let reciprocal = *reciprocals.entry(divisor).or_insert_with(|| {
+                        let reciprocal = reciprocal_of(&mut program, graph, divisor, value);
+                        steps.push(Step::Let(reciprocal));
+                        reciprocal
+                    });
+                    program.values[value.index()].definition = Definition::Computed(Op::Mul(dividend, reciprocal));
+                }
+            }
+        }
+        steps.push(step);
+    }
+    program.steps = steps;
+    program
+}
+
+/// `1/divisor` as a new value, under the heading of its first use.
+fn reciprocal_of(program: &mut Program, graph: &Graph, divisor: ValueId, first_use: ValueId) -> ValueId {
+    let section = program.value(first_use).section.clone();
+    let named = program.value(divisor).label.clone();
+    let label =
+        named.map(|label| Label { name: format!("inverse_{}", label.name), equation: format!("1/{}", label.name) });
+    let mut add = |definition, label| {
+        program.values.push(Value { definition: Definition::Computed(definition), label, section: section.clone() });
+        ValueId::new(program.values.len() - 1)
+    };
+    let one = match graph.constant(&Number::one()).op() {
+        Op::Constant(number) => add(Op::Constant(number), None),
+        _ => divisor,
+    };
+    add(Op::Div(one, divisor), label)
+}

@@ -1,0 +1,374 @@
+//! The declaration as it was written: every construct of the grammar, with its place, unresolved.
+
+use proc_macro2::{Span, TokenStream};
+
+use crate::diagnostics::Place;
+
+/// A name and where it stands.
+#[derive(Clone, Debug)]
+pub struct Name {
+    /// Its letters, without `r#`.
+    pub text: String,
+    /// Where it stands.
+    pub span: Span,
+}
+
+impl Name {
+    /// Where it stands.
+    #[must_use]
+    pub fn place(&self) -> Place {
+        Place::at(self.span)
+    }
+}
+
+impl core::fmt::Display for Name {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// A whole declaration.
+#[derive(Clone, Debug)]
+pub struct Ast {
+    /// Attributes of the module, documentation above all.
+    pub attributes: TokenStream,
+    /// Its visibility.
+    pub visibility: TokenStream,
+    /// Its name.
+    pub name: Name,
+    /// What it declares, in the order as written.
+    pub items: Vec<Item>,
+}
+
+/// One item.
+#[derive(Clone, Debug)]
+pub enum Item {
+    /// `units { mm, N }`
+    Units(Vec<Name>),
+    /// `scalar f32;`
+    Scalar(Name),
+    /// `arithmetic fused;`
+    Arithmetic(Name),
+    /// `crate = path;`
+    Crate(TokenStream),
+    /// `emit source;`
+    Emit(Name),
+    /// `param l2: length = 80mm;`
+    Param(Param),
+    /// `ground { … }` and `link crank { … }`
+    Link(Link),
+    /// `mass coupler: …;`
+    Mass(Mass),
+    /// `revolute A: …;` and the other joints
+    Joint(Joint),
+    /// `drive theta: A0;`
+    Drive(Drive),
+    /// `assemble B: …;`
+    Assemble(Assemble),
+    /// `start coupler: …;`
+    Start(Place),
+    /// `unknown T12: …;`
+    Unknown(Unknown),
+    /// `load F13: …;`
+    Load(Load),
+    /// `scene statics: …;`
+    Scene(Scene),
+    /// An item that could not be read; what it would have named counts as declared.
+    Broken(Option<Name>),
+}
+
+/// A scalar expression.
+#[derive(Clone, Debug)]
+pub struct Value {
+    /// What it says.
+    pub kind: ValueKind,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// The kinds of scalar expressions.
+#[derive(Clone, Debug)]
+pub enum ValueKind {
+    /// `80mm`: digits and unit.
+    Number(String, Option<String>),
+    /// `mm`, `pi`, `l2`
+    Name(String),
+    /// `-a`
+    Negative(Box<Value>),
+    /// `a + b`
+    Sum(Box<Value>, Box<Value>),
+    /// `a - b`
+    Difference(Box<Value>, Box<Value>),
+    /// `a * b`
+    Product(Box<Value>, Box<Value>),
+    /// `a / b`
+    Quotient(Box<Value>, Box<Value>),
+    /// `a ^ 2`
+    Power(Box<Value>, u32),
+    /// `sqrt(a)`
+    Call(Name, Vec<Value>),
+}
+
+/// A vector.
+#[derive(Clone, Debug)]
+pub struct VectorValue {
+    /// What it says.
+    pub kind: VectorKind,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// The kinds of vectors.
+#[derive(Clone, Debug)]
+pub enum VectorKind {
+    /// `(x, y)`
+    Cartesian(Value, Value),
+    /// `size @ angle`
+    Polar(Value, Value),
+}
+
+/// What may stand behind `=` of a load.
+#[derive(Clone, Debug)]
+pub enum Magnitude {
+    /// A scalar.
+    Scalar(Value),
+    /// A vector.
+    Vector(VectorValue),
+}
+
+/// `param NAME: dimension = value;`
+#[derive(Clone, Debug)]
+pub struct Param {
+    /// Its name.
+    pub name: Name,
+    /// Its dimension, by name.
+    pub dimension: Name,
+    /// Its default.
+    pub default: Option<Value>,
+}
+
+/// `ground { … }` or `link NAME { … }`
+#[derive(Clone, Debug)]
+pub struct Link {
+    /// `None` for the ground.
+    pub name: Option<Name>,
+    /// The keyword.
+    pub keyword: Span,
+    /// Its points.
+    pub places: Vec<PointPlace>,
+}
+
+/// An entry of a link's body.
+#[derive(Clone, Debug)]
+pub enum PointPlace {
+    /// `A0 -> A: 80mm`
+    Frame(Name, Name, Value),
+    /// `P: vector`
+    At(Name, VectorValue),
+    /// `P: left(A -> B, r1, r2)`; `true` for left
+    Distances(Name, Box<Distances>),
+    /// `P`, at the origin
+    Origin(Name),
+}
+
+/// By two distances.
+#[derive(Clone, Debug)]
+pub struct Distances {
+    /// On the left of the line.
+    pub left: bool,
+    /// Start of the line.
+    pub from: Name,
+    /// End of the line.
+    pub to: Name,
+    /// Distance from its start.
+    pub from_distance: Value,
+    /// Distance from its end.
+    pub to_distance: Value,
+    /// The whole.
+    pub place: Place,
+}
+
+/// A point by name or by coordinates.
+#[derive(Clone, Debug)]
+pub enum PointRef {
+    /// A named point.
+    Named(Name),
+    /// Coordinates in the link's frame.
+    At(VectorValue),
+}
+
+/// `mass LINK: value at P, inertia value;`
+#[derive(Clone, Debug)]
+pub struct Mass {
+    /// Whose.
+    pub link: Name,
+    /// How much.
+    pub mass: Value,
+    /// Where.
+    pub at: PointRef,
+    /// Moment of inertia about that place.
+    pub inertia: Option<Value>,
+}
+
+/// `LINK` or `LINK.POINT`
+#[derive(Clone, Debug)]
+pub struct End {
+    /// The link.
+    pub link: Name,
+    /// The point; by default the one of the joint's name.
+    pub point: Option<Name>,
+}
+
+impl End {
+    /// Where it stands.
+    #[must_use]
+    pub fn place(&self) -> Place {
+        let start = self.link.place();
+        self.point.as_ref().map_or(start, |p| start.to(p.place()))
+    }
+}
+
+/// A direction and the link in whose frame it is meant.
+#[derive(Clone, Debug)]
+pub struct Direction {
+    /// What it says.
+    pub kind: DirectionKind,
+    /// `of LINK`
+    pub of: Option<Name>,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// The kinds of directions.
+#[derive(Clone, Debug)]
+pub enum DirectionKind {
+    /// By its angle.
+    Angle(Value),
+    /// Along a vector.
+    Vector(VectorValue),
+    /// From a point to another.
+    Points(Name, Name),
+}
+
+/// A joint.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Its name.
+    pub name: Name,
+    /// The keyword.
+    pub keyword: Name,
+    /// The link that acts.
+    pub from: End,
+    /// The link that feels.
+    pub to: End,
+    /// `along …`
+    pub along: Option<Direction>,
+    /// `angle …`
+    pub angle: Option<Value>,
+}
+
+/// `drive NAME: JOINT;`
+#[derive(Clone, Debug)]
+pub struct Drive {
+    /// Its name.
+    pub name: Name,
+    /// The joint.
+    pub joint: Name,
+    /// `.angle` or `.travel`
+    pub coordinate: Option<Name>,
+    /// `{ … }`
+    pub motion: Option<Place>,
+}
+
+/// `assemble JOINT: side;`
+#[derive(Clone, Debug)]
+pub struct Assemble {
+    /// The inner joint of the group.
+    pub joint: Name,
+    /// The word.
+    pub side: Name,
+    /// The joints in parentheses: one or two.
+    pub joints: Vec<Name>,
+    /// `smooth at …`
+    pub smooth: Option<Value>,
+    /// The keyword.
+    pub keyword: Span,
+}
+
+/// `unknown NAME: effort;`
+#[derive(Clone, Debug)]
+pub struct Unknown {
+    /// Its name.
+    pub name: Name,
+    /// What it is.
+    pub effort: Effort,
+}
+
+/// What an unknown is.
+#[derive(Clone, Debug)]
+pub enum Effort {
+    /// `torque(a -> b)`
+    Torque(Name, Name),
+    /// `force(link.P) along direction`
+    Force(End, Direction),
+    /// `thrust(a.P, b.Q)`
+    Thrust(Place),
+}
+
+/// A load.
+#[derive(Clone, Debug)]
+pub struct Load {
+    /// Its name.
+    pub name: Name,
+    /// What it is.
+    pub kind: LoadKind,
+    /// `= …`
+    pub magnitude: Option<Magnitude>,
+}
+
+/// The kinds of loads.
+#[derive(Clone, Debug)]
+pub enum LoadKind {
+    /// `force(link.P) in LINK`
+    Force {
+        /// Where.
+        at: End,
+        /// The link with which it turns.
+        frame: Option<Name>,
+    },
+    /// `moment(a -> b)` or `moment(b)`
+    Moment {
+        /// What reacts it.
+        from: Option<Name>,
+        /// What feels it.
+        on: Name,
+    },
+    /// `gravity`
+    Gravity,
+    /// A kind that is not carried out yet, by its keyword.
+    Planned(Name),
+}
+
+/// A scene.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Its name.
+    pub name: Name,
+    /// The method's keyword.
+    pub method: Name,
+    /// Its loads; all if left out.
+    pub loads: Option<Vec<Name>>,
+    /// Its results; all if left out.
+    pub results: Option<Vec<ResultItem>>,
+}
+
+/// A wanted result.
+#[derive(Clone, Debug)]
+pub enum ResultItem {
+    /// An unknown, a joint or a load.
+    Name(Name),
+    /// A point of a link, or its angle.
+    Point(Name, Name),
+    /// A form that is not carried out yet, by what it is called.
+    Planned(Place, &'static str),
+}

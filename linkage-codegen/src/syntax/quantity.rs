@@ -1,0 +1,207 @@
+//! Scalars, vectors and directions: `80mm`, `2*l2 + 5mm`, `100N @ 200deg`, `(0, -3kN)`, `A -> B of rod`.
+
+use proc_macro2::TokenTree;
+use syn::parse::ParseStream;
+use syn::token::Paren;
+use syn::{Error, Lit, Result, Token};
+
+use super::ast::{Direction, DirectionKind, Magnitude, Value, ValueKind, VectorKind, VectorValue};
+use super::tokens::{eat_word, name, peek_word};
+use crate::diagnostics::Place;
+
+/// `value := term ((+ | -) term)*`
+pub(super) fn value(input: ParseStream<'_>) -> Result<Value> {
+    let mut left = term(input)?;
+    loop {
+        let join = if input.peek(Token![+]) {
+            input.parse::<Token![+]>()?;
+            ValueKind::Sum
+        } else if input.peek(Token![-]) && !input.peek(Token![->]) {
+            input.parse::<Token![-]>()?;
+            ValueKind::Difference
+        } else {
+            return Ok(left);
+        };
+        left = joined(join, left, term(input)?);
+    }
+}
+
+fn term(input: ParseStream<'_>) -> Result<Value> {
+    let mut left = factor(input)?;
+    loop {
+        let join = if input.peek(Token![*]) {
+            input.parse::<Token![*]>()?;
+            ValueKind::Product
+        } else if input.peek(Token![/]) {
+            input.parse::<Token![/]>()?;
+            ValueKind::Quotient
+        } else {
+            return Ok(left);
+        };
+        left = joined(join, left, factor(input)?);
+    }
+}
+
+fn joined(join: fn(Box<Value>, Box<Value>) -> ValueKind, left: Value, right: Value) -> Value {
+    let place = left.place.to(right.place);
+    Value { kind: join(Box::new(left), Box::new(right)), place }
+}
+
+fn factor(input: ParseStream<'_>) -> Result<Value> {
+    if input.peek(Token![-]) {
+        let minus: Token![-] = input.parse()?;
+        let inner = factor(input)?;
+        let place = Place::at(minus.spans[0]).to(inner.place);
+        return Ok(Value { kind: ValueKind::Negative(Box::new(inner)), place });
+    }
+    let base = atom(input)?;
+    if !input.peek(Token![^]) {
+        return Ok(base);
+    }
+    input.parse::<Token![^]>()?;
+    let exponent =
+        input.fork().parse::<syn::LitInt>().map_err(|_| input.error("expected a whole exponent, as in `mm^2`"))?;
+    drop(input.parse::<TokenTree>());
+    let place = base.place.to(Place::at(exponent.span()));
+    match exponent.base10_parse::<u32>() {
+        Ok(power @ 0..=16) if exponent.suffix().is_empty() => {
+            Ok(Value { kind: ValueKind::Power(Box::new(base), power), place })
+        }
+        _ => Err(Error::new(exponent.span(), "an exponent is a whole number from 0 to 16, without a unit")),
+    }
+}
+
+fn atom(input: ParseStream<'_>) -> Result<Value> {
+    if input.peek(Paren) {
+        let content;
+        let parens = syn::parenthesized!(content in input);
+        let mut inner = value(&content)?;
+        if !content.is_empty() {
+            return Err(content.error("expected `)` or an operator"));
+        }
+        inner.place = Place::at(parens.span.open()).to(Place::at(parens.span.close()));
+        return Ok(inner);
+    }
+    if input.peek(Lit) {
+        return number(input);
+    }
+    if peek_word(input).is_some() {
+        let word = name(input)?;
+        if input.peek(Paren) {
+            let content;
+            let parens = syn::parenthesized!(content in input);
+            let place = word.place().to(Place::at(parens.span.close()));
+            let args = super::tokens::comma_list(&content, value)?;
+            return Ok(Value { kind: ValueKind::Call(word, args), place });
+        }
+        return Ok(Value { place: word.place(), kind: ValueKind::Name(word.text) });
+    }
+    Err(input.error("expected a value, such as `80mm`"))
+}
+
+fn number(input: ParseStream<'_>) -> Result<Value> {
+    let literal: Lit = input.parse()?;
+    let place = Place::at(literal.span());
+    let written = literal.to_string_of_source();
+    if written.starts_with("0x") || written.starts_with("0b") || written.starts_with("0o") {
+        return Err(Error::new(literal.span(), "numbers are decimal"));
+    }
+    let (digits, suffix) = match &literal {
+        Lit::Int(n) => (n.base10_digits().to_owned(), n.suffix()),
+        Lit::Float(n) => (n.base10_digits().to_owned(), n.suffix()),
+        _ => return Err(Error::new(literal.span(), "expected a number, such as `80mm`")),
+    };
+    let unit = (!suffix.is_empty()).then(|| suffix.to_owned());
+    Ok(Value { kind: ValueKind::Number(digits, unit), place })
+}
+
+/// The literal as its token prints.
+trait SourceText {
+    fn to_string_of_source(&self) -> String;
+}
+
+impl SourceText for Lit {
+    fn to_string_of_source(&self) -> String {
+        quote::ToTokens::to_token_stream(self).to_string()
+    }
+}
+
+/// Whether the next token is `( …, … )`.
+pub(super) fn at_pair(input: ParseStream<'_>) -> bool {
+    let ahead = input.fork();
+    match ahead.parse::<TokenTree>() {
+        Ok(TokenTree::Group(group)) if group.delimiter() == proc_macro2::Delimiter::Parenthesis => {
+            group.stream().into_iter().any(|token| matches!(&token, TokenTree::Punct(p) if p.as_char() == ','))
+        }
+        _ => false,
+    }
+}
+
+fn pair(input: ParseStream<'_>) -> Result<VectorValue> {
+    let content;
+    let parens = syn::parenthesized!(content in input);
+    let place = Place::at(parens.span.open()).to(Place::at(parens.span.close()));
+    let x = value(&content)?;
+    content.parse::<Token![,]>()?;
+    let y = value(&content)?;
+    if content.peek(Token![,]) {
+        content.parse::<Token![,]>()?;
+    }
+    if !content.is_empty() {
+        return Err(content.error("a vector has two components: `(x, y)`"));
+    }
+    Ok(VectorValue { kind: VectorKind::Cartesian(x, y), place })
+}
+
+/// A scalar or a vector, as it comes.
+pub(super) fn magnitude(input: ParseStream<'_>) -> Result<Magnitude> {
+    if at_pair(input) {
+        return Ok(Magnitude::Vector(pair(input)?));
+    }
+    let size = value(input)?;
+    if !input.peek(Token![@]) {
+        return Ok(Magnitude::Scalar(size));
+    }
+    input.parse::<Token![@]>()?;
+    let angle = value(input)?;
+    let place = size.place.to(angle.place);
+    Ok(Magnitude::Vector(VectorValue { kind: VectorKind::Polar(size, angle), place }))
+}
+
+/// `(x, y)` or `size @ angle`
+pub(super) fn vector(input: ParseStream<'_>) -> Result<VectorValue> {
+    match magnitude(input)? {
+        Magnitude::Vector(vector) => Ok(vector),
+        Magnitude::Scalar(value) => Err(syn::Error::new(
+            value.place.start(),
+            "expected a vector\nhelp: Cartesian `(x, y)` or polar `size @ angle`",
+        )),
+    }
+}
+
+/// `(value | vector | P -> Q) (of LINK)?`
+pub(super) fn direction(input: ParseStream<'_>) -> Result<Direction> {
+    let (kind, mut place) = if peek_word(input).is_some() && input.peek2(Token![->]) {
+        let from = name(input)?;
+        input.parse::<Token![->]>()?;
+        let to = name(input)?;
+        let place = from.place().to(to.place());
+        (DirectionKind::Points(from, to), place)
+    } else {
+        match magnitude(input)? {
+            Magnitude::Scalar(angle) => {
+                let place = angle.place;
+                (DirectionKind::Angle(angle), place)
+            }
+            Magnitude::Vector(vector) => {
+                let place = vector.place;
+                (DirectionKind::Vector(vector), place)
+            }
+        }
+    };
+    let of = if eat_word(input, "of") { Some(name(input)?) } else { None };
+    if let Some(of) = &of {
+        place = place.to(of.place());
+    }
+    Ok(Direction { kind, of, place })
+}

@@ -1,0 +1,74 @@
+//! Words, names and punctuation.
+
+use proc_macro2::{Ident, TokenTree};
+use syn::ext::IdentExt;
+use syn::parse::ParseStream;
+use syn::{Error, Result};
+
+use super::ast::Name;
+
+/// A name. Rust's keywords serve, but for those that cannot be written as raw identifiers.
+pub(super) fn name(input: ParseStream<'_>) -> Result<Name> {
+    let begin = input.fork();
+    let Ok(ident) = input.call(Ident::parse_any) else {
+        return Err(match begin.parse::<TokenTree>() {
+            Ok(TokenTree::Literal(literal)) => Error::new(
+                literal.span(),
+                format!("expected a name, found `{literal}`\nhelp: names begin with a letter"),
+            ),
+            Ok(TokenTree::Group(group)) => Error::new(group.span_open(), "expected a name, found a bracket"),
+            Ok(other) => Error::new(other.span(), format!("expected a name, found `{other}`")),
+            Err(_) => begin.error("expected a name"),
+        });
+    };
+    let text = ident.unraw().to_string();
+    if matches!(text.as_str(), "self" | "Self" | "super" | "crate" | "_") {
+        return Err(Error::new(ident.span(), format!("`{text}` cannot be a name in Rust")));
+    }
+    Ok(Name { text, span: ident.span() })
+}
+
+/// The next token, if it is a word.
+pub(super) fn peek_word(input: ParseStream<'_>) -> Option<String> {
+    input.fork().call(Ident::parse_any).ok().map(|ident| ident.to_string())
+}
+
+/// Whether the next token is this word.
+pub(super) fn at_word(input: ParseStream<'_>, word: &str) -> bool {
+    peek_word(input).is_some_and(|next| next == word)
+}
+
+/// Takes this word, if it comes next.
+pub(super) fn eat_word(input: ParseStream<'_>, word: &str) -> bool {
+    at_word(input, word) && input.call(Ident::parse_any).is_ok()
+}
+
+/// Takes this word.
+pub(super) fn expect_word(input: ParseStream<'_>, word: &str) -> Result<()> {
+    if eat_word(input, word) { Ok(()) } else { Err(input.error(format!("expected `{word}`"))) }
+}
+
+/// Items with commas between, up to the end of the stream.
+pub(super) fn comma_list<T>(input: ParseStream<'_>, one: fn(ParseStream<'_>) -> Result<T>) -> Result<Vec<T>> {
+    let mut all = Vec::new();
+    while !input.is_empty() {
+        all.push(one(input)?);
+        if input.is_empty() {
+            break;
+        }
+        if !input.peek(syn::Token![,]) {
+            return Err(input.error("expected `,`"));
+        }
+        input.parse::<syn::Token![,]>()?;
+    }
+    Ok(all)
+}
+
+/// The `;` behind an item.
+pub(super) fn semicolon(input: ParseStream<'_>) -> Result<()> {
+    if input.peek(syn::Token![;]) {
+        input.parse::<syn::Token![;]>().map(drop)
+    } else {
+        Err(input.error("expected `;`"))
+    }
+}

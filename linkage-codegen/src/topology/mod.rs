@@ -1,0 +1,204 @@
+//! [`Model`] in, [`Topology`] out: the links split into Assur groups, in the order in which they are solved.
+//!
+//! Motion and forces have a decomposition each. For motion the drives are given, and a group is the smallest set of links whose
+//! places follow from those of the groups before it. For forces the linkage is seen from where its unknowns act: each unknown
+//! stands for a constraint that would hold its coordinate, and the groups are solved in the opposite order. Where the unknowns
+//! act at the drives, the two coincide.
+//!
+//! Afterwards every group is regular at generic poses: it has as many constraints as freedoms, and they are independent.
+
+mod generic;
+mod matching;
+mod mobility;
+
+use std::collections::BTreeSet;
+
+use crate::diagnostics::{Diagnostic, Sink, list};
+use crate::model::ids::{DriveId, GROUND, JointId, LinkId, UnknownId};
+use crate::model::{JointKind, Model, UnknownKind};
+
+/// What closes a decomposition beside the joints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Input {
+    /// A known motion.
+    Drive(DriveId),
+    /// An unknown effort.
+    Unknown(UnknownId),
+}
+
+/// An Assur group, or a driven link.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// Its links, in the order of their declaration.
+    pub links: Vec<LinkId>,
+    /// Joints between its links.
+    pub inner: Vec<JointId>,
+    /// Joints to links of groups before it, or to the ground.
+    pub outer: Vec<JointId>,
+    /// Drives or unknowns that close it.
+    pub inputs: Vec<Input>,
+}
+
+impl Group {
+    /// The link of an outer joint that belongs to the group.
+    #[must_use]
+    pub fn own_link(&self, model: &Model, joint: JointId) -> LinkId {
+        let joint = model.joint(joint);
+        if self.links.contains(&joint.from.link) { joint.from.link } else { joint.to.link }
+    }
+
+    /// Its kinds of joints in the order outer, inner, …: `RRP`.
+    #[must_use]
+    pub fn letters(&self, model: &Model) -> String {
+        let letter = |joint: &JointId| match model.joint(*joint).kind {
+            JointKind::Revolute => 'R',
+            JointKind::Prismatic { .. } => 'P',
+        };
+        self.outer.iter().chain(&self.inner).map(letter).collect()
+    }
+}
+
+/// The groups of a linkage.
+#[derive(Debug)]
+pub struct Topology {
+    /// In the order in which motion goes.
+    pub motion: Vec<Group>,
+    /// From the unknowns outwards; forces are solved in the opposite order.
+    pub forces: Vec<Group>,
+}
+
+/// A scalar constraint: between which moving links, and what it comes from.
+#[derive(Clone, Debug)]
+struct Constraint {
+    links: Vec<LinkId>,
+    origin: Origin,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Origin {
+    Joint(JointId, usize),
+    Input(Input),
+}
+
+impl Topology {
+    /// Splits a linkage into groups. `None` if that is not possible; why is reported.
+    pub fn of(model: &Model, sink: &Sink) -> Option<Self> {
+        let drives: Vec<Input> = (0..model.drives.len()).map(|d| Input::Drive(DriveId::new(d))).collect();
+        if !mobility::check(model, sink) {
+            return None;
+        }
+        let motion = decompose(model, &drives, sink)?;
+        let unknowns: Vec<Input> = (0..model.unknowns.len()).map(|u| Input::Unknown(UnknownId::new(u))).collect();
+        let at_drives = model.unknowns.iter().all(|u| matches!(u.kind, UnknownKind::Drive(_)));
+        let forces = if at_drives { as_forces(&motion) } else { decompose(model, &unknowns, sink)? };
+        Some(Self { motion, forces })
+    }
+}
+
+/// The groups of motion as groups of forces: the drives' efforts are the unknowns, in the same order.
+fn as_forces(motion: &[Group]) -> Vec<Group> {
+    let effort = |input: &Input| match input {
+        Input::Drive(drive) => Input::Unknown(UnknownId::new(drive.index())),
+        Input::Unknown(_) => *input,
+    };
+    motion.iter().map(|group| Group { inputs: group.inputs.iter().map(effort).collect(), ..group.clone() }).collect()
+}
+
+fn constraints(model: &Model, inputs: &[Input]) -> Vec<Constraint> {
+    let moving = |links: &[LinkId]| links.iter().copied().filter(|l| *l != GROUND).collect::<Vec<_>>();
+    let mut all = Vec::new();
+    for joint in model.joint_ids() {
+        let links = moving(&model.joint(joint).ends().map(|end| end.link));
+        for row in 0..generic::rows_of(model, joint) {
+            all.push(Constraint { links: links.clone(), origin: Origin::Joint(joint, row) });
+        }
+    }
+    for input in inputs {
+        all.push(Constraint { links: moving(&links_of(model, *input)), origin: Origin::Input(*input) });
+    }
+    all
+}
+
+/// The links on which a drive or an unknown acts.
+fn links_of(model: &Model, input: Input) -> Vec<LinkId> {
+    let driven = |drive: DriveId| model.joint(model.drive(drive).joint).ends().map(|end| end.link).to_vec();
+    match input {
+        Input::Drive(drive) => driven(drive),
+        Input::Unknown(unknown) => match model.unknown(unknown).kind {
+            UnknownKind::Drive(drive) => driven(drive),
+            UnknownKind::Torque(from, to) => vec![from, to],
+            UnknownKind::Force { at, .. } => vec![at.link],
+        },
+    }
+}
+
+fn decompose(model: &Model, inputs: &[Input], sink: &Sink) -> Option<Vec<Group>> {
+    let constraints = constraints(model, inputs);
+    let graph: Vec<Vec<LinkId>> = constraints.iter().map(|c| c.links.clone()).collect();
+    let matched = match matching::assign(model.links.len(), &graph) {
+        Ok(matched) => matched,
+        Err(unbalanced) => {
+            sink.report(mobility::unbalanced(model, inputs, &unbalanced));
+            return None;
+        }
+    };
+    let groups: Vec<Group> = matching::components(model.links.len(), &graph, &matched)
+        .into_iter()
+        .map(|links| group(model, &constraints, &matched, links))
+        .collect();
+    let singular = groups.iter().find(|group| !generic::is_regular(model, group));
+    if let Some(group) = singular {
+        sink.report(report_singular(model, group));
+        return None;
+    }
+    Some(groups)
+}
+
+fn group(model: &Model, constraints: &[Constraint], matched: &[LinkId], links: Vec<LinkId>) -> Group {
+    let own: BTreeSet<LinkId> = links.iter().copied().collect();
+    let mut group = Group { links, inner: Vec::new(), outer: Vec::new(), inputs: Vec::new() };
+    for (constraint, owner) in constraints.iter().zip(matched) {
+        if !own.contains(owner) {
+            continue;
+        }
+        match constraint.origin {
+            Origin::Joint(joint, 0) => {
+                let both = model.joint(joint).ends().iter().all(|end| own.contains(&end.link));
+                if both { group.inner.push(joint) } else { group.outer.push(joint) }
+            }
+            Origin::Joint(..) => {}
+            Origin::Input(input) => group.inputs.push(input),
+        }
+    }
+    group
+}
+
+/// The count is right, and yet the group's constraints are dependent at every pose.
+fn report_singular(model: &Model, group: &Group) -> Diagnostic {
+    let names: Vec<&str> = group.links.iter().map(|l| model.link(*l).name.text.as_str()).collect();
+    let joints = group.outer.iter().chain(&group.inner).map(|j| model.joint(*j).name.text.as_str()).collect::<Vec<_>>();
+    let unknown = group.inputs.iter().find_map(|input| match input {
+        Input::Unknown(unknown) => Some(model.unknown(*unknown)),
+        Input::Drive(_) => None,
+    });
+    match unknown.filter(|u| !matches!(u.kind, UnknownKind::Drive(_))) {
+        Some(unknown) => Diagnostic::new(
+            unknown.place,
+            format!(
+                "the unknown `{}` cannot hold the linkage: at no pose does it work on the motion of {}",
+                unknown.name,
+                list(&names)
+            ),
+        )
+        .note("the linkage can move without moving its point of action, so no size of it balances a load")
+        .help("let it act on a coordinate that changes when the drive moves"),
+        None => {
+            let place = model.link(group.links[0]).name.place();
+            Diagnostic::new(
+                place,
+                format!("{} cannot be placed: the joints {} are singular together at every pose", list(&names), list(&joints)),
+            )
+            .note("there are as many constraints as freedoms, but some repeat each other: here the linkage is over-constrained, and it stays loose elsewhere")
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! The error of all linkages.
+
+use core::fmt;
+
+/// Why a function of a linkage has no answer at a pose.
+///
+/// Groups are named by their links, joints and pivots as in the declaration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The links of a group cannot be closed at these coordinates of the drives.
+    CannotAssemble {
+        /// The group, by its links.
+        group: &'static str,
+        /// The joint that stays open.
+        joint: &'static str,
+        /// By how much, in the linkage's unit of length; a diagnostic in single precision.
+        gap: f32,
+    },
+    /// The outer joints of a group coincide, so that the place of its inner joint is undetermined.
+    CoincidentPivots {
+        /// The group, by its links.
+        group: &'static str,
+        /// The undetermined joint.
+        joint: &'static str,
+    },
+    /// A group is at a dead centre of the scene's unknown: no effort, however large, holds its loads.
+    DeadCentre {
+        /// The group, by its links.
+        group: &'static str,
+        /// What vanishes there, such as `sin_mu_B`.
+        pivot: &'static str,
+    },
+    /// A parameter is out of its range.
+    Parameter {
+        /// What is required.
+        requirement: &'static str,
+    },
+    /// An argument is not a finite number, or a result is too large for one.
+    NotFinite {
+        /// Which argument.
+        what: &'static str,
+    },
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::CannotAssemble { group, joint, gap } => {
+                write!(f, "{group} cannot be assembled: {joint} stays open by {gap}")
+            }
+            Self::CoincidentPivots { group, joint } => {
+                write!(f, "the outer joints of {group} coincide: the place of {joint} is undetermined")
+            }
+            Self::DeadCentre { group, pivot } => write!(f, "{group} is at a dead centre: {pivot} vanishes"),
+            Self::Parameter { requirement } => f.write_str(requirement),
+            Self::NotFinite { what } => write!(f, "{what} is not finite"),
+        }
+    }
+}
+
+impl core::error::Error for Error {}
+
+#[cfg(test)]
+mod tests {
+    use super::Error;
+    use std::string::ToString;
+
+    #[test]
+    fn says_where_and_why() {
+        let error = Error::CannotAssemble { group: "coupler + rocker", joint: "B", gap: 2.5 };
+        assert_eq!(error.to_string(), "coupler + rocker cannot be assembled: B stays open by 2.5");
+        let error: &dyn core::error::Error = &Error::NotFinite { what: "theta" };
+        assert_eq!(error.to_string(), "theta is not finite");
+    }
+}

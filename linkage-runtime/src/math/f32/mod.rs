@@ -1,0 +1,11 @@
+//! The functions in `f32`.
+
+mod atan2;
+mod large;
+mod sin_cos;
+mod vector;
+
+pub use super::sqrt::sqrtf as sqrt;
+pub use atan2::atan2;
+pub use sin_cos::{sin_cos, sin_cos_sum};
+pub use vector::{polar, unit};

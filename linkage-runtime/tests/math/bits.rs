@@ -1,0 +1,85 @@
+//! The bits of all functions over a fixed sample. A change here is a change of what every user computes: it belongs in
+//! the changelog.
+
+use linkage_runtime::math::{f32 as single, f64 as double};
+
+use crate::sample::Random;
+
+/// FNV-1a over the results, 64 bits each.
+struct Hash(u64);
+
+impl Hash {
+    fn of<T>(seed: u64, mut results: impl FnMut(&mut Random) -> T, bits: impl Fn(T) -> [u64; 2]) -> u64 {
+        let (mut random, mut hash) = (Random(seed), Self(0xCBF2_9CE4_8422_2325));
+        for _ in 0..20_000 {
+            for byte in bits(results(&mut random)).into_iter().flat_map(u64::to_le_bytes) {
+                hash.0 = (hash.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3);
+            }
+        }
+        hash.0
+    }
+}
+
+fn pair((a, b): (f64, f64)) -> [u64; 2] {
+    [a.to_bits(), b.to_bits()]
+}
+
+fn pair_f32((a, b): (f32, f32)) -> [u64; 2] {
+    [u64::from(a.to_bits()), u64::from(b.to_bits())]
+}
+
+/// Three of four angles within a hundred turns, the others of any size.
+fn angle(random: &mut Random) -> f64 {
+    if random.bits().is_multiple_of(4) { random.between_powers(-1022, 1023) } else { 628.0 * random.signed() }
+}
+
+fn angle_f32(random: &mut Random) -> f32 {
+    if random.bits().is_multiple_of(4) {
+        random.between_powers(-126, 127) as f32
+    } else {
+        (628.0 * random.signed()) as f32
+    }
+}
+
+#[test]
+fn bits_of_f64() {
+    let hashes = [
+        Hash::of(1, |random| double::sin_cos(angle(random)), pair),
+        Hash::of(2, |random| double::sin_cos_sum(angle(random), random.signed(), 1e-17 * random.signed()), pair),
+        Hash::of(3, |random| (double::atan2(random.finite(), random.finite()), 0.0), pair),
+        Hash::of(4, |random| (double::atan2(random.signed(), random.signed()), 0.0), pair),
+        Hash::of(5, |random| double::unit(random.signed(), random.signed()), pair),
+        Hash::of(6, |random| double::polar(random.signed(), angle(random)), pair),
+    ];
+    let pinned = [
+        0xD6E0_3A74_FBEE_55DF,
+        0x51E8_C8EA_F84C_0AE1,
+        0x3049_C228_8AAC_E864,
+        0x3EA2_5F75_3044_C477,
+        0x23EA_CDDF_90C3_D9FB,
+        0xECBA_0188_2202_CB40,
+    ];
+    assert_eq!(hashes, pinned, "{hashes:#X?}");
+}
+
+#[test]
+fn bits_of_f32() {
+    let single = |random: &mut Random| random.signed() as f32;
+    let hashes = [
+        Hash::of(1, |random| single::sin_cos(angle_f32(random)), pair_f32),
+        Hash::of(2, |random| single::sin_cos_sum(angle_f32(random), single(random), 1e-8 * single(random)), pair_f32),
+        Hash::of(3, |random| (single::atan2(angle_f32(random), angle_f32(random)), 0.0), pair_f32),
+        Hash::of(4, |random| (single::atan2(single(random), single(random)), 0.0), pair_f32),
+        Hash::of(5, |random| single::unit(single(random), single(random)), pair_f32),
+        Hash::of(6, |random| single::polar(single(random), angle_f32(random)), pair_f32),
+    ];
+    let pinned = [
+        0x4615_59EC_2444_2D43,
+        0x54BE_5315_AA01_1803,
+        0x6C59_23FB_98F8_ACF1,
+        0x4169_0337_EFE5_A823,
+        0xB8E3_C961_BB4C_A400,
+        0xD937_8B45_8C3F_270F,
+    ];
+    assert_eq!(hashes, pinned, "{hashes:#X?}");
+}

@@ -1,0 +1,18 @@
+//! The errors that the documentation promises, in ulp of the true result unless said otherwise.
+
+/// Both results of `sin_cos`, `f64` and `f32`, for every finite angle.
+pub(crate) const SIN_COS: f64 = 0.80;
+
+/// Both results of `sin_cos_sum`, after an absolute allowance of so many ε²·max(4, |x|).
+pub(crate) const SUM: f64 = 0.80;
+pub(crate) const SUM_ALLOWANCE: f64 = 1.0;
+
+/// `atan2`, `f64` and `f32`.
+pub(crate) const ATAN2: f64 = 0.70;
+
+/// The norm of `unit` against 1, and its components against the true ones, in ε.
+pub(crate) const UNIT_NORM: f64 = 1.5;
+pub(crate) const UNIT_COMPONENT: f64 = 1.5;
+
+/// Each component of `polar`, in ε of its size.
+pub(crate) const POLAR: f64 = 1.3;
