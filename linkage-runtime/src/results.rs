@@ -1,15 +1,15 @@
 //! Types of results.
 
-use nalgebra::Vector2;
+use nalgebra::{Scalar, Vector2};
 
 /// The reaction of a prismatic joint on its second link.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SliderReaction<T> {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliderReaction<T: Scalar> {
     /// The force, ground axes.
     pub force: Vector2<T>,
     /// Its signed size along the slide's direction turned by +90°.
     pub normal: T,
-    /// The couple about the joint's point on the second link, counter-clockwise.
+    /// The couple about the slide's runner, the point that is on the line, counter-clockwise.
     pub couple: T,
 }
 

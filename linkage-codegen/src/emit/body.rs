@@ -5,8 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::formula::{Formula, Values};
 use super::literals::{ident, literal};
 use crate::graph::{Condition, Failure, Graph, Guard, Kernel, Op, Scalar};
+use crate::model::Model;
 use crate::program::{Definition, Program, Step, ValueId};
 
 /// How tightly an expression binds.
@@ -113,6 +115,7 @@ impl<'a> Body<'a> {
                 (Kernel::SinCos | Kernel::SinCosSum(_), _) => format!("cos_{of}"),
                 (Kernel::Atan2, _) => format!("angle_{of}"),
                 (Kernel::Unit, part) => format!("unit_{of}_{}", if *part == 0 { "x" } else { "y" }),
+                (Kernel::Solve2 | Kernel::Solve3, part) => format!("solved_{}", part + 1),
             };
         }
         if let Some((path, _)) = self.program.outputs.iter().find(|(_, output)| *output == value) {
@@ -130,6 +133,28 @@ impl<'a> Body<'a> {
             }
         }
         "part".to_owned()
+    }
+
+    /// The program as equations, a line each, under the headings of its sections; a line above says what an equation means.
+    pub(super) fn equations(&self, model: &Model) -> Vec<String> {
+        let mut section = "";
+        let mut lines = Vec::new();
+        let names = |value| self.names.get(&value).map(ToString::to_string);
+        for step in &self.program.steps {
+            let Step::Let(of) = step else { continue };
+            let Some(name) = names(*of) else { continue };
+            let value = self.program.value(*of);
+            if value.section != section {
+                section = &value.section;
+                lines.push(format!("{section}:"));
+            }
+            if let Some(label) = value.label.as_ref().filter(|label| !label.equation.is_empty()) {
+                lines.push(format!("  {}", label.equation));
+            }
+            let formula = Formula { model, terms: Values { program: self.program, names: &names, of: *of } };
+            lines.push(format!("    {name} = {}", formula.of(*of)));
+        }
+        lines
     }
 
     /// The name or the written-out expression of a value.
@@ -210,6 +235,13 @@ impl<'a> Body<'a> {
             }
             Kernel::Atan2 => quote!(math::atan2(#(#args),*)),
             Kernel::Unit => quote!(math::unit(#(#args),*)),
+            Kernel::Solve2 | Kernel::Solve3 => {
+                let unknowns = usize::from(kernel.parts());
+                let (coefficients, right) = args.split_at(unknowns * unknowns);
+                let rows = coefficients.chunks(unknowns).map(|row| quote!([#(#row),*]));
+                let function = if unknowns == 2 { quote!(solve_2) } else { quote!(solve_3) };
+                quote!(math::#function([#(#rows),*], [#(#right),*]))
+            }
         }
     }
 
@@ -256,8 +288,8 @@ impl<'a> Body<'a> {
                     .and_then(|(_, value)| self.names.get(value))
                     .map_or_else(|| quote!(_), |name| quote!(#name))
             };
-            let (first, second) = (part(0), part(1));
-            return quote!(#docs let (#first, #second) = #call;);
+            let parts: Vec<TokenStream> = (0..kernel.parts()).map(part).collect();
+            return quote!(#docs let (#(#parts),*) = #call;);
         }
         let code = self.written_out(value).tokens;
         quote!(#docs let #name = #code;)

@@ -102,23 +102,6 @@ pub(super) fn scene_summary(linkage: &Linkage, index: usize, from_pose: bool) ->
     }
 }
 
-/// The named steps of a program with their equations.
-pub(super) fn scene_equations(program: &Program) -> Vec<String> {
-    let mut section = "";
-    let mut all = Vec::new();
-    for step in &program.steps {
-        let Step::Let(value) = step else { continue };
-        let value = program.value(*value);
-        let Some(label) = value.label.as_ref().filter(|label| !label.equation.is_empty()) else { continue };
-        if value.section != section {
-            section = &value.section;
-            all.push(format!("{section}:"));
-        }
-        all.push(format!("  {} = {}", label.name, label.equation));
-    }
-    all
-}
-
 /// Documentation of a function: summary, further points, errors, operation counts, equations.
 pub(super) fn function(summary: &str, points: &[String], program: &Program, equations: &[String]) -> TokenStream {
     let mut text = format!("{summary}\n");

@@ -1,13 +1,15 @@
 //! The derivation as text: free bodies, equilibrium equations, reduction, closed form.
 
-use super::docs::{blocks, scene_equations};
-use super::formula::Formula;
+use super::docs::blocks;
+use super::formula::{Formula, Nodes};
+use super::functions::body;
 use crate::Linkage;
 use crate::equations::joints::Component;
 use crate::equations::{Exerted, Source};
 use crate::graph::{NodeId, Op};
 use crate::model::ids::LinkId;
 use crate::model::{JointKind, Method};
+use crate::program::Program;
 
 /// The whole text.
 pub(super) fn text(linkage: &Linkage) -> String {
@@ -87,7 +89,7 @@ fn equation(linkage: &Linkage, link: LinkId, part: usize) -> String {
         let node = [exerted.x, exerted.y, exerted.moment][part];
         (!model.graph.expr(node).is_zero()).then_some(node)
     };
-    let formula = Formula { model, name: &|_| None };
+    let formula = Formula { model, terms: Nodes(&model.graph) };
     let mut terms: Vec<(bool, String)> = Vec::new();
     for row in &linkage.system.rows {
         let Some(node) = coefficient(&row.exerts) else { continue };
@@ -127,7 +129,7 @@ fn reaction_name(joint: &str, component: Component) -> String {
 }
 
 /// A coefficient times an unknown, or a load's own term; the sign apart.
-fn term(formula: &Formula<'_>, node: NodeId, unknown: Option<&str>) -> (bool, String) {
+fn term(formula: &Formula<'_, Nodes<'_>>, node: NodeId, unknown: Option<&str>) -> (bool, String) {
     let graph = &formula.model.graph;
     let expr = graph.expr(node);
     let (negative, node) = match (graph.op(node), expr.sign()) {
@@ -147,18 +149,17 @@ fn term(formula: &Formula<'_>, node: NodeId, unknown: Option<&str>) -> (bool, St
 }
 
 fn closed_forms(linkage: &Linkage) -> String {
-    let mut text = String::from("Closed forms\n------------\n\n");
-    text.push_str("pose\n");
-    for line in scene_equations(&linkage.functions.pose) {
-        text.push_str(&format!("  {line}\n"));
-    }
-    for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
-        if scene.method == Method::Verify {
-            continue;
-        }
-        text.push_str(&format!("\nscene {}, from a pose: {}\n", scene.name, functions.from_pose.counts()));
-        for line in scene_equations(&functions.from_pose) {
+    let mut text = String::from("Closed forms\n------------\n");
+    let mut add = |heading: String, program: &Program| {
+        text.push_str(&format!("\n{heading}: {}\n", program.counts()));
+        for line in body(linkage, program).equations(&linkage.model) {
             text.push_str(&format!("  {line}\n"));
+        }
+    };
+    add("pose, from the drives".into(), &linkage.functions.pose);
+    for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
+        if scene.method != Method::Verify {
+            add(format!("scene {}, from a pose", scene.name), &functions.from_pose);
         }
     }
     text

@@ -2,12 +2,54 @@
 
 use crate::graph::{Coordinate, Graph, Kernel, NodeId, Op, Symbol};
 use crate::model::Model;
+use crate::program::{Definition, Program, ValueId};
 
-/// Writes expressions as text.
-pub(super) struct Formula<'a> {
+/// What can be written as text: a node with all that it is made of, or a value of a program down to the next names.
+pub(super) trait Terms<T> {
+    /// What a term computes.
+    fn op(&self, term: T) -> Op<T>;
+    /// The name of a term that is not written out.
+    fn name(&self, term: T) -> Option<String>;
+}
+
+/// Nodes, written out in full.
+pub(super) struct Nodes<'a>(pub(super) &'a Graph);
+
+impl Terms<NodeId> for Nodes<'_> {
+    fn op(&self, term: NodeId) -> Op {
+        self.0.op(term)
+    }
+
+    fn name(&self, _: NodeId) -> Option<String> {
+        None
+    }
+}
+
+/// Values of a program, each by its name where it has one.
+pub(super) struct Values<'a> {
+    pub(super) program: &'a Program,
+    pub(super) names: &'a dyn Fn(ValueId) -> Option<String>,
+    /// The value that is written out.
+    pub(super) of: ValueId,
+}
+
+impl Terms<ValueId> for Values<'_> {
+    fn op(&self, term: ValueId) -> Op<ValueId> {
+        match &self.program.value(term).definition {
+            Definition::Computed(op) => op.clone(),
+            Definition::Input(_) => Op::Quantity(term),
+        }
+    }
+
+    fn name(&self, term: ValueId) -> Option<String> {
+        if term == self.of { None } else { (self.names)(term) }
+    }
+}
+
+/// Writes terms as text.
+pub(super) struct Formula<'a, S> {
     pub(super) model: &'a Model,
-    /// Names of nodes that are not written out.
-    pub(super) name: &'a dyn Fn(NodeId) -> Option<String>,
+    pub(super) terms: S,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,31 +59,36 @@ enum Binding {
     Atom,
 }
 
-impl Formula<'_> {
-    /// A node as text.
-    pub(super) fn of(&self, node: NodeId) -> String {
-        self.bound(node).0
+impl<S> Formula<'_, S> {
+    /// A term as text.
+    pub(super) fn of<T: Copy>(&self, term: T) -> String
+    where
+        S: Terms<T>,
+    {
+        self.bound(term).0
     }
 
-    fn graph(&self) -> &Graph {
-        &self.model.graph
-    }
-
-    fn within(&self, node: NodeId, binding: Binding) -> String {
-        let (text, own) = self.bound(node);
+    fn within<T: Copy>(&self, term: T, binding: Binding) -> String
+    where
+        S: Terms<T>,
+    {
+        let (text, own) = self.bound(term);
         if own >= binding { text } else { format!("({text})") }
     }
 
-    fn bound(&self, node: NodeId) -> (String, Binding) {
-        if let Some(name) = (self.name)(node) {
+    fn bound<T: Copy>(&self, term: T) -> (String, Binding)
+    where
+        S: Terms<T>,
+    {
+        if let Some(name) = self.terms.name(term) {
             return (name, Binding::Atom);
         }
         let sum = |id| self.within(id, Binding::Sum);
         let product = |id| self.within(id, Binding::Product);
         let atom = |id| self.within(id, Binding::Atom);
-        match self.graph().op(node) {
+        match self.terms.op(term) {
             Op::Constant(number) => {
-                let value = self.graph().number(number).to_f64();
+                let value = self.model.graph.number(number).to_f64();
                 (number_text(value), if value < 0.0 { Binding::Sum } else { Binding::Atom })
             }
             Op::Symbol(symbol) => (self.symbol(symbol), Binding::Atom),
@@ -57,20 +104,30 @@ impl Formula<'_> {
                 (format!("{} where {} > {}, else 0", sum(then), sum(value), sum(limit)), Binding::Sum)
             }
             Op::Quantity(a) | Op::Held(a) | Op::Checked { value: a, .. } => self.bound(a),
-            Op::Kernel { kernel, args, part } => (self.call(kernel, &args, part), Binding::Atom),
+            Op::Kernel { kernel, args, part } => {
+                let args: Vec<String> = args.iter().map(|arg| self.of(*arg)).collect();
+                (self.call(kernel, &args, part), Binding::Atom)
+            }
         }
     }
 
-    fn call(&self, kernel: Kernel, args: &[NodeId], part: u8) -> String {
-        let args: Vec<String> = args.iter().map(|arg| self.of(*arg)).collect();
+    fn call(&self, kernel: Kernel, args: &[String], part: u8) -> String {
         match (kernel, part) {
             (Kernel::SinCos, 0) => format!("sin({})", args[0]),
             (Kernel::SinCos, _) => format!("cos({})", args[0]),
             (Kernel::SinCosSum(phase), part) => {
                 let function = if part == 0 { "sin" } else { "cos" };
-                format!("{function}({} + {})", args[0], number_text(self.graph().number(phase).to_f64()))
+                let phase = self.model.graph.number(phase).to_f64();
+                let sign = if phase < 0.0 { '−' } else { '+' };
+                format!("{function}({} {sign} {})", args[0], number_text(phase.abs()))
             }
             (Kernel::Atan2, _) => format!("atan2({}, {})", args[0], args[1]),
+            (Kernel::Solve2 | Kernel::Solve3, part) => {
+                let unknowns = usize::from(kernel.parts());
+                let rows = args[..unknowns * unknowns].chunks(unknowns).zip(&args[unknowns * unknowns..]);
+                let rows: Vec<String> = rows.map(|(row, right)| format!("[{} | {right}]", row.join(", "))).collect();
+                format!("unknown {} of {}", part + 1, rows.join(" "))
+            }
             (Kernel::Unit, part) => format!("{}/|({}, {})|", args[usize::from(part)], args[0], args[1]),
         }
     }

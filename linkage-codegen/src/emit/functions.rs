@@ -45,7 +45,8 @@ fn input_name(linkage: &Linkage, input: Input) -> String {
     }
 }
 
-fn body<'a>(linkage: &'a Linkage, program: &'a Program) -> Body<'a> {
+/// The body of a function.
+pub(super) fn body<'a>(linkage: &'a Linkage, program: &'a Program) -> Body<'a> {
     Body::new(program, &linkage.model.graph, &|input| input_name(linkage, input), &TAKEN)
 }
 
@@ -192,7 +193,8 @@ pub(super) fn pose_at(linkage: &Linkage) -> TokenStream {
     let program = &linkage.functions.pose;
     let bindings = bindings(linkage, program);
     let (statements, body) = body(linkage, program).statements();
-    let kept = linkage.plan.pose.iter().zip(outputs(&body, program)).map(|(kept, value)| member(&kept.name, &value));
+    let values = outputs(&body, program);
+    let kept = linkage.plan.pose.iter().zip(values).map(|(kept, value)| member(&kept.name, &value));
     let drives = linkage.model.drives.iter().map(|drive| ident(&drive.name.text));
     let arguments = drive_arguments(linkage);
     let prepared = linkage_argument(linkage, &quote!('l));
@@ -294,7 +296,7 @@ pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
     let value =
         result(scene.method, &base, &base, &linkage.plan.scenes[index], &mut outputs(&body, &program).into_iter());
     let lines =
-        docs::function(&docs::scene_summary(linkage, index, true), &[], &program, &docs::scene_equations(&program));
+        docs::function(&docs::scene_summary(linkage, index, true), &[], &program, &body.equations(&linkage.model));
     quote! {
         #lines
         #[inline]
@@ -332,8 +334,11 @@ pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
     let base = type_name(&scene.name.text);
     let value =
         result(scene.method, &base, &base, &linkage.plan.scenes[index], &mut outputs(&body, program).into_iter());
-    let lines =
-        docs::function(&docs::scene_summary(linkage, index, false), &[], program, &docs::scene_equations(program));
+    let point = format!(
+        "The equations are those of [`Pose::at`] and [`Pose::{}`], as far as the results need them.",
+        ident(&scene.name.text)
+    );
+    let lines = docs::function(&docs::scene_summary(linkage, index, false), &[point], program, &[]);
     quote! {
         #lines
         #[inline]

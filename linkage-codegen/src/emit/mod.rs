@@ -13,7 +13,7 @@ use quote::quote;
 
 use crate::Linkage;
 use crate::graph::{Op, Symbol};
-use formula::Formula;
+use formula::{Formula, Nodes};
 use literals::ident;
 
 /// The module of a linkage.
@@ -87,7 +87,7 @@ fn prepared_names(linkage: &Linkage) -> Vec<(String, String)> {
     let model = &linkage.model;
     let mut names: Vec<(String, String)> = Vec::new();
     for node in &linkage.functions.prepared {
-        let formula = Formula { model, name: &|_| None }.of(*node);
+        let formula = Formula { model, terms: Nodes(&model.graph) }.of(*node);
         let own = match (model.graph.op(*node), model.graph.label(*node)) {
             (_, Some(label)) => label.name,
             (Op::Symbol(Symbol::Parameter(param)), _) => model.param(param).name.text.clone(),

@@ -39,7 +39,7 @@ impl Graph {
                 (x * d(args[0]) - y * d(args[1])) / (x * x + y * y)
             }
             // Constraints are smooth: they hold none of these.
-            Op::Abs(_) | Op::NonNegative(_) | Op::Where { .. } | Op::Kernel { kernel: Kernel::Unit, .. } => self.zero(),
+            Op::Abs(_) | Op::NonNegative(_) | Op::Where { .. } | Op::Kernel { kernel: Kernel::Unit | Kernel::Solve2 | Kernel::Solve3, .. } => self.zero(),
         }
     }
 
@@ -143,24 +143,23 @@ impl Graph {
             Op::Checked { value, .. } | Op::Quantity(value) | Op::Held(value) => of(value),
             Op::Kernel { kernel, args, part } => {
                 let args: Vec<T> = args.iter().map(|a| of(*a)).collect();
-                let (first, second) = self.apply(kernel, &args);
-                if part == 0 { first } else { second }
+                self.apply(kernel, &args).swap_remove(usize::from(part))
             }
         };
         done.insert(id, value.clone());
         value
     }
 
-    /// Both results of a kernel; a kernel with one result gives it twice.
-    pub fn apply<T: Real>(&self, kernel: Kernel, args: &[T]) -> (T, T) {
+    /// The results of a kernel.
+    pub fn apply<T: Real>(&self, kernel: Kernel, args: &[T]) -> Vec<T> {
+        let pair = |(first, second): (T, T)| vec![first, second];
         match kernel {
-            Kernel::SinCos => args[0].sin_cos(),
-            Kernel::SinCosSum(phase) => args[0].sin_cos_sum(&self.number(phase)),
-            Kernel::Atan2 => {
-                let angle = args[0].atan2(&args[1]);
-                (angle.clone(), angle)
-            }
-            Kernel::Unit => args[0].unit(&args[1]),
+            Kernel::SinCos => pair(args[0].sin_cos()),
+            Kernel::SinCosSum(phase) => pair(args[0].sin_cos_sum(&self.number(phase))),
+            Kernel::Atan2 => vec![args[0].atan2(&args[1])],
+            Kernel::Unit => pair(args[0].unit(&args[1])),
+            Kernel::Solve2 => pair(args[0].solve_2(&args[1], &args[2], &args[3], [&args[4], &args[5]])),
+            Kernel::Solve3 => Real::solve_3(&args[..9], &args[9..]),
         }
     }
 }

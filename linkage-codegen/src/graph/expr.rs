@@ -115,6 +115,19 @@ impl<'g> Expr<'g> {
         self.graph.abs(self)
     }
 
+    /// The sum of the magnitudes of the terms that make up the value: how large its rounding may be, in epsilons.
+    #[must_use]
+    pub fn magnitude(self) -> Self {
+        let of = |id| self.graph.expr(id).magnitude();
+        match self.op() {
+            Op::Neg(a) | Op::Quantity(a) => of(a),
+            Op::Add(a, b) | Op::Sub(a, b) => of(a) + of(b),
+            Op::Mul(a, b) => of(a) * of(b),
+            Op::Div(a, b) => of(a) / self.graph.expr(b).abs(),
+            _ => self.abs(),
+        }
+    }
+
     /// The value, or zero if it is negative.
     #[must_use]
     pub fn non_negative(self) -> Self {

@@ -196,7 +196,7 @@ impl Graph {
     pub(super) fn kernel<'g>(&'g self, kernel: Kernel, args: &[Expr<'g>], part: u8) -> Expr<'g> {
         let values: Option<Vec<Number>> = args.iter().map(|a| a.value()).collect();
         if let Some(values) = values {
-            return self.constant(&self.kernel_value(kernel, &values, part));
+            return self.constant(&self.apply(kernel, &values).swap_remove(usize::from(part)));
         }
         // The sine is odd, the cosine even.
         if let (Kernel::SinCos, Op::Neg(x)) = (kernel, args[0].op()) {
@@ -204,19 +204,6 @@ impl Graph {
             return if part == 0 { -positive } else { positive };
         }
         self.intern(Op::Kernel { kernel, args: args.iter().map(|a| a.id()).collect(), part })
-    }
-
-    fn kernel_value(&self, kernel: Kernel, args: &[Number], part: u8) -> Number {
-        let pick = |(first, second): (Number, Number)| if part == 0 { first } else { second };
-        match kernel {
-            Kernel::SinCos => pick(args[0].sin_cos()),
-            Kernel::SinCosSum(phase) => pick(args[0].add(&self.number(phase)).sin_cos()),
-            Kernel::Atan2 => Number::atan2(&args[0], &args[1]),
-            Kernel::Unit => {
-                let size = args[0].mul(&args[0]).add(&args[1].mul(&args[1])).sqrt().unwrap_or_else(Number::zero);
-                args[usize::from(part)].div(&size).unwrap_or_else(Number::zero)
-            }
-        }
     }
 
     /// Angle of the direction `(x, y)`, in (−π, π].
@@ -228,6 +215,14 @@ impl Graph {
     pub fn unit<'g>(&'g self, vector: super::Vector<'g>) -> super::Vector<'g> {
         let part = |part| self.kernel(Kernel::Unit, &[vector.x, vector.y], part);
         super::Vector { x: part(0), y: part(1) }
+    }
+
+    /// The solution of two or three linear equations.
+    pub fn solved<'g>(&'g self, equations: &[(Vec<Expr<'g>>, Expr<'g>)]) -> Vec<Expr<'g>> {
+        let kernel = if equations.len() == 2 { Kernel::Solve2 } else { Kernel::Solve3 };
+        let coefficients = equations.iter().flat_map(|(row, _)| row.iter().copied());
+        let args: Vec<Expr<'g>> = coefficients.chain(equations.iter().map(|(_, right)| *right)).collect();
+        (0..kernel.parts()).map(|part| self.kernel(kernel, &args, part)).collect()
     }
 
     /// The value behind a check; a check that constants already pass is not made.

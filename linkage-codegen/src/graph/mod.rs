@@ -119,6 +119,22 @@ pub enum Kernel {
     Atan2,
     /// Direction of a vector: its two components over its size, zero for the zero vector.
     Unit,
+    /// Solution of two linear equations, with row pivoting: coefficients row by row, then the right sides.
+    Solve2,
+    /// Solution of three linear equations likewise.
+    Solve3,
+}
+
+impl Kernel {
+    /// How many results it gives.
+    #[must_use]
+    pub fn parts(self) -> u8 {
+        match self {
+            Self::Atan2 => 1,
+            Self::SinCos | Self::SinCosSum(_) | Self::Unit | Self::Solve2 => 2,
+            Self::Solve3 => 3,
+        }
+    }
 }
 
 /// What a node computes from other nodes, or a value from other values.
@@ -430,6 +446,12 @@ impl Graph {
     #[must_use]
     pub fn label(&self, id: NodeId) -> Option<Label> {
         self.arena.borrow().labels.get(&id).cloned()
+    }
+
+    /// Names a value that a pose keeps.
+    pub fn name_kept(&self, value: Expr<'_>, name: &str) {
+        let label = Label { name: name.to_owned(), equation: String::new() };
+        self.arena.borrow_mut().labels.entry(value.id()).or_insert(label);
     }
 
     /// The heading under which a node was made, empty for none.

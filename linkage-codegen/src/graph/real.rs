@@ -42,6 +42,44 @@ pub trait Real: Clone {
     /// Direction of the vector `(self, y)`.
     #[must_use]
     fn unit(&self, y: &Self) -> (Self, Self);
+
+    /// Magnitude.
+    #[must_use]
+    fn abs(&self) -> Self {
+        if Self::from_number(&Number::zero()).above(self) { self.neg() } else { self.clone() }
+    }
+
+    /// `(x, y)` of `a x + b y = e`, `c x + d y = f`, with `a` the number itself: elimination from the equation with the larger
+    /// coefficient of x. The operations and their order are those of the run-time crate.
+    #[must_use]
+    fn solve_2(&self, b: &Self, c: &Self, d: &Self, [e, f]: [&Self; 2]) -> (Self, Self) {
+        let (a, b, e, c, d, f) =
+            if c.abs().above(&self.abs()) { (c, d, f, self, b, e) } else { (self, b, e, c, d, f) };
+        let factor = c.div(a);
+        let y = f.sub(&factor.mul(e)).div(&d.sub(&factor.mul(b)));
+        let x = e.sub(&b.mul(&y)).div(a);
+        (x, y)
+    }
+
+    /// The solution of three equations, by elimination from the equation with the largest coefficient of the first unknown.
+    #[must_use]
+    fn solve_3(coefficients: &[Self], right: &[Self]) -> Vec<Self> {
+        let row = |i: usize| [&coefficients[3 * i], &coefficients[3 * i + 1], &coefficients[3 * i + 2], &right[i]];
+        let mut rows = [row(0), row(1), row(2)];
+        for other in [1, 2] {
+            if rows[other][0].abs().above(&rows[0][0].abs()) {
+                rows.swap(0, other);
+            }
+        }
+        let [first, others @ ..] = rows;
+        let [p, q] = others.map(|line| {
+            let factor = line[0].div(first[0]);
+            [1, 2, 3].map(|column| line[column].sub(&factor.mul(first[column])))
+        });
+        let (y, z) = p[0].solve_2(&p[1], &q[0], &q[1], [&p[2], &q[2]]);
+        let x = first[3].sub(&first[1].mul(&y)).sub(&first[2].mul(&z)).div(first[0]);
+        vec![x, y, z]
+    }
 }
 
 /// Doubles, for what is decided at compile time by comparing sizes; the emitted code has its own functions.

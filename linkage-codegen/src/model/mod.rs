@@ -158,6 +158,15 @@ impl Joint {
         self.ends().into_iter().find(|end| end.link == link)
     }
 
+    /// Where the joint is: of a slide its runner, the point on the line that the other link carries. Its couple is about this point.
+    #[must_use]
+    pub fn place(&self) -> End {
+        match self.kind {
+            JointKind::Prismatic { carrier, .. } if carrier == self.to.link => self.from,
+            _ => self.to,
+        }
+    }
+
     /// The end that is not on a link.
     #[must_use]
     pub fn end_off(&self, link: LinkId) -> Option<End> {

@@ -19,7 +19,7 @@ struct Wrench<'m> {
     couple: Expr<'m>,
 }
 
-/// The reaction of a joint on its second link, at the joint's second point.
+/// The reaction of a joint on its second link; of a slide at its runner.
 #[derive(Clone, Copy, Debug)]
 pub struct Reaction<'m> {
     /// The force.
@@ -153,6 +153,13 @@ impl<'m, 'p> Balance<'m, 'p> {
             self.push(far.link, self.placement.point(far), force.opposite());
         }
         force
+    }
+
+    /// The force of a pin on one of its links, found before.
+    #[must_use]
+    pub fn pinned(&self, joint: JointId, on: LinkId) -> Framed<'m> {
+        let force = self.reaction(joint).force;
+        if self.model().joint(joint).to.link == on { force } else { force.opposite() }
     }
 
     /// The reaction of a slide on its second link, found from the equilibrium of the link `on`; the other link gets its part.

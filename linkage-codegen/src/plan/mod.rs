@@ -7,6 +7,7 @@ mod assembly;
 mod balance;
 mod framed;
 mod half_angle;
+mod linear;
 mod output;
 mod pivots;
 mod placement;
@@ -22,10 +23,10 @@ pub use placement::Placement;
 pub use velocities::Motion;
 
 use crate::diagnostics::{Diagnostic, Sink};
-use crate::graph::{Expr, NodeId, Op};
+use crate::graph::{Coordinate, Expr, NodeId, Op};
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
 use crate::model::units::Kind;
-use crate::model::{End, Model};
+use crate::model::{End, Model, Pair};
 use crate::topology::{Group, Input, Topology};
 
 /// The solution of a linkage.
@@ -35,12 +36,39 @@ pub struct Plan {
     pub pose: Vec<Kept>,
     /// What can be asked of a pose by itself.
     pub accessors: Vec<Accessor>,
+    /// Where every link is, the ground first.
+    pub links: Vec<PlacedLink>,
     /// The scenes' results, in the order of the scenes.
     pub scenes: Vec<Output>,
     /// The rules that solve the groups of motion, in their order.
     pub motion_rules: Vec<&'static str>,
     /// The rules that solve the groups of forces.
     pub force_rules: Vec<&'static str>,
+}
+
+/// Where a link is, in the coordinates of the unreduced equations.
+#[derive(Clone, Copy, Debug)]
+pub struct PlacedLink {
+    /// The origin of its frame.
+    pub origin: Pair,
+    /// The direction of its x axis.
+    pub direction: Pair,
+    /// The angle of its x axis.
+    pub angle: NodeId,
+}
+
+impl PlacedLink {
+    /// The node of a coordinate.
+    #[must_use]
+    pub fn coordinate(&self, which: Coordinate) -> NodeId {
+        match which {
+            Coordinate::X => self.origin.x,
+            Coordinate::Y => self.origin.y,
+            Coordinate::Cos => self.direction.x,
+            Coordinate::Sin => self.direction.y,
+            Coordinate::Angle => self.angle,
+        }
+    }
 }
 
 /// A value that a pose keeps.
@@ -69,8 +97,8 @@ impl Plan {
     /// Solves a linkage. `None` if that is not possible; why is reported.
     #[must_use]
     pub fn of(model: &Model, topology: &Topology, sink: &Sink) -> Option<Self> {
-        let motion_rules = rules_of(model, &topology.motion, "place", sink)?;
-        let force_rules = rules_of(model, &topology.forces, "find the forces of", sink)?;
+        let motion_rules = rules_of(model, &topology.motion, "place", rules::placing_rule, sink)?;
+        let force_rules = rules_of(model, &topology.forces, "find the forces of", rules::force_rule, sink)?;
         let mut assembly = Assembly::new(model, topology);
         for (index, (group, rule)) in topology.motion.iter().zip(&motion_rules).enumerate() {
             model.graph.begin_section(heading(model, index, group, rule.class(), "position"));
@@ -91,7 +119,8 @@ impl Plan {
         let plan = Self {
             pose: kept(&assembly),
             accessors: accessors(&assembly),
-            scenes: scenes::outputs(model, topology, &assembly, &force_rules),
+            links: placed_links(&assembly),
+            scenes: scenes::outputs(&assembly, &force_rules, sink),
             motion_rules: motion_rules.iter().map(|rule| rule.class()).collect(),
             force_rules: force_rules.iter().map(|rule| rule.class()).collect(),
         };
@@ -102,10 +131,12 @@ impl Plan {
 
 type Rules = Vec<&'static dyn rules::Rule>;
 
-fn rules_of(model: &Model, groups: &[Group], what: &str, sink: &Sink) -> Option<Rules> {
+type Choice = fn(&Model, &Group) -> Option<&'static dyn rules::Rule>;
+
+fn rules_of(model: &Model, groups: &[Group], what: &str, choose: Choice, sink: &Sink) -> Option<Rules> {
     let mut found = Vec::new();
     for group in groups {
-        match rules::rule_of(model, group) {
+        match choose(model, group) {
             Some(rule) => found.push(rule),
             None => sink.report(unsupported(model, group, what)),
         }
@@ -139,12 +170,23 @@ fn heading(model: &Model, index: usize, group: &Group, class: &str, what: &str) 
     format!("Group {}, {class}: {} ({joints}): {what}", index + 1, model.link_names(&group.links))
 }
 
+fn placed_links(assembly: &Assembly<'_>) -> Vec<PlacedLink> {
+    let placement = &assembly.placement;
+    let place = |link: LinkId| PlacedLink {
+        origin: placement.origin(link).into(),
+        direction: placement.frame(link).into(),
+        angle: angle(assembly, link).id(),
+    };
+    (0..assembly.model().links.len()).map(LinkId::new).map(place).collect()
+}
+
 /// Directions, travels and pivots, each once; what is constant is not kept.
 fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
     let model = assembly.model();
     let mut all: Vec<Kept> = Vec::new();
     let mut keep = |name: String, meaning: String, value: Expr<'_>| {
         if matches!(value.op(), Op::Held(_)) && all.iter().all(|kept| kept.node != value.id()) {
+            model.graph.name_kept(value, &name);
             all.push(Kept { name, meaning, node: value.id() });
         }
     };
@@ -189,7 +231,7 @@ fn accessors(assembly: &Assembly<'_>) -> Vec<Accessor> {
     for joint in model.joint_ids() {
         let name = &model.joint(joint).name;
         let meaning = format!("Place of the joint `{name}`, {unit}, ground axes.");
-        let output = Output::vector(placement.place(model.joint(joint).to), Meaning::Place);
+        let output = Output::vector(placement.place(model.joint(joint).place()), Meaning::Place);
         all.push(Accessor { name: name.text.clone(), meaning, output });
     }
     for link in model.moving_links() {

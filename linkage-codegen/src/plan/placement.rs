@@ -170,17 +170,19 @@ impl<'m> Placement<'m> {
         }
     }
 
-    /// The place of a slide's second point on one of its links, along and across that link's direction.
+    /// The place of a slide's runner on one of its links, along and across that link's direction.
     #[must_use]
     pub fn slide_point(&self, joint: JointId, link: LinkId) -> Vector<'m> {
         let data = self.model.joint(joint);
         match data.kind {
             // Both links carry the same direction, so that the slide's direction is the same vector for both.
-            JointKind::Prismatic { carrier, axis, .. } if data.from.link == link => {
+            JointKind::Prismatic { carrier, axis, .. } if carrier == link => {
                 let along = self.carried(carrier, axis.vector(self.graph()));
-                self.point(data.from) + along.scaled(self.travel(joint))
+                let travel = self.travel(joint);
+                let (own, travel) = if data.from.link == link { (data.from, travel) } else { (data.to, -travel) };
+                self.point(own) + along.scaled(travel)
             }
-            _ => self.point(data.to),
+            _ => self.point(data.end_on(link).unwrap_or(data.to)),
         }
     }
 
@@ -199,6 +201,16 @@ impl<'m> Placement<'m> {
             }
             _ => self.model.local(end),
         }
+    }
+
+    /// The origin of a link's frame in ground axes.
+    #[must_use]
+    pub fn origin(&self, link: LinkId) -> Vector<'m> {
+        let point = End { link, point: crate::model::ids::PointId::FIRST };
+        if link == GROUND || self.model.link(link).points.is_empty() {
+            return self.graph().zero_vector();
+        }
+        self.place(point) - self.turned(link, self.model.local(point))
     }
 
     /// The orientation of a link that a slide joins to a placed one: they turn together.

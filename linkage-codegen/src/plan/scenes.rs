@@ -1,13 +1,14 @@
 //! The results of every scene, by its method.
 
-use super::rules::Rule;
+use super::rules::{Rule, RuleResult};
 use super::{Assembly, Balance, Meaning, Motion, Output, angle, heading, joint_name};
+use crate::diagnostics::Sink;
 use crate::equations::loads::{Action, Case, cases_of};
 use crate::model::ids::{GROUND, JointId, LoadId, UnknownId};
 use crate::model::units::Kind;
 use crate::model::{JointKind, LoadKind, Method, Model, Scene, UnknownKind, Wanted};
 use crate::plan::output::Field;
-use crate::topology::{Group, Topology};
+use crate::topology::Group;
 
 /// What the solution of forces needs.
 struct Forces<'a, 'm> {
@@ -15,16 +16,13 @@ struct Forces<'a, 'm> {
     groups: &'a [Group],
     rules: &'a [&'static dyn Rule],
     assembly: &'a Assembly<'m>,
+    sink: &'a Sink,
 }
 
 /// The results of all scenes.
-pub(super) fn outputs(
-    model: &Model,
-    topology: &Topology,
-    assembly: &Assembly<'_>,
-    rules: &[&'static dyn Rule],
-) -> Vec<Output> {
-    let forces = Forces { model, groups: &topology.forces, rules, assembly };
+pub(super) fn outputs(assembly: &Assembly<'_>, rules: &[&'static dyn Rule], sink: &Sink) -> Vec<Output> {
+    let model = assembly.model();
+    let forces = Forces { model, groups: &assembly.topology.forces, rules, assembly, sink };
     model
         .scenes
         .iter()
@@ -46,7 +44,7 @@ fn position(forces: &Forces<'_, '_>, scene: &Scene) -> Output {
         Wanted::Joint(joint) => Some(Field {
             name: joint_name(model, joint).into(),
             doc: format!("Place of the joint `{}`, {unit}, ground axes.", joint_name(model, joint)),
-            value: Output::vector(placement.place(model.joint(joint).to), Meaning::Place),
+            value: Output::vector(placement.place(model.joint(joint).place()), Meaning::Place),
         }),
         Wanted::Point(end) => Some(Field {
             name: model.end_name(end).replace('.', "_"),
@@ -74,9 +72,16 @@ impl<'m> Forces<'_, 'm> {
         let mut balance = Balance::new(&self.assembly.placement, &self.assembly.pivots, prefix.into(), actions);
         for (index, (group, rule)) in self.groups.iter().zip(self.rules).enumerate().rev() {
             self.model.graph.begin_section(heading(self.model, index, group, rule.class(), &case));
-            rule.balance(&mut balance, group);
+            self.report(rule.balance(&mut balance, group));
         }
         balance
+    }
+
+    /// An error of a rule is the same in every scene: once is enough.
+    fn report(&self, result: RuleResult) {
+        if let (Err(error), true) = (result, self.sink.is_clean()) {
+            self.sink.report(error);
+        }
     }
 
     /// All actions of some loads.
@@ -186,7 +191,7 @@ impl<'m> Forces<'_, 'm> {
         let mut motion = Motion::new(&self.assembly.placement, &self.assembly.pivots, unknown, prefix);
         for (index, (group, rule)) in self.groups.iter().zip(self.rules).enumerate() {
             self.model.graph.begin_section(heading(self.model, index, group, rule.class(), "virtual velocities"));
-            rule.follow(&mut motion, group);
+            self.report(rule.follow(&mut motion, group));
         }
         motion
     }
@@ -300,7 +305,7 @@ fn reaction_doc(model: &Model, joint: JointId) -> String {
         JointKind::Prismatic { .. } => {
             format!(
                 "Force ({force}, ground axes) and couple ({moment}) on `{to}` by `{from}`, about `{}`.",
-                model.end_name(data.to)
+                model.end_name(data.place())
             )
         }
     }

@@ -22,6 +22,8 @@ pub struct Counts {
     pub atan2: usize,
     /// Vectors brought to unit size.
     pub unit: usize,
+    /// Pairs and triples of linear equations.
+    pub solve: usize,
     /// Changes of sign and magnitudes.
     pub sign: usize,
     /// Comparisons: checks, clamps and selections.
@@ -51,6 +53,7 @@ impl Program {
                                 Kernel::SinCos | Kernel::SinCosSum(_) => counts.sin_cos += 1,
                                 Kernel::Atan2 => counts.atan2 += 1,
                                 Kernel::Unit => counts.unit += 1,
+                                Kernel::Solve2 | Kernel::Solve3 => counts.solve += 1,
                             }
                             pairs.push(call);
                         }
@@ -75,6 +78,7 @@ impl fmt::Display for Counts {
             (self.sin_cos, "sin/cos"),
             (self.atan2, "atan2"),
             (self.unit, "unit"),
+            (self.solve, "solve"),
             (self.sign, "sign"),
             (self.compare, "compare"),
         ];

@@ -105,8 +105,7 @@ impl Run<'_> {
                     Op::Quantity(a) | Op::Held(a) | Op::Checked { value: a, .. } => of(a),
                     Op::Kernel { kernel, args, part } => {
                         let args: Vec<T> = args.iter().map(of).collect();
-                        let (first, second) = self.graph.apply(*kernel, &args);
-                        if *part == 0 { first } else { second }
+                        self.graph.apply(*kernel, &args).swap_remove(usize::from(*part))
                     }
                 }
             }

@@ -3,8 +3,7 @@
 //! * Position: the drive gives the direction; where a dyad hangs on both links of the pin, by the half angle.
 //! * Force: the moment about the pin gives the unknown, the sum of the forces the reaction.
 
-use super::Rule;
-use crate::diagnostics::Diagnostic;
+use super::{Rule, RuleResult};
 use crate::graph::{Expr, Vector};
 use crate::model::ids::{JointId, LinkId, UnknownId};
 use crate::model::{JointKind, Model, UnknownKind};
@@ -39,7 +38,7 @@ impl Rule for Crank {
         parts(model, group).is_some()
     }
 
-    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> Result<(), Diagnostic> {
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
         let model = assembly.model();
         let Some((link, pin, Input::Drive(drive))) = parts(model, group) else { return Ok(()) };
         let (name, drive_name) = (&model.link(link).name, &model.drive(drive).name);
@@ -66,9 +65,9 @@ impl Rule for Crank {
         Ok(())
     }
 
-    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) {
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
         let model = balance.model();
-        let Some((link, pin, Input::Unknown(unknown))) = parts(model, group) else { return };
+        let Some((link, pin, Input::Unknown(unknown))) = parts(model, group) else { return Ok(()) };
         let about = balance.placement.point(balance.end(pin, link));
         let (name, point) = (&model.link(link).name, &model.joint(pin).name);
         let one = balance.graph().one();
@@ -88,7 +87,7 @@ impl Rule for Crank {
                 balance.pin(pin, link, total.opposite());
             }
             None => {
-                let Some((along, arm)) = line_of_force(balance.placement, unknown, about) else { return };
+                let Some((along, arm)) = line_of_force(balance.placement, unknown, about) else { return Ok(()) };
                 let arm = significant_arm(model, unknown, arm, pin, name.text.as_str());
                 let force =
                     (-moment / arm).named(balance.name(effort), format!("−ΣM({point})/arm of what acts on {name}"));
@@ -98,13 +97,14 @@ impl Rule for Crank {
                 balance.pin(pin, link, total.plus(&along, ground).opposite());
             }
         }
+        Ok(())
     }
 
-    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) {
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let model = motion.model();
-        let Some((link, pin, Input::Unknown(unknown))) = parts(model, group) else { return };
+        let Some((link, pin, Input::Unknown(unknown))) = parts(model, group) else { return Ok(()) };
         let data = model.joint(pin);
-        let (Some(near), Some(far)) = (data.end_on(link), data.end_off(link)) else { return };
+        let (Some(near), Some(far)) = (data.end_on(link), data.end_off(link)) else { return Ok(()) };
         let about = motion.placement.point(near);
         let velocity = motion.of_point(far);
         let own_rate = motion.rate_of(unknown);
@@ -118,13 +118,14 @@ impl Rule for Crank {
                 }
             }
             None => {
-                let Some((along, arm)) = line_of_force(motion.placement, unknown, about) else { return };
+                let Some((along, arm)) = line_of_force(motion.placement, unknown, about) else { return Ok(()) };
                 let arm = significant_arm(model, unknown, arm, pin, name.text.as_str());
                 (own_rate - velocity.along(along.axes).dot(along.components)) / arm
             }
         };
         let rate = rate.named(motion.name(&format!("rate_{name}")), format!("rate of rotation of {name}"));
         motion.found(link, Twist { rate, at: about, velocity });
+        Ok(())
     }
 }
 

@@ -3,6 +3,7 @@
 //! A rule states position, virtual velocity and force of its class; that it satisfies the group's own constraints and equilibrium
 //! equations is proved by a test for every rule in the list.
 
+mod block;
 mod crank;
 mod rrp;
 mod rrr;
@@ -14,7 +15,9 @@ use super::assembly::Assembly;
 use super::balance::Balance;
 use super::velocities::Motion;
 use crate::diagnostics::Diagnostic;
+use crate::graph::{Expr, Failure};
 use crate::model::Model;
+use crate::model::ids::{JointId, LinkId};
 use crate::topology::Group;
 
 /// The solution of a class of groups.
@@ -25,25 +28,59 @@ pub trait Rule: Sync {
     /// Whether a group belongs to the class.
     fn fits(&self, model: &Model, group: &Group) -> bool;
 
+    /// Whether the rule places links; otherwise it solves forces alone.
+    fn places(&self) -> bool {
+        true
+    }
+
     /// Places the links of the group.
-    ///
-    /// # Errors
-    ///
-    /// Where the declaration leaves the place open, or rules it out at every pose.
-    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> Result<(), Diagnostic>;
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult;
 
     /// Finds the reactions of the group's joints, and its unknowns, from what acts on its links.
-    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group);
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult;
 
     /// Finds the virtual velocities of the group's links from those of the links before it.
-    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group);
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult;
 }
 
-/// All rules; the first that fits a group solves it.
-pub const RULES: [&dyn Rule; 4] = [&crank::Crank, &slide::Slide, &rrr::Rrr, &rrp::Rrp];
+/// An error where the declaration leaves something open, or rules it out at every pose.
+pub type RuleResult = Result<(), Diagnostic>;
 
-/// The rule of a group.
+/// All rules; the first that fits a group solves it.
+pub const RULES: [&dyn Rule; 5] = [&crank::Crank, &slide::Slide, &rrr::Rrr, &rrp::Rrp, &block::Block];
+
+/// The rule that places a group.
 #[must_use]
-pub fn rule_of(model: &Model, group: &Group) -> Option<&'static dyn Rule> {
+pub fn placing_rule(model: &Model, group: &Group) -> Option<&'static dyn Rule> {
+    RULES.into_iter().find(|rule| rule.places() && rule.fits(model, group))
+}
+
+/// The rule that solves a group's forces.
+#[must_use]
+pub fn force_rule(model: &Model, group: &Group) -> Option<&'static dyn Rule> {
     RULES.into_iter().find(|rule| rule.fits(model, group))
+}
+
+/// The distance of two pins of a link; of one that depends on parameters it is checked when they are given.
+fn length_between<'m>(model: &'m Model, link: LinkId, pins: [JointId; 2]) -> Expr<'m> {
+    let [a, b] = pins.map(|pin| model.joint(pin).end_on(link).unwrap_or(model.joint(pin).from));
+    let length = model.distance(link, a.point, b.point);
+    let [first, second] = pins.map(|pin| &model.joint(pin).name);
+    let requirement = format!("{}: its joints {first} and {second} must be apart", model.link(link).name);
+    let checked = length.require_above(length, model.graph.zero(), Failure::Parameter { requirement });
+    if checked.value().is_some() { checked } else { checked.known_positive() }
+}
+
+/// A link that is held by two pins needs a length between them.
+fn check_length(model: &Model, link: LinkId, pins: [JointId; 2]) -> RuleResult {
+    let [a, b] = pins.map(|pin| model.joint(pin).end_on(link));
+    let (Some(a), Some(b)) = (a, b) else { return Ok(()) };
+    let length = model.distance(link, a.point, b.point);
+    if !length.is_zero() {
+        return Ok(());
+    }
+    let [first, second] = pins.map(|pin| &model.joint(pin).name);
+    let name = &model.link(link).name;
+    Err(Diagnostic::new(name.place(), format!("the link `{name}` has no length between its joints `{first}` and `{second}`"))
+        .help("put the two points apart, or join the two other links by one pin"))
 }

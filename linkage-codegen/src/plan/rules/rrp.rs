@@ -13,7 +13,7 @@
 //! `p e + f n`, `p = e·W`, and with `t = −m/r` across the link `f = (t − p (u × e))/(u·e)`. The guide exerts `N = f − n·W` across
 //! the slide. `u·e = h/r` is the pivot: sin μ, with μ the angle between the link and the normal of the slide.
 
-use super::Rule;
+use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
@@ -59,8 +59,7 @@ impl<'a> Dyad<'a> {
     }
 
     fn length(&self) -> Expr<'a> {
-        let (outer, inner) = (self.end(self.outer, self.rod), self.end(self.inner, self.rod));
-        self.model.distance(self.rod, outer.point, inner.point)
+        super::length_between(self.model, self.rod, [self.outer, self.inner])
     }
 
     /// The direction from the outer pin to the inner one in the rod's own frame.
@@ -100,14 +99,15 @@ impl Rule for Rrp {
         dyad(model, group).is_some()
     }
 
-    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> Result<(), Diagnostic> {
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
         let Some(dyad) = dyad(assembly.model(), group) else { return Ok(()) };
         close(assembly, group, &dyad)
     }
 
-    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) {
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
         let model = balance.model();
-        let Some(dyad) = dyad(model, group) else { return };
+        let Some(dyad) = dyad(model, group) else { return Ok(()) };
+        super::check_length(model, dyad.rod, [dyad.outer, dyad.inner])?;
         let (rod, inner) = (dyad.link_name(dyad.rod), dyad.joint_name(dyad.inner));
         let (outer, slider) = (dyad.joint_name(dyad.outer), dyad.link_name(dyad.slider));
         let e = balance.placement.slide_direction(dyad.slide);
@@ -139,11 +139,12 @@ impl Rule for Rrp {
         let force = balance.pin(dyad.inner, dyad.rod, force);
         balance.pin(dyad.outer, dyad.rod, loads.plus(&force, ground).opposite());
         super::slide::guide(balance, dyad.slide, dyad.slider, load.y - side);
+        Ok(())
     }
 
-    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) {
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let model = motion.model();
-        let Some(dyad) = dyad(model, group) else { return };
+        let Some(dyad) = dyad(model, group) else { return Ok(()) };
         let e = motion.placement.slide_direction(dyad.slide);
         let u = dyad.direction(motion.placement);
         let slide = model.joint(dyad.slide);
@@ -184,20 +185,16 @@ impl Rule for Rrp {
         motion.found(dyad.rod, Twist { rate, at: rod_at, velocity: outer });
         let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes: e };
         motion.found(dyad.slider, Twist { rate: slider_rate, at, velocity: guided.plus(&sliding, ground) });
+        Ok(())
     }
 }
 
-fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Result<(), Diagnostic> {
+fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> RuleResult {
     let model = dyad.model;
     let graph = assembly.graph();
     let (outer, inner) = (dyad.joint_name(dyad.outer), dyad.joint_name(dyad.inner));
     let r = dyad.length();
-    if r.is_zero() {
-        let problem =
-            format!("the link `{}` has no length between its joints `{outer}` and `{inner}`", dyad.link_name(dyad.rod));
-        return Err(Diagnostic::new(model.link(dyad.rod).name.place(), problem)
-            .help("put the two points apart, or join the slider by one pin"));
-    }
+    super::check_length(model, dyad.rod, [dyad.outer, dyad.inner])?;
     let Some(closure) = assembly.closure(dyad.inner) else {
         return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], outer));
     };

@@ -14,7 +14,7 @@
 //! Forces, by the textbooks' resolution along and across the links: with `m₁`, `m₂` the moments of the loads about P and Q, the
 //! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`.
 
-use super::Rule;
+use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Scalar, Vector};
@@ -83,10 +83,13 @@ impl<'a> PinnedDyad<'a> {
         joint.end_on(link).unwrap_or(joint.from)
     }
 
+    fn check_lengths(&self) -> RuleResult {
+        self.legs.iter().try_for_each(|leg| super::check_length(self.model, leg.link, [leg.outer, self.inner]))
+    }
+
     /// Distance of a leg's pins.
     fn length(&self, leg: Leg) -> Expr<'a> {
-        let (outer, inner) = (self.end(leg.outer, leg.link), self.end(self.inner, leg.link));
-        self.model.distance(leg.link, outer.point, inner.point)
+        super::length_between(self.model, leg.link, [leg.outer, self.inner])
     }
 
     /// The direction from the outer pin to the inner one, in the leg's own frame.
@@ -152,14 +155,15 @@ impl Rule for Rrr {
         pinned_dyad(model, group).is_some()
     }
 
-    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> Result<(), Diagnostic> {
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
         let Some(dyad) = pinned_dyad(assembly.model(), group) else { return Ok(()) };
         close(assembly, group, &dyad)
     }
 
-    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) {
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
         let model = balance.model();
-        let Some(dyad) = pinned_dyad(model, group) else { return };
+        let Some(dyad) = pinned_dyad(model, group) else { return Ok(()) };
+        dyad.check_lengths()?;
         let [first, second] = dyad.legs;
         let [u1, u2] = dyad.legs.map(|leg| dyad.direction(balance.placement, leg));
         // Moments of the loads about the outer pins, over the lengths.
@@ -196,11 +200,12 @@ impl Rule for Rrr {
         let force = balance.pin(dyad.inner, first.link, force);
         balance.pin(first.outer, first.link, loads[0].plus(&force, ground).opposite());
         balance.pin(second.outer, second.link, loads[1].plus(&force.opposite(), ground).opposite());
+        Ok(())
     }
 
-    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) {
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let model = motion.model();
-        let Some(dyad) = pinned_dyad(model, group) else { return };
+        let Some(dyad) = pinned_dyad(model, group) else { return Ok(()) };
         let [u1, u2] = dyad.legs.map(|leg| dyad.direction(motion.placement, leg));
         let [p, q] = dyad.outer_ends().map(|end| motion.of_point(end));
         // v_P + ω₁ r₁ u₁⊥ = v_Q + ω₂ r₂ u₂⊥, multiplied by u₂ and by u₁.
@@ -223,6 +228,7 @@ impl Rule for Rrr {
             let at = motion.placement.point(dyad.end(leg.outer, leg.link));
             motion.found(leg.link, Twist { rate, at, velocity });
         }
+        Ok(())
     }
 }
 
@@ -238,18 +244,10 @@ struct Closing<'m> {
     pivot: Expr<'m>,
 }
 
-fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) -> Result<(), Diagnostic> {
-    let model = dyad.model;
+fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) -> RuleResult {
+    let _model = dyad.model;
     let [first, second] = dyad.legs;
-    for leg in dyad.legs {
-        if dyad.length(leg).is_zero() {
-            let (outer, inner) = (dyad.joint_name(leg.outer), dyad.joint_name(dyad.inner));
-            let problem =
-                format!("the link `{}` has no length between its joints `{outer}` and `{inner}`", dyad.link_name(leg));
-            return Err(Diagnostic::new(model.link(leg.link).name.place(), problem)
-                .help("put the two points apart, or join the two other links by one pin"));
-        }
-    }
+    dyad.check_lengths()?;
     let outer_names = [first, second].map(|leg| dyad.joint_name(leg.outer));
     let of = format!("{} -> {}", outer_names[0], outer_names[1]);
     let Some(closure) = assembly.closure(dyad.inner) else {
@@ -273,7 +271,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) 
     let (r1, r2) = (dyad.length(first), dyad.length(second));
     let name = dyad.joint_name(dyad.inner);
     let difference = r1.squared() - r2.squared();
-    let inverse = (assembly.graph().one() / closing.d2).named(format!("inverse_D2_{name}"), format!("1/D2_{name}"));
+    let inverse = (assembly.graph().one() / closing.d2).named(format!("inverse_D2_{name}"), "");
     let legs = [(first, r1, r2, closing.d2 + difference, 1), (second, r2, r1, closing.d2 - difference, -1)];
     for (leg, own, other, sum, sense) in legs {
         let link = dyad.link_name(leg);
@@ -300,7 +298,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) 
     Ok(())
 }
 
-fn check_closure(dyad: &PinnedDyad<'_>, closure: &Closure, of: &str) -> Result<(), Diagnostic> {
+fn check_closure(dyad: &PinnedDyad<'_>, closure: &Closure, of: &str) -> RuleResult {
     let outer = dyad.legs.map(|leg| leg.outer);
     let fits = matches!(closure.side, Side::Left | Side::Right) && closure.of == outer;
     if fits {

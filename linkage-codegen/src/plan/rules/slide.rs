@@ -3,8 +3,7 @@
 //! * Position: the link turns with the slide's other link; the drive is its travel.
 //! * Force: along the slide the sum of the forces gives the unknown, across it the normal force; the moment gives the couple.
 
-use super::Rule;
-use crate::diagnostics::Diagnostic;
+use super::{Rule, RuleResult};
 use crate::graph::{Expr, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
 use crate::model::{JointKind, Model, UnknownKind};
@@ -37,7 +36,7 @@ impl Rule for Slide {
         parts(model, group).is_some()
     }
 
-    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> Result<(), Diagnostic> {
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
         let Some((link, slide, Input::Drive(drive))) = parts(assembly.model(), group) else { return Ok(()) };
         let orientation = assembly.placement.along_slide(slide, link);
         assembly.placement.orient(link, orientation);
@@ -46,9 +45,9 @@ impl Rule for Slide {
         Ok(())
     }
 
-    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) {
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
         let model = balance.model();
-        let Some((link, slide, Input::Unknown(unknown))) = parts(model, group) else { return };
+        let Some((link, slide, Input::Unknown(unknown))) = parts(model, group) else { return Ok(()) };
         let joint = model.joint(slide);
         let second = joint.to.link == link;
         let direction = balance.placement.slide_direction(slide);
@@ -57,7 +56,7 @@ impl Rule for Slide {
         let equation = format!("±ΣF of what acts on {name} along the slide {}", joint.name);
         let across = match force_on(balance.placement, unknown) {
             None => {
-                // The effort acts along the slide at its second point: on the second link forwards, on the first one backwards.
+                // The effort acts along the slide: on the second link forwards, on the first one backwards.
                 let value = if second { -total.x } else { total.x }.named(balance.name(effort), equation);
                 balance.found(unknown, value);
                 let (far, on_far) = if second { (joint.from.link, -value) } else { (joint.to.link, value) };
@@ -77,11 +76,12 @@ impl Rule for Slide {
             }
         };
         guide(balance, slide, link, across);
+        Ok(())
     }
 
-    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) {
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let model = motion.model();
-        let Some((link, slide, Input::Unknown(unknown))) = parts(model, group) else { return };
+        let Some((link, slide, Input::Unknown(unknown))) = parts(model, group) else { return Ok(()) };
         let joint = model.joint(slide);
         let far = if joint.to.link == link { joint.from.link } else { joint.to.link };
         let direction = motion.placement.slide_direction(slide);
@@ -113,6 +113,7 @@ impl Rule for Slide {
         let sliding = sliding.named(motion.name(&format!("speed_{}", joint.name)), meaning);
         let along = Framed { components: Vector::new(sliding, motion.graph().zero()), axes: direction };
         motion.found(link, Twist { rate, at, velocity: carried.plus(&along, ground) });
+        Ok(())
     }
 }
 

@@ -1,0 +1,564 @@
+//! Any other group of forces: block elimination of its equilibrium equations.
+//!
+//! A link that is held by two pins alone, or by a pin and a slide, and on which no unknown acts, is a *member*: the moment about one
+//! pin, or the force along the slide, gives one part of the force at its end, and a single number `N` is left, the force along the
+//! member or across its slide. The other links are *carriers* with three equations each, and a pin between two members adds the two
+//! of its own balance. The remaining unknowns are eliminated by constants down to a core, which is solved with pivoting.
+//!
+//! The virtual velocities of the carriers and the pins are the solution of the transposed equations.
+
+use super::{Rule, RuleResult};
+use crate::diagnostics::Diagnostic;
+use crate::graph::{Expr, Vector};
+use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
+use crate::model::{JointKind, Model, UnknownKind};
+use crate::plan::assembly::Assembly;
+use crate::plan::balance::Balance;
+use crate::plan::framed::Framed;
+use crate::plan::linear::{Core, Equation, solve};
+use crate::plan::placement::Placement;
+use crate::plan::velocities::{Motion, Twist};
+use crate::topology::{Group, Input};
+
+/// The rule.
+pub(crate) struct Block;
+
+/// A link with a single number left.
+#[derive(Clone, Copy, Debug)]
+struct Member {
+    link: LinkId,
+    /// The end at which its number acts.
+    near: JointId,
+    /// The other end: a pin, or a slide.
+    far: JointId,
+}
+
+/// What a column of the equations stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Unknown {
+    /// The number of a member.
+    Member(usize),
+    /// A component of a joint that no member has: of a pin along x and y, of a slide across it and its couple.
+    Joint(JointId, usize),
+    /// An effort.
+    Effort(UnknownId),
+}
+
+/// What has equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Free {
+    /// A carrier: force along x and y, moment about its first joint.
+    Carrier(LinkId),
+    /// A pin between two members: force along x and y.
+    Pin(JointId),
+}
+
+/// A force, or a couple, of unit size or known.
+#[derive(Clone, Copy, Debug)]
+enum Act<'m> {
+    Force(LinkId, Vector<'m>, Framed<'m>),
+    Couple(LinkId, Expr<'m>),
+    /// On the pin between two members.
+    Pin(JointId, Framed<'m>),
+}
+
+/// A group taken apart.
+struct Parts<'p, 'm> {
+    placement: &'p Placement<'m>,
+    model: &'m Model,
+    members: Vec<Member>,
+    unknowns: Vec<Unknown>,
+    free: Vec<Free>,
+}
+
+impl<'p, 'm> Parts<'p, 'm> {
+    fn of(placement: &'p Placement<'m>, group: &Group) -> Self {
+        let model = placement.model;
+        let members = members(model, group);
+        let is_member = |link: LinkId| members.iter().any(|m| m.link == link);
+        let mut unknowns: Vec<Unknown> = (0..members.len()).map(Unknown::Member).collect();
+        let mut free: Vec<Free> =
+            group.links.iter().filter(|link| !is_member(**link)).map(|link| Free::Carrier(*link)).collect();
+        for joint in group.outer.iter().chain(&group.inner) {
+            let ends = model.joint(*joint).ends().map(|end| is_member(end.link));
+            match ends {
+                [true, true] => free.push(Free::Pin(*joint)),
+                [false, false] => unknowns.extend([Unknown::Joint(*joint, 0), Unknown::Joint(*joint, 1)]),
+                _ => {}
+            }
+        }
+        for input in &group.inputs {
+            if let Input::Unknown(unknown) = input {
+                unknowns.push(Unknown::Effort(*unknown));
+            }
+        }
+        Self { placement, model, members, unknowns, free }
+    }
+
+    fn ground(&self) -> Vector<'m> {
+        self.placement.direction(GROUND)
+    }
+
+    fn is_member(&self, link: LinkId) -> bool {
+        self.members.iter().any(|m| m.link == link)
+    }
+
+    fn is_slide(&self, joint: JointId) -> bool {
+        matches!(self.model.joint(joint).kind, JointKind::Prismatic { .. })
+    }
+
+    /// Whether the force of a pin was found from another member.
+    fn found_before(&self, joint: JointId, on: LinkId) -> bool {
+        let first = self.members.iter().find(|m| m.near == joint || m.far == joint).map(|m| m.link);
+        self.is_member(self.other(joint, on)) && first != Some(on)
+    }
+
+    /// The place of a joint on a link, along and across its direction.
+    fn place(&self, joint: JointId, link: LinkId) -> Vector<'m> {
+        if self.is_slide(joint) {
+            return self.placement.slide_point(joint, link);
+        }
+        let data = self.model.joint(joint);
+        self.placement.point(data.end_on(link).unwrap_or(data.from))
+    }
+
+    fn other(&self, joint: JointId, link: LinkId) -> LinkId {
+        let data = self.model.joint(joint);
+        if data.from.link == link { data.to.link } else { data.from.link }
+    }
+
+    /// The length of a member between its pins, and its direction towards the near one.
+    fn rod(&self, member: &Member) -> (Expr<'m>, Vector<'m>) {
+        let end = |joint: JointId| {
+            let data = self.model.joint(joint);
+            data.end_on(member.link).unwrap_or(data.from)
+        };
+        let (far, near) = (end(member.far), end(member.near));
+        let length = super::length_between(self.model, member.link, [member.far, member.near]);
+        let arm = self.model.local(near) - self.model.local(far);
+        let direction = self.placement.turned(member.link, Vector::new(arm.x / length, arm.y / length));
+        (length, direction)
+    }
+
+    /// What acts on the neighbour at a joint when this force acts on the member there.
+    fn passed_on(&self, joint: JointId, member: LinkId, force: Framed<'m>) -> Act<'m> {
+        let neighbour = self.other(joint, member);
+        if self.is_member(neighbour) {
+            return Act::Pin(joint, force.opposite());
+        }
+        Act::Force(neighbour, self.place(joint, neighbour), force.opposite())
+    }
+
+    /// What the unit of a member's number does to its neighbours.
+    fn unit_of_member(&self, member: &Member) -> Vec<Act<'m>> {
+        let (one, zero) = (self.placement.graph().one(), self.placement.graph().zero());
+        if self.is_slide(member.far) {
+            // Across the slide at the pin; the guide holds it at the runner, and holds its moment.
+            let axes = self.placement.slide_direction(member.far);
+            let normal = Framed { components: Vector::new(zero, one), axes };
+            let arm = self.slide_arm(member);
+            let guide = self.other(member.far, member.link);
+            return vec![
+                self.passed_on(member.near, member.link, normal),
+                Act::Force(guide, self.place(member.far, guide), normal),
+                Act::Couple(guide, arm.x),
+            ];
+        }
+        let (_, axes) = self.rod(member);
+        let along = Framed { components: Vector::new(one, zero), axes };
+        vec![
+            self.passed_on(member.near, member.link, along),
+            self.passed_on(member.far, member.link, along.opposite()),
+        ]
+    }
+
+    /// From the runner of a slider to its pin, along and across the slide.
+    fn slide_arm(&self, member: &Member) -> Vector<'m> {
+        let arm = self.place(member.near, member.link) - self.place(member.far, member.link);
+        arm.turned_by(self.placement.direction(member.link)).resolved_along(self.placement.slide_direction(member.far))
+    }
+
+    /// What the unit of an unknown does to carriers, pins and links outside.
+    fn unit(&self, unknown: Unknown) -> Vec<Act<'m>> {
+        let graph = self.placement.graph();
+        let unit = |index: usize| {
+            let part = |i: usize| if i == index { graph.one() } else { graph.zero() };
+            Vector::new(part(0), part(1))
+        };
+        match unknown {
+            Unknown::Member(index) => self.unit_of_member(&self.members[index]),
+            Unknown::Joint(joint, part) => {
+                let data = self.model.joint(joint);
+                let (first, second) = (data.from.link, data.to.link);
+                let pair = |force: Framed<'m>| {
+                    vec![
+                        Act::Force(second, self.place(joint, second), force),
+                        Act::Force(first, self.place(joint, first), force.opposite()),
+                    ]
+                };
+                match (self.is_slide(joint), part) {
+                    (false, part) => pair(Framed { components: unit(part), axes: self.ground() }),
+                    (true, 0) => pair(Framed { components: unit(1), axes: self.placement.slide_direction(joint) }),
+                    (true, _) => vec![Act::Couple(second, graph.one()), Act::Couple(first, -graph.one())],
+                }
+            }
+            Unknown::Effort(effort) => self.unit_of_effort(effort),
+        }
+    }
+
+    fn unit_of_effort(&self, effort: UnknownId) -> Vec<Act<'m>> {
+        let graph = self.placement.graph();
+        if let Some((from, to)) = super::crank::torque_links(self.model, effort) {
+            return vec![Act::Couple(to, graph.one()), Act::Couple(from, -graph.one())];
+        }
+        match self.model.unknown(effort).kind {
+            UnknownKind::Force { at, along, frame } => {
+                let components = self.placement.carried(frame, along.vector(graph));
+                let force = Framed { components, axes: self.placement.direction(frame) };
+                vec![Act::Force(at.link, self.placement.point(at), force)]
+            }
+            UnknownKind::Drive(drive) => {
+                let joint = self.model.drive(drive).joint;
+                let data = self.model.joint(joint);
+                let axes = self.placement.slide_direction(joint);
+                let force = Framed { components: Vector::new(graph.one(), graph.zero()), axes };
+                let on = |link: LinkId, force| Act::Force(link, self.place(joint, link), force);
+                vec![on(data.to.link, force), on(data.from.link, force.opposite())]
+            }
+            UnknownKind::Torque(..) => Vec::new(),
+        }
+    }
+
+    /// The place about which a carrier's moments are taken: its first joint.
+    fn centre(&self, carrier: LinkId) -> Vector<'m> {
+        let joint = self.model.joint_ids().find(|joint| self.model.joint(*joint).end_on(carrier).is_some());
+        joint.map_or_else(|| self.placement.graph().zero_vector(), |joint| self.place(joint, carrier))
+    }
+
+    /// The part of an act in the equations of what is free.
+    fn parts_of(&self, act: &Act<'m>, free: Free) -> Option<Vec<Expr<'m>>> {
+        match (act, free) {
+            (Act::Force(link, at, force), Free::Carrier(carrier)) if *link == carrier => {
+                let ground = force.ground();
+                let arm = *at - self.centre(carrier);
+                let moment = arm.cross(force.along(self.placement.direction(carrier)));
+                Some(vec![ground.x, ground.y, moment])
+            }
+            (Act::Couple(link, moment), Free::Carrier(carrier)) if *link == carrier => {
+                let zero = self.placement.graph().zero();
+                Some(vec![zero, zero, *moment])
+            }
+            (Act::Pin(joint, force), Free::Pin(pin)) if *joint == pin => {
+                let ground = force.ground();
+                Some(vec![ground.x, ground.y])
+            }
+            _ => None,
+        }
+    }
+
+    /// The sum of acts in all equations.
+    fn column(&self, acts: &[Act<'m>]) -> Vec<Expr<'m>> {
+        let zero = self.placement.graph().zero();
+        let mut column = Vec::new();
+        for free in &self.free {
+            let rows = if matches!(free, Free::Carrier(_)) { 3 } else { 2 };
+            let mut sum = vec![zero; rows];
+            for parts in acts.iter().filter_map(|act| self.parts_of(act, *free)) {
+                sum.iter_mut().zip(parts).for_each(|(sum, part)| *sum = *sum + part);
+            }
+            column.extend(sum);
+        }
+        column
+    }
+
+    fn matrix(&self) -> Vec<Vec<Expr<'m>>> {
+        self.unknowns.iter().map(|unknown| self.column(&self.unit(*unknown))).collect()
+    }
+
+    fn names(&self, group: &Group) -> (String, String) {
+        let links = self.model.link_names(&group.links);
+        (format!("det_{}", links.replace(" + ", "_")), links)
+    }
+}
+
+/// Links with two joints and no unknown, but for a slider whose guide is a member itself.
+fn members(model: &Model, group: &Group) -> Vec<Member> {
+    let mut members: Vec<Member> = Vec::new();
+    let slides = |joint: &JointId| matches!(model.joint(*joint).kind, JointKind::Prismatic { .. });
+    for link in &group.links {
+        let joints: Vec<JointId> = group
+            .outer
+            .iter()
+            .chain(&group.inner)
+            .copied()
+            .filter(|joint| model.joint(*joint).end_on(*link).is_some())
+            .collect();
+        let acted_on = group.inputs.iter().any(|input| match input {
+            Input::Unknown(unknown) => acts_on(model, *unknown, *link),
+            Input::Drive(_) => false,
+        });
+        let [a, b] = joints.as_slice() else { continue };
+        if acted_on {
+            continue;
+        }
+        let (near, far) = if slides(a) { (*b, *a) } else { (*a, *b) };
+        let guide = model.joint(far).end_off(*link).map(|end| end.link);
+        let guided_by_member = slides(&far) && members.iter().any(|m| Some(m.link) == guide);
+        // A link between two slides stays a carrier.
+        if !slides(&near) && !guided_by_member {
+            members.push(Member { link: *link, near, far });
+        }
+    }
+    members
+}
+
+fn acts_on(model: &Model, unknown: UnknownId, link: LinkId) -> bool {
+    match model.unknown(unknown).kind {
+        UnknownKind::Torque(from, to) => from == link || to == link,
+        UnknownKind::Force { at, .. } => at.link == link,
+        UnknownKind::Drive(drive) => model.joint(model.drive(drive).joint).end_on(link).is_some(),
+    }
+}
+
+impl Rule for Block {
+    fn class(&self) -> &'static str {
+        "block"
+    }
+
+    fn places(&self) -> bool {
+        false
+    }
+
+    fn fits(&self, _: &Model, _: &Group) -> bool {
+        true
+    }
+
+    fn place(&self, _: &mut Assembly<'_>, _: &Group) -> RuleResult {
+        Ok(())
+    }
+
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
+        let parts = Parts::of(balance.placement, group);
+        let model = parts.model;
+        let (determinant, links) = parts.names(group);
+        let graph = balance.graph();
+        // What is known of the members' ends, and what acts on carriers.
+        for member in parts.members.iter().filter(|member| !parts.is_slide(member.far)) {
+            super::check_length(model, member.link, [member.far, member.near])?;
+        }
+        let ends: Vec<MemberEnds<'_>> = parts.members.iter().map(|member| known_ends(balance, &parts, member)).collect();
+        let mut acts: Vec<Act<'_>> = ends.iter().flat_map(|ends| ends.acts.clone()).collect();
+        for free in &parts.free {
+            if let Free::Carrier(link) = free {
+                let moment = balance.moment(*link, parts.centre(*link), graph.one());
+                acts.push(Act::Force(*link, parts.centre(*link), balance.total(*link)));
+                acts.push(Act::Couple(*link, moment));
+            }
+        }
+        let known = parts.column(&acts);
+        let columns = parts.matrix();
+        let equations = (0..known.len())
+            .map(|row| Equation { coefficients: columns.iter().map(|c| c[row]).collect(), right: -known[row] })
+            .collect();
+        let values = solve(graph, equations, Core { name: &determinant, group: &links })
+            .map_err(|size| too_large(model, group, size))?;
+        for (unknown, value) in parts.unknowns.iter().zip(&values) {
+            match *unknown {
+                Unknown::Member(index) => {
+                    let member = &parts.members[index];
+                    let name = format!("along_{}", model.link(member.link).name);
+                    let value = value.named(balance.name(&name), "force of the member, from the core");
+                    put_member(balance, &parts, member, &ends[index], value);
+                }
+                Unknown::Joint(joint, 0) => {
+                    let other = parts.unknowns.iter().position(|u| *u == Unknown::Joint(joint, 1)).map(|i| values[i]);
+                    put_joint(balance, &parts, joint, *value, other.unwrap_or_else(|| graph.zero()));
+                }
+                Unknown::Joint(..) => {}
+                Unknown::Effort(effort) => {
+                    let name = &model.unknown(effort).name;
+                    let value = value.named(balance.name(name), format!("from the equilibrium of {links}"));
+                    balance.found(effort, value);
+                    put_effort(balance, &parts, group, effort, value);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
+        let parts = Parts::of(motion.placement, group);
+        let (determinant, links) = parts.names(group);
+        let graph = motion.graph();
+        let columns = parts.matrix();
+        // The power of a unit of each unknown on all links is the rate of its coordinate: one, or zero.
+        let equations = parts
+            .unknowns
+            .iter()
+            .zip(&columns)
+            .map(|(unknown, column)| {
+                let own = if let Unknown::Effort(effort) = unknown { motion.rate_of(*effort) } else { graph.zero() };
+                let outside = parts.unit(*unknown).iter().fold(graph.zero(), |sum, act| sum + power_outside(motion, group, act));
+                Equation { coefficients: column.clone(), right: own - outside }
+            })
+            .collect();
+        let values = solve(graph, equations, Core { name: &determinant, group: &links })
+            .map_err(|size| too_large(parts.model, group, size))?;
+        let ground = parts.ground();
+        let mut row = 0;
+        let mut pins: Vec<(JointId, Framed<'_>)> = Vec::new();
+        for free in &parts.free {
+            let velocity = Framed { components: Vector::new(values[row], values[row + 1]), axes: ground };
+            match free {
+                Free::Carrier(link) => {
+                    let name = &parts.model.link(*link).name;
+                    let rate = values[row + 2].named(motion.name(&format!("rate_{name}")), format!("rate of rotation of {name}"));
+                    motion.found(*link, Twist { rate, at: parts.centre(*link), velocity });
+                    row += 3;
+                }
+                Free::Pin(joint) => {
+                    pins.push((*joint, velocity));
+                    row += 2;
+                }
+            }
+        }
+        for member in &parts.members {
+            let end = |joint: JointId| {
+                let found = pins.iter().find(|(pin, _)| *pin == joint);
+                let neighbour = parts.other(joint, member.link);
+                found.map_or_else(|| motion.of_place(neighbour, parts.place(joint, neighbour)), |(_, velocity)| *velocity)
+            };
+            let velocity = end(member.near);
+            let at = parts.place(member.near, member.link);
+            let rate = if parts.is_slide(member.far) {
+                motion.rate(parts.other(member.far, member.link))
+            } else {
+                let (length, direction) = parts.rod(member);
+                let gap = motion.difference(&velocity, &end(member.far));
+                motion.part(&gap, direction.perp()) / length
+            };
+            let name = &parts.model.link(member.link).name;
+            let rate = rate.named(motion.name(&format!("rate_{name}")), format!("rate of rotation of {name}"));
+            motion.found(member.link, Twist { rate, at, velocity });
+        }
+        Ok(())
+    }
+}
+
+fn too_large(model: &Model, group: &Group, size: usize) -> Diagnostic {
+    crate::plan::unsupported(model, group, "find the forces of")
+        .note(format!("its equilibrium equations leave a core of {size}; up to 3 are supported"))
+}
+
+/// The power of an act on links outside the group.
+fn power_outside<'m>(motion: &Motion<'m, '_>, group: &Group, act: &Act<'m>) -> Expr<'m> {
+    let outside = |link: LinkId| link != GROUND && !group.links.contains(&link);
+    match act {
+        Act::Force(link, at, force) if outside(*link) => {
+            motion.of_place(*link, *at).along(force.axes).dot(force.components)
+        }
+        Act::Couple(link, moment) if outside(*link) => *moment * motion.rate(*link),
+        _ => motion.graph().zero(),
+    }
+}
+
+/// What is known of a member's ends before its number is.
+struct MemberEnds<'m> {
+    /// The force on the member at its near end.
+    near: Framed<'m>,
+    /// The sum of the loads on it.
+    loads: Framed<'m>,
+    /// What that does to its neighbours.
+    acts: Vec<Act<'m>>,
+}
+
+fn known_ends<'m>(balance: &Balance<'m, '_>, parts: &Parts<'_, 'm>, member: &Member) -> MemberEnds<'m> {
+    let (graph, ground) = (balance.graph(), parts.ground());
+    let loads = balance.total(member.link);
+    if parts.is_slide(member.far) {
+        let axes = balance.placement.slide_direction(member.far);
+        let total = loads.along(axes);
+        // Along the slide the pin alone holds the loads; across it the guide does, and their moment about the runner.
+        let near = Framed { components: Vector::new(-total.x, graph.zero()), axes };
+        let held = Framed { components: Vector::new(graph.zero(), total.y), axes };
+        let moment = balance.moment(member.link, parts.place(member.far, member.link), graph.one());
+        let arm = parts.slide_arm(member);
+        let guide = parts.other(member.far, member.link);
+        let acts = vec![
+            parts.passed_on(member.near, member.link, near),
+            Act::Force(guide, parts.place(member.far, guide), held),
+            Act::Couple(guide, moment + arm.cross(near.components)),
+        ];
+        return MemberEnds { near, loads, acts };
+    }
+    let (length, axes) = parts.rod(member);
+    let about = parts.place(member.far, member.link);
+    let across = -balance.moment(member.link, about, graph.one() / length);
+    let name = &parts.model.link(member.link).name;
+    let across = across.named(balance.name(&format!("across_{name}")), format!("−ΣM/length of the loads on {name}"));
+    let near = Framed { components: Vector::new(graph.zero(), across), axes };
+    let far = loads.plus(&near, ground).opposite();
+    let acts = vec![parts.passed_on(member.near, member.link, near), parts.passed_on(member.far, member.link, far)];
+    MemberEnds { near, loads, acts }
+}
+
+/// Records the forces at a member's ends.
+fn put_member<'m>(balance: &mut Balance<'m, '_>, parts: &Parts<'_, 'm>, member: &Member, ends: &MemberEnds<'m>, value: Expr<'m>) {
+    let (graph, ground) = (balance.graph(), parts.ground());
+    let is_slide = parts.is_slide(member.far);
+    let own = if is_slide { Vector::new(graph.zero(), value) } else { Vector::new(value, graph.zero()) };
+    let near = Framed { components: ends.near.components + own, axes: ends.near.axes };
+    if is_slide {
+        let across = ends.loads.along(near.axes).y + value;
+        // The reaction of the guide needs the pin's force among what acts on the slider; another member may have put it there.
+        if !parts.found_before(member.near, member.link) {
+            balance.push(member.link, parts.place(member.near, member.link), near);
+        }
+        put_pin(balance, parts, member.near, member.link, near);
+        super::slide::guide(balance, member.far, member.link, across);
+    } else {
+        let near = put_pin(balance, parts, member.near, member.link, near);
+        let far = ends.loads.plus(&near, ground).opposite();
+        put_pin(balance, parts, member.far, member.link, far);
+    }
+}
+
+/// Records a pin's force. A pin between two members is found from each of them: once is enough.
+fn put_pin<'m>(
+    balance: &mut Balance<'m, '_>,
+    parts: &Parts<'_, 'm>,
+    joint: JointId,
+    on: LinkId,
+    force: Framed<'m>,
+) -> Framed<'m> {
+    if parts.found_before(joint, on) { balance.pinned(joint, on) } else { balance.pin(joint, on, force) }
+}
+
+/// Records a joint that no member has. One of its links may be outside the group, and is loaded by it.
+fn put_joint<'m>(balance: &mut Balance<'m, '_>, parts: &Parts<'_, 'm>, joint: JointId, first: Expr<'m>, second: Expr<'m>) {
+    let data = parts.model.joint(joint);
+    if parts.is_slide(joint) {
+        let axes = balance.placement.slide_direction(joint);
+        let force = Framed { components: Vector::new(balance.graph().zero(), first), axes };
+        balance.slide(joint, data.to.link, force, second);
+        balance.push(data.to.link, parts.place(joint, data.to.link), force);
+        balance.couple(data.to.link, second);
+    } else {
+        let force = Framed { components: Vector::new(first, second), axes: parts.ground() };
+        let force = balance.pin(joint, data.to.link, force);
+        balance.push(data.to.link, parts.place(joint, data.to.link), force);
+    }
+}
+
+/// What an effort does to links outside the group.
+fn put_effort<'m>(balance: &mut Balance<'m, '_>, parts: &Parts<'_, 'm>, group: &Group, effort: UnknownId, value: Expr<'m>) {
+    for act in parts.unit_of_effort(effort) {
+        match act {
+            Act::Force(link, at, force) if !group.links.contains(&link) => {
+                balance.push(link, at, Framed { components: force.components.scaled(value), axes: force.axes });
+            }
+            Act::Couple(link, moment) if !group.links.contains(&link) => balance.couple(link, moment * value),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! Random linkages through the whole compiler and the interpreter, against the general solution.
+
+mod support;
+
+use std::collections::HashMap;
+
+use linkage_codegen::Linkage;
+use linkage_codegen::graph::Failure;
+use linkage_codegen::graph::real::Real;
+use linkage_codegen::program::Fault;
+use support::general::{equations, solve_extended, solve_nalgebra};
+use support::linkages::{Kind, Sample, sample};
+use support::numbers::{Double, Extended};
+use support::{Arguments, Number, compile, scene};
+
+/// How far two solutions may differ in 220 bits, over the largest force times the worst amplification seen.
+const EXTENDED: f64 = 1e-40;
+
+/// The size of a solution: its largest number.
+fn largest<T: Number>(values: &HashMap<String, T>) -> f64 {
+    values.values().fold(0.0, |m, v| m.max(v.to_f64().abs()))
+}
+
+/// The largest difference of what two solutions share, over the size of the second.
+fn difference<T: Number>(a: &HashMap<String, T>, b: &HashMap<String, T>) -> f64 {
+    let size = largest(b).max(f64::MIN_POSITIVE);
+    let shared = a.iter().filter_map(|(path, value)| Some(value.sub(b.get(path)?).to_f64().abs() / size));
+    shared.fold(0.0, f64::max)
+}
+
+/// Sums of all parts of a superposition, by the paths of the totals.
+fn totals<T: Number>(linkage: &Linkage, parts: &HashMap<String, T>) -> HashMap<String, T> {
+    let mut totals: HashMap<String, T> = HashMap::new();
+    for (path, value) in parts {
+        let mut rest = path.split_once('.').expect("a load's name").1;
+        let first = rest.split('.').next().expect("a name");
+        if linkage.model.links.iter().any(|link| link.name.text == first) {
+            rest = rest.split_once('.').expect("a link's name").1;
+        }
+        totals.entry(rest.to_owned()).and_modify(|sum| *sum = sum.add(value)).or_insert_with(|| value.clone());
+    }
+    totals
+}
+
+/// What the scenes of a sample give.
+struct Solved<T> {
+    all: HashMap<String, T>,
+    parts: HashMap<String, T>,
+    work: HashMap<String, T>,
+}
+
+fn solved<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Solved<T> {
+    let of = |name| scene::<T>(linkage, name, arguments).unwrap_or_else(|fault| panic!("{name}: {fault:?}"));
+    Solved { all: of("all"), parts: of("parts"), work: of("work") }
+}
+
+fn efforts<T: Number>(linkage: &Linkage, work: &HashMap<String, T>) -> HashMap<String, T> {
+    let names = linkage.model.unknowns.iter().map(|unknown| unknown.name.clone());
+    names.map(|name| (name.clone(), work[&name].clone())).collect()
+}
+
+/// Why a sample whose unknown acts anywhere may be refused: a core that is too large, or an unknown that can hold nothing.
+const REFUSALS: [&str; 4] = ["not supported yet", "cannot hold", "at every pose, nothing holds", "has no length between"];
+
+/// The sample's linkage, unless its unknown makes it one that is refused.
+fn supported(sample: &Sample) -> Option<Linkage> {
+    match linkage_codegen::analyse(sample.text.parse().expect("tokens")) {
+        // A rigid loop that turns as a whole holds no torque within itself, and with parameters, what has no length is only known when
+        // they are given.
+        Ok(linkage) => match scene::<Double>(&linkage, "all", &sample.arguments) {
+            Err(Fault::Failed(Failure::DeadCentre { .. } | Failure::Parameter { .. })) => None,
+            _ => Some(linkage),
+        },
+        Err(errors) if errors.iter().all(|e| REFUSALS.iter().any(|r| e.message().contains(r))) => None,
+        Err(_) => Some(compile(&sample.text)),
+    }
+}
+
+/// In 220 bits nothing but a wrong equation makes a difference.
+fn check_exactly(sample: &Sample, linkage: &Linkage) {
+    let context = &sample.text;
+    let exact = solved::<Extended>(linkage, &sample.arguments);
+    let general = equations::<Extended>(linkage, &sample.arguments).expect("a pose");
+    for residual in &general.residuals {
+        assert!(residual.to_f64().abs() < 1e-50, "constraint {}\n{context}", residual.to_f64());
+    }
+    let right = general.right_side(&|_| true);
+    let reference = solve_extended(&general.matrix, &right).expect("regular");
+    let reference = general.named(linkage, reference);
+    assert!(difference(&reference, &exact.all) < EXTENDED, "equilibrium\n{context}");
+    assert!(difference(&totals(linkage, &exact.parts), &exact.all) < EXTENDED, "superposition\n{context}");
+    let work = efforts(linkage, &exact.work);
+    assert!(difference(&work, &exact.all) < EXTENDED, "virtual work\n{context}");
+}
+
+/// In doubles all methods agree to the rounding that the condition of the equations allows.
+fn check_in_doubles(sample: &Sample, linkage: &Linkage) -> f64 {
+    let context = &sample.text;
+    let solution = solved::<Double>(linkage, &sample.arguments);
+    let general = equations::<Double>(linkage, &sample.arguments).expect("a pose");
+    let matrix: Vec<Vec<f64>> = general.matrix.iter().map(|line| line.iter().map(|x| x.0).collect()).collect();
+    let right: Vec<f64> = general.right_side(&|_| true).iter().map(|x| x.0).collect();
+    let (reference, condition) = solve_nalgebra(&matrix, &right).expect("regular");
+    let reference = general.named(linkage, reference.into_iter().map(Double).collect());
+    let allowed = 50.0 * f64::EPSILON * condition;
+    let error = difference(&reference, &solution.all);
+    assert!(error < allowed, "equilibrium {error:e}, allowed {allowed:e}\n{context}");
+    let error = difference(&totals(linkage, &solution.parts), &solution.all);
+    assert!(error < allowed, "superposition {error:e}, allowed {allowed:e}\n{context}");
+    let error = difference(&efforts(linkage, &solution.work), &solution.all);
+    assert!(error < allowed, "virtual work {error:e}, allowed {allowed:e}\n{context}");
+    let places = scene::<Double>(linkage, "whole", &sample.arguments).expect("places");
+    for (joint, [x, y]) in &sample.places {
+        for (path, drawn) in [(format!("{joint}.x"), x), (format!("{joint}.y"), y)] {
+            let error = (places[&path].0 - drawn).abs();
+            assert!(error < 1e-9 * (1.0 + drawn.abs()), "{path} is off by {error:e}\n{context}");
+        }
+    }
+    condition
+}
+
+fn kind(seed: u64, unknown_anywhere: bool) -> Kind {
+    let dyads = 1 + usize::try_from(seed % 6).expect("small");
+    Kind { dyads, sliders: true, unknown_anywhere, params: seed % 5 == 4, scalar: "f64" }
+}
+
+#[test]
+fn random_linkages_agree_with_the_general_solution() {
+    for seed in 0..200 {
+        let sample = sample(seed, kind(seed, false));
+        let linkage = compile(&sample.text);
+        check_in_doubles(&sample, &linkage);
+        if seed % 5 == 0 {
+            check_exactly(&sample, &linkage);
+        }
+    }
+}
+
+#[test]
+fn unknowns_anywhere_agree_with_the_general_solution() {
+    let mut solved = 0;
+    for seed in 1000..1200 {
+        let sample = sample(seed, kind(seed, true));
+        if let Some(linkage) = supported(&sample) {
+            solved += 1;
+            check_in_doubles(&sample, &linkage);
+            if seed % 5 == 0 {
+                check_exactly(&sample, &linkage);
+            }
+        }
+    }
+    assert!(solved > 100, "{solved}");
+    println!("{solved} of 200");
+}
+
+#[test]
+#[ignore = "long"]
+fn two_thousand_linkages_agree_with_the_general_solution() {
+    for seed in 10_000..12_000 {
+        let sample = sample(seed, kind(seed, seed % 2 == 1));
+        if let Some(linkage) = supported(&sample) {
+            check_in_doubles(&sample, &linkage);
+            check_exactly(&sample, &linkage);
+        }
+    }
+}
+
+#[test]
+#[ignore = "debug"]
+fn debug() {
+    for (dyads, sliders, params) in [(0, false, false), (0, true, false), (1, false, false), (1, false, true), (1, true, false), (2, true, false)] {
+        let mut bad = 0;
+        let mut first = None;
+        for seed in 0..300 {
+            let s = sample(seed, Kind { dyads, sliders, unknown_anywhere: false, params, scalar: "f64" });
+            let r = std::panic::catch_unwind(|| { let l = compile(&s.text); check_in_doubles(&s, &l); });
+            if let Err(e) = r { bad += 1; if first.is_none() { first = Some((seed, e.downcast_ref::<String>().cloned().unwrap_or_default())); } }
+        }
+        println!("{dyads} {sliders} {params}: {bad} bad; {first:?}");
+    }
+}

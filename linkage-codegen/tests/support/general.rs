@@ -1,0 +1,150 @@
+//! The general solution: the unreduced equations of a linkage, at a pose, as one linear system.
+
+use std::collections::HashMap;
+
+use linkage_codegen::Linkage;
+use linkage_codegen::equations::joints::Component;
+use linkage_codegen::equations::loads::Case;
+use linkage_codegen::equations::{Exerted, Source};
+use linkage_codegen::graph::real::Real;
+use linkage_codegen::graph::{NodeId, Symbol};
+use linkage_codegen::program::Fault;
+use nalgebra::{DMatrix, DVector};
+
+use super::numbers::Extended;
+use super::{Arguments, Number, pose};
+
+/// The equations at a pose: columns are the scalar unknowns in the order of the system's rows, lines three for every moving link.
+pub struct General<T> {
+    pub matrix: Vec<Vec<T>>,
+    /// What each load case exerts.
+    pub cases: Vec<(Case, Vec<T>)>,
+    /// The constraints' residuals.
+    pub residuals: Vec<T>,
+    pub sources: Vec<Source>,
+}
+
+/// The unreduced equations of a linkage at the pose of its own solution.
+pub fn equations<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<General<T>, Fault> {
+    let graph = &linkage.model.graph;
+    let kept = pose::<T>(linkage, arguments)?;
+    // Evaluation starts from what the pose keeps.
+    let mut placed: HashMap<NodeId, T> = kept;
+    let known = |symbol: Symbol| T::exactly(arguments.of(symbol));
+    let mut coordinates: HashMap<Symbol, T> = HashMap::new();
+    for (index, link) in linkage.plan.links.iter().enumerate() {
+        use linkage_codegen::graph::Coordinate::{Angle, Cos, Sin, X, Y};
+        for which in [X, Y, Cos, Sin, Angle] {
+            let value = graph.evaluate(link.coordinate(which), &known, &mut placed);
+            let link = linkage_codegen::model::ids::LinkId::new(index);
+            coordinates.insert(Symbol::Coordinate(link, which), value);
+        }
+    }
+    let known = |symbol: Symbol| match symbol {
+        Symbol::Coordinate(..) => coordinates[&symbol].clone(),
+        _ => T::exactly(arguments.of(symbol)),
+    };
+    let mut done: HashMap<NodeId, T> = HashMap::new();
+    let mut value = |node| graph.evaluate(node, &known, &mut done);
+    let lines = 3 * (linkage.model.links.len() - 1);
+    let mut column = |exerts: &[Exerted]| {
+        let mut column = vec![T::exactly(0.0); lines];
+        for exerted in exerts {
+            let line = 3 * (exerted.on.index() - 1);
+            for (offset, node) in [exerted.x, exerted.y, exerted.moment].into_iter().enumerate() {
+                column[line + offset] = column[line + offset].add(&value(node));
+            }
+        }
+        column
+    };
+    let columns: Vec<Vec<T>> = linkage.system.rows.iter().map(|row| column(&row.exerts)).collect();
+    let cases = linkage.system.cases.iter().map(|case| (case.case, column(&case.exerts))).collect();
+    let residuals = linkage.system.rows.iter().filter_map(|row| row.residual);
+    let residuals = residuals.map(|node| graph.evaluate(node, &known, &mut done)).collect();
+    let matrix = (0..lines).map(|line| columns.iter().map(|column| column[line].clone()).collect()).collect();
+    let sources = linkage.system.rows.iter().map(|row| row.source).collect();
+    Ok(General { matrix, cases, residuals, sources })
+}
+
+impl<T: Number> General<T> {
+    /// The right-hand side of some cases together: the opposite of what they exert.
+    pub fn right_side(&self, which: &dyn Fn(&Case) -> bool) -> Vec<T> {
+        let mut sum = vec![T::exactly(0.0); self.matrix.len()];
+        for (case, exerted) in &self.cases {
+            if which(case) {
+                for (total, part) in sum.iter_mut().zip(exerted) {
+                    *total = total.sub(part);
+                }
+            }
+        }
+        sum
+    }
+
+    /// The unknowns by the paths that scenes use: `B.x`, `C.normal`, `C.couple`, `T12`.
+    pub fn named(&self, linkage: &Linkage, values: Vec<T>) -> HashMap<String, T> {
+        let names = self.sources.iter().map(|source| match source {
+            Source::Joint(joint, component) => {
+                let part = match component {
+                    Component::X => "x",
+                    Component::Y => "y",
+                    Component::Normal => "normal",
+                    Component::Couple => "couple",
+                };
+                format!("{}.{part}", linkage.model.joint(*joint).name)
+            }
+            Source::Unknown(unknown) => linkage.model.unknown(*unknown).name.clone(),
+            Source::Drive(drive) => linkage.model.drive(*drive).name.text.clone(),
+        });
+        names.zip(values).collect()
+    }
+}
+
+/// By nalgebra, with every line scaled to its largest entry: `None` if singular.
+pub fn solve_nalgebra(matrix: &[Vec<f64>], right: &[f64]) -> Option<(Vec<f64>, f64)> {
+    let n = matrix.len();
+    let scale: Vec<f64> = matrix.iter().map(|line| line.iter().fold(0.0f64, |m, x| m.max(x.abs()))).collect();
+    let a = DMatrix::from_fn(n, n, |i, j| matrix[i][j] / scale[i]);
+    let b = DVector::from_fn(n, |i, _| right[i] / scale[i]);
+    let condition = {
+        let values = a.clone().singular_values();
+        values.max() / values.min()
+    };
+    a.full_piv_lu().solve(&b).map(|x| (x.iter().copied().collect(), condition))
+}
+
+/// By elimination with partial pivoting in extended precision.
+pub fn solve_extended(matrix: &[Vec<Extended>], right: &[Extended]) -> Option<Vec<Extended>> {
+    let n = matrix.len();
+    let mut a: Vec<Vec<Extended>> = matrix
+        .iter()
+        .zip(right)
+        .map(|(line, b)| line.iter().cloned().chain([b.clone()]).collect())
+        .collect();
+    let zero = Extended::zero();
+    for step in 0..n {
+        let pivot = (step..n).max_by(|p, q| a[*p][step].abs().0.cmp(&a[*q][step].abs().0))?;
+        a.swap(step, pivot);
+        if a[step][step].0 == zero.0 {
+            return None;
+        }
+        let (above, below) = a.split_at_mut(step + 1);
+        let top = &above[step];
+        for line in below {
+            if line[step].0 == zero.0 {
+                continue;
+            }
+            let factor = line[step].div(&top[step]);
+            for column in step..=n {
+                if top[column].0 != zero.0 {
+                    line[column] = line[column].sub(&factor.mul(&top[column]));
+                }
+            }
+        }
+    }
+    let mut x = vec![zero; n];
+    for step in (0..n).rev() {
+        let sum = (step + 1..n).fold(a[step][n].clone(), |sum, c| sum.sub(&a[step][c].mul(&x[c])));
+        x[step] = sum.div(&a[step][step]);
+    }
+    Some(x)
+}

@@ -1,0 +1,421 @@
+//! Random linkages: the places of the joints are drawn first, and the dimensions are those that fit.
+
+use core::fmt::Write;
+
+use super::Arguments;
+
+/// Numbers that are always the same (splitmix64).
+#[derive(Clone, Debug)]
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    #[allow(clippy::cast_precision_loss, reason = "53 bits fit")]
+    pub fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn range(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    pub fn below(&mut self, n: usize) -> usize {
+        usize::try_from(self.next() % n as u64).unwrap()
+    }
+
+    pub fn chance(&mut self, probability: f64) -> bool {
+        self.unit() < probability
+    }
+
+    pub fn pick<'a, T>(&mut self, from: &'a [T]) -> &'a T {
+        &from[self.below(from.len())]
+    }
+}
+
+pub type Place = [f64; 2];
+
+fn minus(a: Place, b: Place) -> Place {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn plus(a: Place, b: Place) -> Place {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+fn dot(a: Place, b: Place) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn cross(a: Place, b: Place) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+fn size(a: Place) -> f64 {
+    a[0].hypot(a[1])
+}
+
+fn direction(angle: f64) -> Place {
+    [angle.cos(), angle.sin()]
+}
+
+struct Body {
+    name: String,
+    origin: Place,
+    angle: f64,
+    points: Vec<(String, Place)>,
+    /// The first two points are the frame: `A -> B: length`.
+    framed: bool,
+    mass: Option<String>,
+}
+
+/// A random linkage: its declaration, arguments at which it closes, and where its joints are.
+pub struct Sample {
+    pub text: String,
+    pub arguments: Arguments,
+    pub places: Vec<(String, Place)>,
+}
+
+/// What a random linkage may have.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind {
+    /// Dyads beside the driven link.
+    pub dyads: usize,
+    /// Whether dyads may have sliders.
+    pub sliders: bool,
+    /// Whether the unknown may act elsewhere than at the driven joint.
+    pub unknown_anywhere: bool,
+    /// Whether dimensions are parameters.
+    pub params: bool,
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+}
+
+struct Builder {
+    random: Random,
+    base: Place,
+    bodies: Vec<Body>,
+    items: String,
+    places: Vec<(String, Place)>,
+    names: usize,
+    sines: f64,
+}
+
+/// A random linkage.
+pub fn sample(seed: u64, kind: Kind) -> Sample {
+    let mut random = Random(seed);
+    let offset = *random.pick(&[0.0, 0.0, 10.0, 1e3]);
+    let base = [random.range(-offset, offset), random.range(-offset, offset)];
+    let ground = Body { name: "ground".into(), origin: [0.0; 2], angle: 0.0, points: Vec::new(), framed: false, mass: None };
+    let mut builder =
+        Builder { random, base, bodies: vec![ground], items: String::new(), places: Vec::new(), names: 0, sines: 0.2 };
+    let drive = builder.driven_link(kind.sliders);
+    for _ in 0..kind.dyads {
+        if kind.sliders && builder.random.chance(0.4) {
+            builder.slider_dyad();
+        } else {
+            builder.pinned_dyad();
+        }
+    }
+    builder.masses();
+    let loads = builder.loads(kind.unknown_anywhere);
+    builder.finish(drive, loads, kind)
+}
+
+impl Builder {
+    fn fresh(&mut self, letter: char) -> String {
+        self.names += 1;
+        format!("{letter}{}", self.names)
+    }
+
+    fn place(&mut self) -> Place {
+        plus(self.base, [self.random.range(-2.0, 2.0), self.random.range(-2.0, 2.0)])
+    }
+
+    fn link(&mut self, first: (&str, Place), second: (&str, Place)) -> usize {
+        let name = self.fresh('l');
+        let framed = self.random.chance(0.5);
+        let arm = minus(second.1, first.1);
+        let (origin, angle) =
+            if framed { (first.1, arm[1].atan2(arm[0])) } else { (self.place(), self.random.range(-3.0, 3.0)) };
+        let points = vec![(first.0.to_owned(), first.1), (second.0.to_owned(), second.1)];
+        self.bodies.push(Body { name, origin, angle, points, framed, mass: None });
+        self.bodies.len() - 1
+    }
+
+    fn arrow(&mut self, near: usize, far: usize) -> (usize, usize) {
+        if self.random.chance(0.5) { (near, far) } else { (far, near) }
+    }
+
+    fn revolute(&mut self, name: &str, near: usize, far: usize) -> (usize, usize) {
+        let (from, to) = self.arrow(near, far);
+        let line = format!("revolute {name}: {} -> {};\n", self.bodies[from].name, self.bodies[to].name);
+        self.items.push_str(&line);
+        (from, to)
+    }
+
+    fn driven_link(&mut self, sliders: bool) -> (String, f64) {
+        let joint = self.fresh('J');
+        let at = self.place();
+        self.places.push((joint.clone(), at));
+        self.bodies[0].points.push((joint.clone(), at));
+        if sliders && self.random.chance(0.25) {
+            let angle = self.random.range(-3.0, 3.0);
+            let travel = self.random.range(-1.5, 1.5);
+            let end = plus(at, direction(angle).map(|x| x * travel));
+            self.places.pop();
+            let other = self.place();
+            let link = self.link((&joint, end), (&format!("{joint}x"), other));
+            let (from, to) = self.arrow(0, link);
+            let fixed = self.bodies[to].angle - self.bodies[from].angle;
+            let line = format!(
+                "prismatic {joint}: {} -> {} along {angle:?}rad, angle {fixed:?}rad;\n",
+                self.bodies[from].name, self.bodies[to].name
+            );
+            self.items.push_str(&line);
+            self.places.push((joint.clone(), end));
+            let travel = if to == link { travel } else { -travel };
+            return (joint, travel);
+        }
+        let (length, angle) = (self.random.range(0.5, 1.5), self.random.range(-3.0, 3.0));
+        let end = plus(at, direction(angle).map(|x| x * length));
+        let tip = format!("{joint}x");
+        let link = self.link((&joint, at), (&tip, end));
+        let (_, to) = self.revolute(&joint, 0, link);
+        let theta = if to == link { self.bodies[link].angle } else { -self.bodies[link].angle };
+        (joint, theta)
+    }
+
+    /// A point for a dyad's outer joint on a placed link, under the joint's name.
+    fn outer(&mut self, joint: &str, link: usize) -> Place {
+        // Often a point that is there already: several joints at one place.
+        // But for the pin on which a moving link hangs, from which the dyad would get no motion.
+        let first = usize::from(link > 0);
+        let at = if self.random.chance(0.4) && self.bodies[link].points.len() > first {
+            let index = first + self.random.below(self.bodies[link].points.len() - first);
+            self.bodies[link].points[index].1
+        } else {
+            self.place()
+        };
+        self.bodies[link].points.push((joint.to_owned(), at));
+        at
+    }
+
+    fn two_links(&mut self) -> (usize, usize) {
+        let n = self.bodies.len();
+        // The youngest link takes part, so that the linkage is a cascade.
+        let x = if self.random.chance(0.7) { n - 1 } else { self.random.below(n) };
+        let mut y = self.random.below(n);
+        if y == x {
+            y = (x + 1) % n;
+        }
+        (x, y)
+    }
+
+    fn pinned_dyad(&mut self) {
+        let (x, y) = self.two_links();
+        let [p, q, b] = [self.fresh('J'), self.fresh('J'), self.fresh('J')];
+        let (at_p, at_q) = (self.outer(&p, x), self.outer(&q, y));
+        let at_b = loop {
+            let at = self.place();
+            let (u, v) = (minus(at, at_p), minus(at, at_q));
+            if size(u) > 0.3 && size(v) > 0.3 && (cross(u, v) / (size(u) * size(v))).abs() > self.sines && size(minus(at_p, at_q)) > 0.2 {
+                break at;
+            }
+            if size(minus(at_p, at_q)) <= 0.2 {
+                // Too close together: take the second point elsewhere.
+                let moved = self.place();
+                let own = self.bodies[y].points.len() - 1;
+                self.bodies[y].points[own].1 = moved;
+                return self.finish_pinned(x, y, [&p, &q, &b], at_p, moved);
+            }
+        };
+        self.close_pinned(x, y, [&p, &q, &b], at_p, at_q, at_b);
+    }
+
+    fn finish_pinned(&mut self, x: usize, y: usize, names: [&str; 3], at_p: Place, at_q: Place) {
+        let at_b = loop {
+            let at = self.place();
+            let (u, v) = (minus(at, at_p), minus(at, at_q));
+            if size(u) > 0.3 && size(v) > 0.3 && (cross(u, v) / (size(u) * size(v))).abs() > 0.05 {
+                break at;
+            }
+        };
+        self.close_pinned(x, y, names, at_p, at_q, at_b);
+    }
+
+    fn close_pinned(&mut self, x: usize, y: usize, [p, q, b]: [&str; 3], at_p: Place, at_q: Place, at_b: Place) {
+        let first = self.link((p, at_p), (b, at_b));
+        let second = self.link((q, at_q), (b, at_b));
+        self.revolute(p, x, first);
+        self.revolute(q, y, second);
+        self.revolute(b, first, second);
+        self.places.extend([(p.to_owned(), at_p), (q.to_owned(), at_q), (b.to_owned(), at_b)]);
+        let left = cross(minus(at_q, at_p), minus(at_b, at_p)) > 0.0;
+        let (start, end, left) = if self.random.chance(0.5) { (p, q, left) } else { (q, p, !left) };
+        let line = format!("assemble {b}: {}({start} -> {end});\n", if left { "left" } else { "right" });
+        self.items.push_str(&line);
+    }
+
+    fn slider_dyad(&mut self) {
+        let (x, y) = self.two_links();
+        let [p, b, s] = [self.fresh('J'), self.fresh('J'), self.fresh('J')];
+        let at_p = self.outer(&p, x);
+        let angle = self.random.range(-3.0, 3.0);
+        let e = direction(angle);
+        let at_b = loop {
+            let at = self.place();
+            let u = minus(at, at_p);
+            if size(u) > 0.3 && (dot(u, e) / size(u)).abs() > self.sines {
+                break at;
+            }
+        };
+        let guide = self.place();
+        let travel = self.random.range(-2.0, 2.0);
+        let runner = plus(guide, e.map(|x| x * travel));
+        self.bodies[y].points.push((s.clone(), guide));
+        let rod = self.link((&p, at_p), (&b, at_b));
+        let slider = self.link((&b, at_b), (&s, runner));
+        self.revolute(&p, x, rod);
+        self.revolute(&b, rod, slider);
+        let (from, to) = self.arrow(y, slider);
+        let carrier = *self.random.pick(&[y, slider]);
+        let local = angle - self.bodies[carrier].angle;
+        // Along the axis the second point must lie on the line through the first, whichever link carries it.
+        let fixed = self.bodies[to].angle - self.bodies[from].angle;
+        let line = format!(
+            "prismatic {s}: {} -> {} along {local:?}rad of {}, angle {fixed:?}rad;\n",
+            self.bodies[from].name, self.bodies[to].name, self.bodies[carrier].name
+        );
+        self.items.push_str(&line);
+        let side = if dot(minus(at_b, at_p), e) > 0.0 { "ahead" } else { "behind" };
+        let line = format!("assemble {b}: {side}({p});\n");
+        self.items.push_str(&line);
+        let on_line = if carrier == y { runner } else { guide };
+        self.places.extend([(p, at_p), (b, at_b), (s, on_line)]);
+    }
+
+    fn masses(&mut self) {
+        for index in 1..self.bodies.len() {
+            if self.random.chance(0.5) {
+                let (mass, x, y) = (self.random.range(0.1, 3.0), self.random.range(-1.0, 1.0), self.random.range(-1.0, 1.0));
+                let mut text = format!("mass {}: {mass:?}kg at ({x:?}m, {y:?}m);\n", self.bodies[index].name);
+                if self.random.chance(0.3) {
+                    let _ = writeln!(text, "mass {}: {mass:?}kg at ({y:?}m, {x:?}m), inertia 1kg*m^2;", self.bodies[index].name);
+                }
+                self.bodies[index].mass = Some(text);
+            }
+        }
+    }
+
+    /// Loads and the unknown; the arguments of the loads that are given at run time.
+    fn loads(&mut self, unknown_anywhere: bool) -> Vec<[f64; 2]> {
+        let mut arguments = Vec::new();
+        let count = 1 + self.random.below(4);
+        let moving = self.bodies.len() - 1;
+        for number in 0..count {
+            let link = 1 + self.random.below(moving);
+            let value = [self.random.range(-50.0, 50.0), self.random.range(-50.0, 50.0)];
+            let given = self.random.chance(0.5);
+            let name = self.bodies[link].name.clone();
+            let line = if self.random.chance(0.7) {
+                let point = self.fresh('p');
+                let at = self.place();
+                self.bodies[link].points.push((point.clone(), at));
+                let frame = if self.random.chance(0.3) {
+                    let other = 1 + self.random.below(moving);
+                    format!(" in {}", self.bodies[other].name)
+                } else {
+                    String::new()
+                };
+                let constant = if given { String::new() } else { format!(" = ({:?}N, {:?}N)", value[0], value[1]) };
+                format!("load L{number}: force({name}.{point}){frame}{constant};\n")
+            } else {
+                let constant = if given { String::new() } else { format!(" = {:?}N*m", value[0]) };
+                let other = self.random.below(moving + 1);
+                if other == link {
+                    format!("load L{number}: moment({name}){constant};\n")
+                } else {
+                    format!("load L{number}: moment({} -> {name}){constant};\n", self.bodies[other].name)
+                }
+            };
+            self.items.push_str(&line);
+            arguments.push(value);
+        }
+        if self.bodies.iter().any(|body| body.mass.is_some()) {
+            if self.random.chance(0.5) {
+                self.items.push_str("load W: gravity = 9.81m/s^2 @ -90deg;\n");
+            } else {
+                self.items.push_str("load W: gravity;\n");
+            }
+            arguments.push([self.random.range(-1.0, 1.0), -9.81]);
+        }
+        if unknown_anywhere && self.random.chance(0.7) {
+            let link = 1 + self.random.below(moving);
+            let name = self.bodies[link].name.clone();
+            let line = if self.random.chance(0.5) {
+                let mut other = self.random.below(moving + 1);
+                if other == link {
+                    other = 0;
+                }
+                format!("unknown E: torque({} -> {name});\n", self.bodies[other].name)
+            } else {
+                let point = self.fresh('p');
+                let at = self.place();
+                self.bodies[link].points.push((point.clone(), at));
+                let angle = self.random.range(-3.0, 3.0);
+                let frame = self.random.below(moving + 1);
+                format!("unknown E: force({name}.{point}) along {angle:?}rad of {};\n", self.bodies[frame].name)
+            };
+            self.items.push_str(&line);
+        }
+        arguments
+    }
+
+    fn finish(self, drive: (String, f64), loads: Vec<[f64; 2]>, kind: Kind) -> Sample {
+        let mut text = format!("pub mod sample;\nscalar {};\n", kind.scalar);
+        let mut params = Vec::new();
+        let mut length = |value: f64, text: &mut String| {
+            if kind.params {
+                let _ = writeln!(text, "param k{}: length;", params.len());
+                params.push(value);
+                format!("k{}", params.len() - 1)
+            } else {
+                format!("{value:?}m")
+            }
+        };
+        for body in &self.bodies {
+            let mut places = Vec::new();
+            let e = direction(body.angle);
+            for (index, (name, at)) in body.points.iter().enumerate() {
+                let r = minus(*at, body.origin);
+                let local = [dot(e, r), cross(e, r)];
+                match (body.framed, index) {
+                    (true, 0) => {}
+                    (true, 1) => {
+                        let value = length(size(r), &mut text);
+                        places.push(format!("{} -> {name}: {value}", body.points[0].0));
+                    }
+                    _ => {
+                        let (x, y) = (length(local[0], &mut text), length(local[1], &mut text));
+                        places.push(format!("{name}: ({x}, {y})"));
+                    }
+                }
+            }
+            let word = if body.name == "ground" { String::new() } else { "link ".to_owned() };
+            let _ = writeln!(text, "{word}{} {{ {} }}", body.name, places.join(", "));
+            text.push_str(body.mass.as_deref().unwrap_or(""));
+        }
+        text.push_str(&self.items);
+        let _ = writeln!(text, "drive q: {};", drive.0);
+        text.push_str("scene all: equilibrium;\nscene parts: superposition;\nscene work: virtual_work;\nscene whole: position;\n");
+        let arguments = Arguments { drives: vec![drive.1], loads, params };
+        Sample { text, arguments, places: self.places }
+    }
+}

@@ -1,0 +1,99 @@
+//! What the tests of the compiler share.
+#![allow(dead_code, reason = "each test uses its own part")]
+
+pub mod general;
+pub mod linkages;
+pub mod numbers;
+
+use std::collections::HashMap;
+
+use linkage_codegen::Linkage;
+use linkage_codegen::graph::real::Real;
+use linkage_codegen::graph::{NodeId, Symbol};
+use linkage_codegen::program::{Fault, Input, Program, Run};
+
+/// A declaration's linkage; its errors make the test fail.
+pub fn compile(declaration: &str) -> Linkage {
+    match linkage_codegen::analyse(declaration.parse().expect("tokens")) {
+        Ok(linkage) => linkage,
+        Err(errors) => {
+            let errors: Vec<&str> = errors.iter().map(linkage_codegen::diagnostics::Diagnostic::message).collect();
+            panic!("{}\n\n{declaration}", errors.join("\n\n"));
+        }
+    }
+}
+
+/// The values of all arguments of a linkage's functions.
+#[derive(Clone, Debug, Default)]
+pub struct Arguments {
+    pub drives: Vec<f64>,
+    /// The components of each load, zeros where it is constant.
+    pub loads: Vec<[f64; 2]>,
+    pub params: Vec<f64>,
+}
+
+impl Arguments {
+    pub fn of(&self, symbol: Symbol) -> f64 {
+        match symbol {
+            Symbol::Drive(drive) => self.drives[drive.index()],
+            Symbol::Load(load, part) => self.loads[load.index()][usize::from(part)],
+            Symbol::Parameter(param) => self.params[param.index()],
+            Symbol::Coordinate(..) | Symbol::Dimension(_) => f64::NAN,
+        }
+    }
+}
+
+/// A number type that takes its arguments as doubles, exactly.
+pub trait Number: Real {
+    fn exactly(value: f64) -> Self;
+    fn to_f64(&self) -> f64;
+}
+
+/// What the parameters alone determine.
+pub fn prepared<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<HashMap<NodeId, T>, Fault> {
+    let program = &linkage.functions.prepare;
+    let values = Run { program, graph: &linkage.model.graph }.with(&|input| match input {
+        Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
+        Input::Kept(_) | Input::Prepared(_) => T::exactly(f64::NAN),
+    })?;
+    Ok(linkage.functions.prepared.iter().copied().zip(values).collect())
+}
+
+/// What a pose keeps.
+pub fn pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<HashMap<NodeId, T>, Fault> {
+    let values = direct(linkage, &linkage.functions.pose, arguments)?;
+    Ok(linkage.plan.pose.iter().map(|kept| kept.node).zip(values).collect())
+}
+
+/// The results of a program that starts from the drives.
+pub fn direct<T: Number>(linkage: &Linkage, program: &Program, arguments: &Arguments) -> Result<Vec<T>, Fault> {
+    let prepared = prepared::<T>(linkage, arguments)?;
+    Run { program, graph: &linkage.model.graph }.with(&|input| match input {
+        Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
+        Input::Prepared(node) => prepared[&node].clone(),
+        Input::Kept(_) => T::exactly(f64::NAN),
+    })
+}
+
+/// The results of a program that starts from a pose.
+pub fn from_pose<T: Number>(
+    linkage: &Linkage,
+    program: &Program,
+    pose: &HashMap<NodeId, T>,
+    arguments: &Arguments,
+) -> Result<Vec<T>, Fault> {
+    let prepared = prepared::<T>(linkage, arguments)?;
+    Run { program, graph: &linkage.model.graph }.with(&|input| match input {
+        Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
+        Input::Prepared(node) => prepared[&node].clone(),
+        Input::Kept(node) => pose[&node].clone(),
+    })
+}
+
+/// The results of a scene straight from the drives, by their paths.
+pub fn scene<T: Number>(linkage: &Linkage, name: &str, arguments: &Arguments) -> Result<HashMap<String, T>, Fault> {
+    let index = linkage.model.scenes.iter().position(|scene| scene.name.text == name).expect("a scene of this name");
+    let program = &linkage.functions.scenes[index].direct;
+    let values = direct(linkage, program, arguments)?;
+    Ok(program.outputs.iter().map(|(path, _)| path.clone()).zip(values).collect())
+}
