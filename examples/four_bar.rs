@@ -22,6 +22,7 @@ linkage! {
     scene bearing: equilibrium(F14) -> (B);
     scene terms: virtual_work;
     scene pos: position;
+    scene check: verify;
 }
 fn main() {
     let loads = four_bar::Loads { F13: polar(50.0, 230f64.to_radians()) };
@@ -32,4 +33,5 @@ fn main() {
     println!("{:?}", four_bar::torque_at(60f64.to_radians(), &loads).unwrap());
     println!("{}", four_bar::EQUATIONS);
     println!("{}", four_bar::OPERATIONS);
+    println!("{}", pose.check(&loads).unwrap());
 }

@@ -8,7 +8,7 @@ fn main() {
     let l = match linkage_codegen::analyse(src.parse().unwrap()) {
         Ok(l) => l,
         Err(e) => {
-            for e in e {
+            for e in e.errors {
                 println!("error: {}", e.message());
             }
             return;

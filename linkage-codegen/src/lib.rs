@@ -40,40 +40,64 @@ pub struct Linkage {
     pub functions: Functions,
 }
 
+/// A declaration that is wrong.
+#[derive(Debug)]
+pub struct Refusal {
+    /// All that was found, each with its place.
+    pub errors: Vec<Diagnostic>,
+    /// What was understood of it, if anything: names above all.
+    pub model: Option<Model>,
+}
+
 /// Takes a declaration through all stages.
 ///
 /// # Errors
 ///
 /// All that was found to be wrong, each with its place.
-pub fn analyse(declaration: TokenStream) -> Result<Linkage, Vec<Diagnostic>> {
+pub fn analyse(declaration: TokenStream) -> Result<Linkage, Refusal> {
     let sink = Sink::default();
-    let linkage = stages(declaration, &sink);
-    match linkage {
-        Some(linkage) if sink.is_clean() => Ok(linkage),
-        _ => Err(sink.into_errors()),
+    let mut model = syntax::parse(declaration, &sink).map(|ast| model::resolve(&ast, &sink));
+    let solved = model.as_ref().filter(|_| sink.is_clean()).and_then(|model| solve(model, &sink));
+    match (solved, model.take()) {
+        (Some((topology, system, plan, functions)), Some(model)) if sink.is_clean() => {
+            Ok(Linkage { model, topology, system, plan, functions })
+        }
+        (_, model) => Err(Refusal { errors: sink.into_errors(), model }),
     }
 }
 
-fn stages(declaration: TokenStream, sink: &Sink) -> Option<Linkage> {
-    let ast = syntax::parse(declaration, sink)?;
-    let model = model::resolve(&ast, sink);
-    if !sink.is_clean() {
-        return None;
-    }
-    let topology = Topology::of(&model, sink)?;
-    let system = System::of(&model);
-    let plan = Plan::of(&model, &topology, sink)?;
+fn solve(model: &Model, sink: &Sink) -> Option<(Topology, System, Plan, Functions)> {
+    let topology = Topology::of(model, sink)?;
+    let system = System::of(model);
+    let plan = Plan::of(model, &topology, &system, sink)?;
     let functions = Functions::of(&model.graph, &plan);
-    Some(Linkage { model, topology, system, plan, functions })
+    Some((topology, system, plan, functions))
 }
 
 /// The module of a declaration; of a wrong one its errors, and a module with the same names, so that one mistake is one error.
 #[must_use]
 pub fn expand(declaration: TokenStream) -> TokenStream {
-    match analyse(declaration.clone()) {
+    match analyse(declaration) {
         Ok(linkage) => emit::module(&linkage),
-        Err(errors) => diagnostics::to_tokens(&errors),
+        Err(Refusal { errors, model }) => {
+            let mut tokens = diagnostics::to_tokens(&errors);
+            tokens.extend(model.as_ref().map(emit::fallback));
+            tokens
+        }
     }
+}
+
+/// The same for the macro: a fault of the compiler is shown as its own.
+#[must_use]
+pub fn expand_or_report(declaration: TokenStream) -> TokenStream {
+    let expanded = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| expand(declaration)));
+    expanded.unwrap_or_else(|_| {
+        let fault = Diagnostic::new(
+            diagnostics::Place::at(proc_macro2::Span::call_site()),
+            "a fault of the compiler of `linkage!` itself, not of this declaration",
+        );
+        diagnostics::to_tokens(&[fault.help("please report the declaration to the project")])
+    })
 }
 
 /// Emitted tokens as formatted source.

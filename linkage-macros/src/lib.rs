@@ -7,5 +7,5 @@ use proc_macro::TokenStream;
 /// The language is described in the project's grammar page, and the generated module documents itself.
 #[proc_macro]
 pub fn linkage(declaration: TokenStream) -> TokenStream {
-    linkage_codegen::expand(declaration.into()).into()
+    linkage_codegen::expand_or_report(declaration.into()).into()
 }

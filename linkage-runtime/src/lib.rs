@@ -47,7 +47,10 @@ extern crate std;
 
 mod error;
 pub mod math;
+#[cfg(feature = "reference")]
+pub mod reference;
 mod results;
+mod support;
 
 pub use error::Error;
 pub use linkage_macros::linkage;
@@ -58,12 +61,21 @@ pub use results::{SliderReaction, WorkTerm, polar};
 /// What emitted code calls. Not for use by hand: it changes with the compiler.
 #[doc(hidden)]
 pub mod __private {
+    #[cfg(feature = "reference")]
+    pub use crate::reference::{Compared, verify};
+
     pub mod f32 {
         pub use crate::math::f32::*;
-        pub use crate::results::single::{gap, non_negative};
+        crate::support::support!(f32, |x| x);
     }
     pub mod f64 {
         pub use crate::math::f64::*;
-        pub use crate::results::double::{gap, non_negative};
+        #[allow(clippy::cast_possible_truncation, reason = "a diagnostic in single precision")]
+        mod single {
+            pub(super) fn of(x: f64) -> f32 {
+                x as f32
+            }
+        }
+        crate::support::support!(f64, single::of);
     }
 }

@@ -56,33 +56,3 @@ mod sealed {
     impl Sealed for f32 {}
     impl Sealed for f64 {}
 }
-
-macro_rules! helpers {
-    ($module:ident, $scalar:ty, $single:expr) => {
-        /// What emitted code uses beside the elementary functions.
-        pub mod $module {
-            /// The value, or zero if it is negative or NaN.
-            #[inline]
-            #[must_use]
-            pub fn non_negative(x: $scalar) -> $scalar {
-                if x > 0.0 { x } else { 0.0 }
-            }
-
-            /// A gap for an error message: in single precision, at most its largest number.
-            #[cold]
-            #[must_use]
-            pub fn gap(x: $scalar) -> f32 {
-                let single: fn($scalar) -> f32 = $single;
-                let x = single(x);
-                if x < f32::MAX { x } else { f32::MAX }
-            }
-        }
-    };
-}
-
-#[allow(clippy::cast_possible_truncation, reason = "a diagnostic in single precision")]
-mod made {
-    helpers!(double, f64, |x| x as f32);
-    helpers!(single, f32, |x| x);
-}
-pub use made::{double, single};

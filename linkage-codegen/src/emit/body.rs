@@ -118,7 +118,8 @@ impl<'a> Body<'a> {
                 (Kernel::Solve2 | Kernel::Solve3, part) => format!("solved_{}", part + 1),
             };
         }
-        if let Some((path, _)) = self.program.outputs.iter().find(|(_, output)| *output == value) {
+        if let Some((path, _)) = self.program.outputs.iter().find(|(path, output)| *output == value && !path.is_empty())
+        {
             return path.replace('.', "_");
         }
         let mut reader = value;

@@ -1,6 +1,6 @@
 //! The functions of a module.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::body::Body;
@@ -11,7 +11,7 @@ use crate::Linkage;
 use crate::graph::Symbol;
 use crate::model::ids::{DriveId, LoadId};
 use crate::model::{LoadKind, Method, type_name};
-use crate::plan::Output;
+use crate::plan::{Comparison, Output};
 use crate::program::{Input, Program, ValueId};
 
 /// Names that a function's own values cannot have.
@@ -125,6 +125,7 @@ fn result(
             let (velocity, work) = (next(), next());
             quote!(WorkTerm { velocity: #velocity, work: #work })
         }
+        Output::Verification(comparison) => verification(comparison, values),
         Output::Record(fields) => {
             let ty = ident(parent);
             let members: Vec<TokenStream> = fields
@@ -136,6 +137,29 @@ fn result(
                 .collect();
             quote!(#ty { #(#members),* })
         }
+    }
+}
+
+/// The comparison of all methods, at run time.
+fn verification(comparison: &Comparison, values: &mut dyn Iterator<Item = TokenStream>) -> TokenStream {
+    let mut take = |count: usize| (0..count).filter_map(|_| values.next()).collect::<Vec<_>>();
+    let Comparison { coefficients, loads, moments, equilibrium, superposition, virtual_work } = comparison;
+    let coefficients = coefficients.iter().zip(take(coefficients.len())).map(|((line, column, _), value)| {
+        let (line, column) = (Literal::usize_unsuffixed(*line), Literal::usize_unsuffixed(*column));
+        quote!((#line, #column, #value))
+    });
+    let coefficients: Vec<TokenStream> = coefficients.collect();
+    let [loads, equilibrium, superposition, virtual_work] =
+        [loads, equilibrium, superposition, virtual_work].map(|list| take(list.len()));
+    quote! {
+        verify(&Compared {
+            coefficients: &[#(#coefficients),*],
+            loads: &[#(#loads),*],
+            moments: &[#(#moments),*],
+            equilibrium: &[#(#equilibrium),*],
+            superposition: &[#(#superposition),*],
+            virtual_work: &[#(#virtual_work),*],
+        })?
     }
 }
 
@@ -286,7 +310,8 @@ fn drives_of_pose(linkage: &Linkage, program: &Program) -> TokenStream {
 pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
     let scene = &linkage.model.scenes[index];
     let program = without_input_checks(&linkage.functions.scenes[index].from_pose);
-    let (name, ty) = (ident(&scene.name.text), ident(&type_name(&scene.name.text)));
+    let name = ident(&scene.name.text);
+    let ty = output_type(&linkage.model, &linkage.plan.scenes[index], &type_name(&scene.name.text));
     let loads = loads_argument(&program);
     let prepared = prepared_of_pose(linkage, &program);
     let drives = drives_of_pose(linkage, &program);
@@ -325,7 +350,8 @@ fn loads_argument(program: &Program) -> TokenStream {
 pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
     let scene = &linkage.model.scenes[index];
     let program = &linkage.functions.scenes[index].direct;
-    let (name, ty) = (ident(&format!("{}_at", scene.name)), ident(&type_name(&scene.name.text)));
+    let name = ident(&format!("{}_at", scene.name));
+    let ty = output_type(&linkage.model, &linkage.plan.scenes[index], &type_name(&scene.name.text));
     let loads = loads_argument(program);
     let prepared = linkage_argument(linkage, &TokenStream::new());
     let arguments = drive_arguments(linkage);

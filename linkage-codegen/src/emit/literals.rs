@@ -44,5 +44,8 @@ pub(super) fn signed_literal(number: &Number, scalar: Scalar) -> TokenStream {
 
 /// A text as a raw string, line by line as it is read.
 pub(super) fn text(text: &str) -> Literal {
-    format!("r#\"{text}\"#").parse::<Literal>().unwrap_or_else(|_| Literal::string(text))
+    // As many signs as no text in it can close: a source holds raw strings itself.
+    let signs =
+        "#".repeat(1 + text.split('"').map(|part| part.chars().take_while(|c| *c == '#').count()).max().unwrap_or(0));
+    format!("r{signs}\"{text}\"{signs}").parse::<Literal>().unwrap_or_else(|_| Literal::string(text))
 }

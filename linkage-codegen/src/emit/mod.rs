@@ -3,6 +3,7 @@
 mod body;
 mod docs;
 mod equations;
+mod fallback;
 mod formula;
 mod functions;
 mod literals;
@@ -13,12 +14,37 @@ use quote::quote;
 
 use crate::Linkage;
 use crate::graph::{Op, Symbol};
+use crate::model::Method;
+pub use fallback::module as fallback;
 use formula::{Formula, Nodes};
 use literals::ident;
 
 /// The module of a linkage.
 #[must_use]
 pub fn module(linkage: &Linkage) -> TokenStream {
+    let plain = with_source(linkage, &TokenStream::new());
+    if !linkage.model.emit_source {
+        return plain;
+    }
+    // The source that the module holds is its own, but for that constant.
+    let source = literals::text(&source(plain));
+    let constant = quote! {
+        /// The source of this module, formatted.
+        pub const SOURCE: &str = #source;
+    };
+    with_source(linkage, &constant)
+}
+
+/// Tokens as formatted source; unformatted if that is not built in.
+fn source(tokens: TokenStream) -> String {
+    #[cfg(feature = "source")]
+    if let Ok(source) = crate::formatted(tokens.clone()) {
+        return source;
+    }
+    tokens.to_string()
+}
+
+fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     let model = &linkage.model;
     let (attributes, visibility, name) = (&model.attributes, &model.visibility, ident(&model.name.text));
     let docs = docs::module(linkage);
@@ -26,12 +52,19 @@ pub fn module(linkage: &Linkage) -> TokenStream {
     let math = ident(model.graph.scalar().name());
     let equations = literals::text(&equations::text(linkage));
     let operations = literals::text(&operations(linkage));
-    let loads = types::loads(model);
+    let loads = types::loads(model, true);
     let prepare = if types::has_params(linkage) { functions::prepare(linkage) } else { TokenStream::new() };
     let params = types::params(linkage, &prepare);
     let pose = types::pose(linkage);
     let pose_at = functions::pose_at(linkage);
     let accessors = functions::accessors(linkage);
+    let verifies = model.scenes.iter().any(|scene| scene.method == Method::Verify);
+    let reference = verifies.then(|| {
+        quote! {
+            use #runtime::__private::{Compared, verify};
+            use #runtime::reference::Verification;
+        }
+    });
     let scenes = 0..model.scenes.len();
     let results: TokenStream = scenes.clone().map(|s| types::results(model, s, &linkage.plan.scenes[s])).collect();
     let from_pose: TokenStream = scenes.clone().map(|s| functions::from_pose(linkage, s)).collect();
@@ -52,11 +85,13 @@ pub fn module(linkage: &Linkage) -> TokenStream {
         #visibility mod #name {
             use #runtime::__private::#math as math;
             use #runtime::{Error, SliderReaction, Vector2, WorkTerm};
+            #reference
 
             /// The derivation: free bodies, equilibrium equations, reduction, closed forms.
             pub const EQUATIONS: &str = #equations;
             /// The operations of every function.
             pub const OPERATIONS: &str = #operations;
+            #source
 
             #loads
             #params

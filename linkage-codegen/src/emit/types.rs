@@ -25,15 +25,15 @@ pub(super) fn run_time_loads(model: &Model) -> Vec<LoadId> {
     (0..model.loads.len()).map(LoadId::new).filter(|load| model.load(*load).kind.is_given_at_run_time(model)).collect()
 }
 
-/// `Loads`: a field for each load that is given at run time; none if there is none.
-pub(super) fn loads(model: &Model) -> TokenStream {
+/// `Loads`: a field for each load that is given at run time; none if there is none. Of a model that is not whole only names are sure.
+pub(super) fn loads(model: &Model, whole: bool) -> TokenStream {
     let scalar = scalar(model);
     let fields: Vec<TokenStream> = run_time_loads(model)
         .into_iter()
         .map(|load| {
             let load = model.load(load);
             let name = ident(&load.name.text);
-            let doc = format!(" {}", load_doc(model, &load.kind));
+            let doc = if whole { format!(" {}", load_doc(model, &load.kind)) } else { String::new() };
             let ty = match load.kind {
                 LoadKind::Moment { .. } => quote!(#scalar),
                 LoadKind::Force { .. } | LoadKind::Gravity { .. } => quote!(Vector2<#scalar>),
@@ -170,6 +170,7 @@ pub(super) fn output_type(model: &Model, output: &Output, record: &str) -> Token
         Output::Vector(..) => quote!(Vector2<#scalar>),
         Output::Slider { .. } => quote!(SliderReaction<#scalar>),
         Output::Term { .. } => quote!(WorkTerm<#scalar>),
+        Output::Verification(_) => quote!(Verification<#scalar>),
         Output::Record(_) => {
             let name = ident(record);
             quote!(#name)

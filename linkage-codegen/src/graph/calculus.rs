@@ -39,7 +39,10 @@ impl Graph {
                 (x * d(args[0]) - y * d(args[1])) / (x * x + y * y)
             }
             // Constraints are smooth: they hold none of these.
-            Op::Abs(_) | Op::NonNegative(_) | Op::Where { .. } | Op::Kernel { kernel: Kernel::Unit | Kernel::Solve2 | Kernel::Solve3, .. } => self.zero(),
+            Op::Abs(_)
+            | Op::NonNegative(_)
+            | Op::Where { .. }
+            | Op::Kernel { kernel: Kernel::Unit | Kernel::Solve2 | Kernel::Solve3, .. } => self.zero(),
         }
     }
 

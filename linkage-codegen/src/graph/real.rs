@@ -53,8 +53,7 @@ pub trait Real: Clone {
     /// coefficient of x. The operations and their order are those of the run-time crate.
     #[must_use]
     fn solve_2(&self, b: &Self, c: &Self, d: &Self, [e, f]: [&Self; 2]) -> (Self, Self) {
-        let (a, b, e, c, d, f) =
-            if c.abs().above(&self.abs()) { (c, d, f, self, b, e) } else { (self, b, e, c, d, f) };
+        let (a, b, e, c, d, f) = if c.abs().above(&self.abs()) { (c, d, f, self, b, e) } else { (self, b, e, c, d, f) };
         let factor = c.div(a);
         let y = f.sub(&factor.mul(e)).div(&d.sub(&factor.mul(b)));
         let x = e.sub(&b.mul(&y)).div(a);

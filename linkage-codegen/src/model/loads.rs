@@ -16,9 +16,26 @@ pub(super) fn loads(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         let Item::Load(given) = item else { continue };
         let id = LoadId::new(model.loads.len());
         let kind = sink.absorb(kind(Scope { model, names }, given, id)).flatten();
-        let zero = model.graph.zero().id();
-        let nothing = LoadKind::Moment { on: GROUND, from: None, moment: zero };
-        model.loads.push(Load { name: given.name.clone(), kind: kind.unwrap_or(nothing) });
+        let kind = kind.unwrap_or_else(|| unread(model, id));
+        model.loads.push(Load { name: given.name.clone(), kind });
+    }
+}
+
+/// A load that is refused still brings its name: as a force that is given at run time.
+fn unread(model: &Model, id: LoadId) -> LoadKind {
+    let part = |part| model.graph.symbol(Symbol::Load(id, part));
+    let force = Vector::new(part(0), part(1)).into();
+    LoadKind::Force { at: End { link: GROUND, point: super::ids::PointId::FIRST }, force, frame: GROUND }
+}
+
+/// Loads that could not be read come last: no other item refers to them.
+pub(super) fn broken(model: &mut Model, ast: &Ast) {
+    for item in &ast.items {
+        let Item::Broken(Some(broken)) = item else { continue };
+        if broken.keyword.text == "load" {
+            let kind = unread(model, LoadId::new(model.loads.len()));
+            model.loads.push(Load { name: broken.name.clone(), kind });
+        }
     }
 }
 

@@ -479,6 +479,7 @@ pub fn resolve(ast: &Ast, sink: &Sink) -> Model {
     motion::unknowns(&mut model, ast, &names, sink);
     motion::closures(&mut model, ast, &names, sink);
     loads::loads(&mut model, ast, &names, sink);
+    loads::broken(&mut model, ast);
     scenes::scenes(&mut model, ast, &names, sink);
     if sink.is_clean() {
         check_connected(&model, sink);

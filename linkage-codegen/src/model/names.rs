@@ -71,7 +71,7 @@ impl Names {
                 Item::Unknown(u) => (Role::Unknown, &u.name),
                 Item::Load(l) => (Role::Load, &l.name),
                 Item::Scene(s) => (Role::Scene, &s.name),
-                Item::Broken(Some(name)) => (Role::Broken, name),
+                Item::Broken(Some(broken)) => (Role::Broken, &broken.name),
                 _ => continue,
             };
             let index = counts[role as usize];

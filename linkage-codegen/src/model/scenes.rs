@@ -14,7 +14,8 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
     let broken = ast.items.iter().any(|i| matches!(i, Item::Broken(_)));
     for item in &ast.items {
         let Item::Scene(given) = item else { continue };
-        let Some(method) = sink.absorb(method(given)) else { continue };
+        // A scene that is refused still brings its names.
+        let method = sink.absorb(method(given)).unwrap_or(Method::Equilibrium);
         let scene = Scene {
             name: given.name.clone(),
             method,
@@ -29,6 +30,16 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         }
         model.scenes.push(scene);
     }
+    for item in &ast.items {
+        let Item::Broken(Some(broken)) = item else { continue };
+        if broken.keyword.text == "scene" {
+            let given =
+                ast::Scene { name: broken.name.clone(), method: broken.name.clone(), loads: None, results: None };
+            let results = all_results(model, &given, Method::Equilibrium, names);
+            let loads = (0..model.loads.len()).map(LoadId::new).collect();
+            model.scenes.push(Scene { name: given.name, method: Method::Equilibrium, loads, results });
+        }
+    }
     if sink.is_clean() {
         check_generated_names(model, sink);
     }
@@ -40,7 +51,11 @@ fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
         "equilibrium" => Ok(Method::Equilibrium),
         "superposition" => Ok(Method::Superposition),
         "virtual_work" => Ok(Method::VirtualWork),
-        "verify" => Ok(Method::Verify),
+        "verify" if cfg!(feature = "reference") => Ok(Method::Verify),
+        "verify" => {
+            Err(Diagnostic::new(given.method.place(), "a scene can be verified only with the feature `reference`")
+                .help("in Cargo.toml: linkage-runtime = { …, features = [\"reference\"] }"))
+        }
         word if PLANNED_METHODS.contains(&word) => {
             Err(Diagnostic::new(given.method.place(), format!("the method `{word}` is not supported yet")))
         }

@@ -31,7 +31,11 @@ struct Eliminated<'m> {
 }
 
 /// The unknowns. The size of the core, if that is larger than what can be solved.
-pub(super) fn solve<'m>(graph: &'m Graph, mut equations: Vec<Equation<'m>>, core: Core<'_>) -> Result<Vec<Expr<'m>>, usize> {
+pub(super) fn solve<'m>(
+    graph: &'m Graph,
+    mut equations: Vec<Equation<'m>>,
+    core: Core<'_>,
+) -> Result<Vec<Expr<'m>>, usize> {
     let count = equations.len();
     let mut eliminated: Vec<Eliminated<'m>> = Vec::new();
     let mut open: Vec<usize> = (0..count).collect();
@@ -59,7 +63,8 @@ pub(super) fn solve<'m>(graph: &'m Graph, mut equations: Vec<Equation<'m>>, core
     }
     while let Some(Eliminated { unknown, equation }) = eliminated.pop() {
         let known = (0..count).filter(|column| *column != unknown && !equation.coefficients[*column].is_zero());
-        values[unknown] = known.fold(equation.right, |sum, column| sum - equation.coefficients[column] * values[column]);
+        values[unknown] =
+            known.fold(equation.right, |sum, column| sum - equation.coefficients[column] * values[column]);
     }
     Ok(values)
 }
@@ -92,7 +97,8 @@ fn solve_core<'m>(
     }
     // The determinant is refused where it is no larger than the rounding of its terms.
     let terms = determinant_terms(&matrix);
-    let determinant = terms.iter().fold(graph.zero(), |sum, term| sum + *term).named(core.name, "determinant of the core");
+    let determinant =
+        terms.iter().fold(graph.zero(), |sum, term| sum + *term).named(core.name, "determinant of the core");
     let size = terms.iter().fold(graph.zero(), |sum, term| sum + term.magnitude());
     let failure = || Failure::DeadCentre { group: core.group.into(), pivot: core.name.into() };
     let rounding = graph.epsilons(8) * size;

@@ -1,4 +1,4 @@
-//! [`Topology`] in, [`Plan`] out: every group solved by its rule, every scene's results as expressions.
+//! [`Topology`] and [`System`] in, [`Plan`] out: every group solved by its rule, every scene's results as expressions.
 //!
 //! Afterwards each result is a node of the graph, reduced by division through named pivots only. What a function needs of it is taken
 //! out later, by demand.
@@ -17,12 +17,13 @@ mod velocities;
 
 pub use assembly::Assembly;
 pub use balance::Balance;
-pub use output::{Field, Meaning, Output};
+pub use output::{Comparison, Field, Meaning, Output};
 pub use pivots::Pivots;
 pub use placement::Placement;
 pub use velocities::Motion;
 
 use crate::diagnostics::{Diagnostic, Sink};
+use crate::equations::System;
 use crate::graph::{Coordinate, Expr, NodeId, Op};
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
 use crate::model::units::Kind;
@@ -96,7 +97,7 @@ pub struct Accessor {
 impl Plan {
     /// Solves a linkage. `None` if that is not possible; why is reported.
     #[must_use]
-    pub fn of(model: &Model, topology: &Topology, sink: &Sink) -> Option<Self> {
+    pub fn of(model: &Model, topology: &Topology, system: &System, sink: &Sink) -> Option<Self> {
         let motion_rules = rules_of(model, &topology.motion, "place", rules::placing_rule, sink)?;
         let force_rules = rules_of(model, &topology.forces, "find the forces of", rules::force_rule, sink)?;
         let mut assembly = Assembly::new(model, topology);
@@ -116,11 +117,12 @@ impl Plan {
         if !sink.is_clean() {
             return None;
         }
+        let links = placed_links(&assembly);
         let plan = Self {
             pose: kept(&assembly),
             accessors: accessors(&assembly),
-            links: placed_links(&assembly),
-            scenes: scenes::outputs(&assembly, &force_rules, sink),
+            scenes: scenes::outputs(&assembly, &force_rules, (system, &links), sink),
+            links,
             motion_rules: motion_rules.iter().map(|rule| rule.class()).collect(),
             force_rules: force_rules.iter().map(|rule| rule.class()).collect(),
         };

@@ -52,8 +52,27 @@ pub enum Output {
         /// Of a force or a moment.
         meaning: Meaning,
     },
+    /// All ways to the results, to be compared at run time.
+    Verification(Box<Comparison>),
     /// Named results.
     Record(Vec<Field>),
+}
+
+/// The unreduced equations at a pose, and their unknowns by every method. Unknowns are in the order of the system's rows.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// Coefficients that are not structurally zero: line, column, value.
+    pub coefficients: Vec<(usize, usize, NodeId)>,
+    /// What the loads exert, a value for each line.
+    pub loads: Vec<NodeId>,
+    /// Which unknowns are moments.
+    pub moments: Vec<bool>,
+    /// The unknowns by equilibrium.
+    pub equilibrium: Vec<NodeId>,
+    /// The unknowns as sums of all contributions.
+    pub superposition: Vec<NodeId>,
+    /// The efforts by virtual work.
+    pub virtual_work: Vec<NodeId>,
 }
 
 /// A named result.
@@ -135,6 +154,12 @@ impl Output {
             Self::Term { velocity, work, .. } => {
                 leaf("velocity", *velocity);
                 leaf("work", *work);
+            }
+            Self::Verification(comparison) => {
+                let coefficients = comparison.coefficients.iter().map(|(.., node)| node);
+                let lists =
+                    [&comparison.loads, &comparison.equilibrium, &comparison.superposition, &comparison.virtual_work];
+                coefficients.chain(lists.into_iter().flatten()).for_each(|node| leaf("", *node));
             }
             Self::Record(fields) => {
                 for field in fields {

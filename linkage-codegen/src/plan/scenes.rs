@@ -1,9 +1,12 @@
 //! The results of every scene, by its method.
 
 use super::rules::{Rule, RuleResult};
-use super::{Assembly, Balance, Meaning, Motion, Output, angle, heading, joint_name};
+use super::{Assembly, Balance, Comparison, Meaning, Motion, Output, PlacedLink, angle, heading, joint_name};
 use crate::diagnostics::Sink;
+use crate::equations::joints::Component;
 use crate::equations::loads::{Action, Case, cases_of};
+use crate::equations::{Exerted, Source, System};
+use crate::graph::{Expr, Symbol};
 use crate::model::ids::{GROUND, JointId, LoadId, UnknownId};
 use crate::model::units::Kind;
 use crate::model::{JointKind, LoadKind, Method, Model, Scene, UnknownKind, Wanted};
@@ -20,7 +23,12 @@ struct Forces<'a, 'm> {
 }
 
 /// The results of all scenes.
-pub(super) fn outputs(assembly: &Assembly<'_>, rules: &[&'static dyn Rule], sink: &Sink) -> Vec<Output> {
+pub(super) fn outputs(
+    assembly: &Assembly<'_>,
+    rules: &[&'static dyn Rule],
+    equations: (&System, &[PlacedLink]),
+    sink: &Sink,
+) -> Vec<Output> {
     let model = assembly.model();
     let forces = Forces { model, groups: &assembly.topology.forces, rules, assembly, sink };
     model
@@ -31,7 +39,7 @@ pub(super) fn outputs(assembly: &Assembly<'_>, rules: &[&'static dyn Rule], sink
             Method::Equilibrium => forces.equilibrium(scene),
             Method::Superposition => forces.superposition(scene),
             Method::VirtualWork => forces.virtual_work(scene),
-            Method::Verify => Output::Record(Vec::new()),
+            Method::Verify => forces.verify(scene, equations),
         })
         .collect()
 }
@@ -145,25 +153,35 @@ impl<'m> Forces<'_, 'm> {
         Output::Record(fields.collect())
     }
 
-    fn virtual_work(&self, scene: &Scene) -> Output {
-        let unknowns: Vec<UnknownId> = (0..self.model.unknowns.len()).map(UnknownId::new).collect();
-        let single = unknowns.len() == 1;
+    /// The virtual motion of every unknown.
+    fn motions(&self) -> Vec<Motion<'m, '_>> {
+        let unknowns = (0..self.model.unknowns.len()).map(UnknownId::new);
+        let single = self.model.unknowns.len() == 1;
         let prefix =
             |unknown: UnknownId| if single { String::new() } else { format!("{}_", self.model.unknown(unknown).name) };
-        let motions: Vec<Motion<'m, '_>> =
-            unknowns.iter().map(|unknown| self.motion(*unknown, prefix(*unknown))).collect();
+        unknowns.map(|unknown| self.motion(unknown, prefix(unknown))).collect()
+    }
+
+    /// Some loads on the links, nothing solved.
+    fn applied(&self, loads: &[LoadId]) -> Balance<'m, '_> {
+        Balance::new(&self.assembly.placement, &self.assembly.pivots, String::new(), &self.actions(loads))
+    }
+
+    /// The effort that does as much work as the loads, with the opposite sign.
+    fn effort_by_work(&self, motion: &Motion<'m, '_>, loads: &Balance<'m, '_>) -> Expr<'m> {
+        -self.model.moving_links().fold(self.model.graph.zero(), |sum, link| sum + motion.power_of(loads, link))
+    }
+
+    fn virtual_work(&self, scene: &Scene) -> Output {
+        let motions = self.motions();
+        let single = motions.len() == 1;
         self.model.graph.begin_section("Virtual work");
-        let loads =
-            Balance::new(&self.assembly.placement, &self.assembly.pivots, String::new(), &self.actions(&scene.loads));
+        let loads = self.applied(&scene.loads);
         let fields = scene.results.iter().filter_map(|wanted| match *wanted {
             Wanted::Unknown(unknown) => {
-                let motion = &motions[unknown.index()];
-                let power = self
-                    .model
-                    .moving_links()
-                    .fold(self.model.graph.zero(), |sum, link| sum + motion.power_of(&loads, link));
                 let name = &self.model.unknown(unknown).name;
-                let effort = (-power).named(name.clone(), "−(Σ F·v + Σ M ω), at unit rate of its own coordinate");
+                let effort = self.effort_by_work(&motions[unknown.index()], &loads);
+                let effort = effort.named(name.clone(), "−(Σ F·v + Σ M ω), at unit rate of its own coordinate");
                 let value = Output::scalar(effort, unknown_meaning(self.model, unknown));
                 Some(Field { name: name.clone(), doc: unknown_doc(self.model, unknown), value })
             }
@@ -185,6 +203,61 @@ impl<'m> Forces<'_, 'm> {
             _ => None,
         });
         Output::Record(fields.collect())
+    }
+
+    /// Every method's answer beside the unreduced equations.
+    fn verify(&self, scene: &Scene, (system, links): (&System, &[PlacedLink])) -> Output {
+        let graph = &self.model.graph;
+        let unknowns = |balance: &Balance<'m, '_>| -> Vec<Expr<'m>> {
+            system.rows.iter().map(|row| unknown_of(balance, row.source)).collect()
+        };
+        let cases: Vec<(Case, Vec<Action>)> = scene.loads.iter().flat_map(|load| cases_of(self.model, *load)).collect();
+        let balance = self.balance(&self.prefix_of(scene), &self.actions(&scene.loads));
+        let equilibrium = unknowns(&balance);
+        let mut superposition = vec![graph.zero(); equilibrium.len()];
+        for (case, actions) in &cases {
+            let part = unknowns(&self.balance(&case_prefix(self.model, case), actions));
+            superposition.iter_mut().zip(part).for_each(|(sum, part)| *sum = *sum + part);
+        }
+        let motions = self.motions();
+        let loads = self.applied(&scene.loads);
+        let virtual_work = motions.iter().map(|motion| self.effort_by_work(motion, &loads).id()).collect();
+        // The symbols of the equations are the coordinates that the pose gives.
+        graph.begin_section("General equations");
+        let placed = |symbol: Symbol| match symbol {
+            Symbol::Coordinate(link, which) => Some(graph.expr(links[link.index()].coordinate(which))),
+            _ => None,
+        };
+        let value = |node| graph.substituted(graph.expr(node), &placed);
+        let lines = |exerted: &Exerted| {
+            let first = 3 * (exerted.on.index() - 1);
+            [(first, exerted.x), (first + 1, exerted.y), (first + 2, exerted.moment)]
+        };
+        let mut coefficients = Vec::new();
+        for (column, row) in system.rows.iter().enumerate() {
+            for (line, node) in row.exerts.iter().flat_map(lines) {
+                let value = value(node);
+                if !value.is_zero() {
+                    coefficients.push((line, column, value.id()));
+                }
+            }
+        }
+        let mut exerted = vec![graph.zero(); equilibrium.len()];
+        for case in system.cases.iter().filter(|case| scene.loads.contains(&case.case.load)) {
+            for (line, node) in case.exerts.iter().flat_map(lines) {
+                exerted[line] = exerted[line] + value(node);
+            }
+        }
+        let moments = system.rows.iter().map(|row| is_moment(self.model, row.source)).collect();
+        let ids = |values: Vec<Expr<'_>>| values.into_iter().map(Expr::id).collect();
+        Output::Verification(Box::new(Comparison {
+            coefficients,
+            loads: ids(exerted),
+            moments,
+            equilibrium: ids(equilibrium),
+            superposition: ids(superposition),
+            virtual_work,
+        }))
     }
 
     fn motion(&self, unknown: UnknownId, prefix: String) -> Motion<'m, '_> {
@@ -233,6 +306,31 @@ fn term(motion: &Motion<'_, '_>, actions: &[Action]) -> Output {
             });
             Output::Term { velocity: rate.0.id(), work: work.id(), meaning: Meaning::MomentTerm }
         }
+    }
+}
+
+/// A scalar unknown of the unreduced equations, as a load case's solution has it.
+fn unknown_of<'m>(balance: &Balance<'m, '_>, source: Source) -> Expr<'m> {
+    match source {
+        Source::Joint(joint, component) => {
+            let reaction = balance.reaction(joint);
+            match component {
+                Component::X => reaction.force.ground().x,
+                Component::Y => reaction.force.ground().y,
+                Component::Normal => reaction.force.along(balance.placement.slide_direction(joint)).y,
+                Component::Couple => reaction.couple.unwrap_or_else(|| balance.graph().zero()),
+            }
+        }
+        Source::Unknown(unknown) => balance.effort(unknown),
+        Source::Drive(_) => balance.graph().zero(),
+    }
+}
+
+fn is_moment(model: &Model, source: Source) -> bool {
+    match source {
+        Source::Joint(_, component) => component == Component::Couple,
+        Source::Unknown(unknown) => unknown_meaning(model, unknown) == Meaning::Moment,
+        Source::Drive(_) => false,
     }
 }
 

@@ -74,7 +74,16 @@ pub enum Item {
     /// `scene statics: …;`
     Scene(Scene),
     /// An item that could not be read; what it would have named counts as declared.
-    Broken(Option<Name>),
+    Broken(Option<Broken>),
+}
+
+/// What is known of an item that could not be read.
+#[derive(Clone, Debug)]
+pub struct Broken {
+    /// Its keyword.
+    pub keyword: Name,
+    /// What it would have named.
+    pub name: Name,
 }
 
 /// A scalar expression.

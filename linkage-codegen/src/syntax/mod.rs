@@ -112,8 +112,9 @@ fn item(input: ParseStream<'_>, sink: &Sink) -> Item {
         Err(error) => {
             sink.report(error);
             pass_over(input, &begin);
-            let named = begin.call(name).is_ok();
-            Item::Broken(if named { begin.call(name).ok() } else { None })
+            let keyword = begin.call(name).ok();
+            let named = begin.call(name).ok();
+            Item::Broken(keyword.zip(named).map(|(keyword, name)| ast::Broken { keyword, name }))
         }
     }
 }

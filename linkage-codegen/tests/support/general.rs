@@ -115,11 +115,8 @@ pub fn solve_nalgebra(matrix: &[Vec<f64>], right: &[f64]) -> Option<(Vec<f64>, f
 /// By elimination with partial pivoting in extended precision.
 pub fn solve_extended(matrix: &[Vec<Extended>], right: &[Extended]) -> Option<Vec<Extended>> {
     let n = matrix.len();
-    let mut a: Vec<Vec<Extended>> = matrix
-        .iter()
-        .zip(right)
-        .map(|(line, b)| line.iter().cloned().chain([b.clone()]).collect())
-        .collect();
+    let mut a: Vec<Vec<Extended>> =
+        matrix.iter().zip(right).map(|(line, b)| line.iter().cloned().chain([b.clone()]).collect()).collect();
     let zero = Extended::zero();
     for step in 0..n {
         let pivot = (step..n).max_by(|p, q| a[*p][step].abs().0.cmp(&a[*q][step].abs().0))?;

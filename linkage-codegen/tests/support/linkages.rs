@@ -112,7 +112,8 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
     let mut random = Random(seed);
     let offset = *random.pick(&[0.0, 0.0, 10.0, 1e3]);
     let base = [random.range(-offset, offset), random.range(-offset, offset)];
-    let ground = Body { name: "ground".into(), origin: [0.0; 2], angle: 0.0, points: Vec::new(), framed: false, mass: None };
+    let ground =
+        Body { name: "ground".into(), origin: [0.0; 2], angle: 0.0, points: Vec::new(), framed: false, mass: None };
     let mut builder =
         Builder { random, base, bodies: vec![ground], items: String::new(), places: Vec::new(), names: 0, sines: 0.2 };
     let drive = builder.driven_link(kind.sliders);
@@ -225,7 +226,11 @@ impl Builder {
         let at_b = loop {
             let at = self.place();
             let (u, v) = (minus(at, at_p), minus(at, at_q));
-            if size(u) > 0.3 && size(v) > 0.3 && (cross(u, v) / (size(u) * size(v))).abs() > self.sines && size(minus(at_p, at_q)) > 0.2 {
+            if size(u) > 0.3
+                && size(v) > 0.3
+                && (cross(u, v) / (size(u) * size(v))).abs() > self.sines
+                && size(minus(at_p, at_q)) > 0.2
+            {
                 break at;
             }
             if size(minus(at_p, at_q)) <= 0.2 {
@@ -304,10 +309,15 @@ impl Builder {
     fn masses(&mut self) {
         for index in 1..self.bodies.len() {
             if self.random.chance(0.5) {
-                let (mass, x, y) = (self.random.range(0.1, 3.0), self.random.range(-1.0, 1.0), self.random.range(-1.0, 1.0));
+                let (mass, x, y) =
+                    (self.random.range(0.1, 3.0), self.random.range(-1.0, 1.0), self.random.range(-1.0, 1.0));
                 let mut text = format!("mass {}: {mass:?}kg at ({x:?}m, {y:?}m);\n", self.bodies[index].name);
                 if self.random.chance(0.3) {
-                    let _ = writeln!(text, "mass {}: {mass:?}kg at ({y:?}m, {x:?}m), inertia 1kg*m^2;", self.bodies[index].name);
+                    let _ = writeln!(
+                        text,
+                        "mass {}: {mass:?}kg at ({y:?}m, {x:?}m), inertia 1kg*m^2;",
+                        self.bodies[index].name
+                    );
                 }
                 self.bodies[index].mass = Some(text);
             }
@@ -414,7 +424,9 @@ impl Builder {
         }
         text.push_str(&self.items);
         let _ = writeln!(text, "drive q: {};", drive.0);
-        text.push_str("scene all: equilibrium;\nscene parts: superposition;\nscene work: virtual_work;\nscene whole: position;\n");
+        text.push_str(
+            "scene all: equilibrium;\nscene parts: superposition;\nscene work: virtual_work;\nscene whole: position;\n",
+        );
         let arguments = Arguments { drives: vec![drive.1], loads, params };
         Sample { text, arguments, places: self.places }
     }

@@ -16,8 +16,9 @@ use linkage_codegen::program::{Fault, Input, Program, Run};
 pub fn compile(declaration: &str) -> Linkage {
     match linkage_codegen::analyse(declaration.parse().expect("tokens")) {
         Ok(linkage) => linkage,
-        Err(errors) => {
-            let errors: Vec<&str> = errors.iter().map(linkage_codegen::diagnostics::Diagnostic::message).collect();
+        Err(refusal) => {
+            let errors: Vec<&str> =
+                refusal.errors.iter().map(linkage_codegen::diagnostics::Diagnostic::message).collect();
             panic!("{}\n\n{declaration}", errors.join("\n\n"));
         }
     }

@@ -84,7 +84,10 @@ impl Number for Double {
     }
 }
 
-#[allow(clippy::cast_possible_truncation, reason = "arguments of single-precision linkages are single-precision numbers")]
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "arguments of single-precision linkages are single-precision numbers"
+)]
 impl Number for Single {
     fn exactly(value: f64) -> Self {
         Self(value as f32)

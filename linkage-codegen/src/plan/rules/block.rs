@@ -166,10 +166,7 @@ impl<'p, 'm> Parts<'p, 'm> {
         }
         let (_, axes) = self.rod(member);
         let along = Framed { components: Vector::new(one, zero), axes };
-        vec![
-            self.passed_on(member.near, member.link, along),
-            self.passed_on(member.far, member.link, along.opposite()),
-        ]
+        vec![self.passed_on(member.near, member.link, along), self.passed_on(member.far, member.link, along.opposite())]
     }
 
     /// From the runner of a slider to its pin, along and across the slide.
@@ -346,7 +343,8 @@ impl Rule for Block {
         for member in parts.members.iter().filter(|member| !parts.is_slide(member.far)) {
             super::check_length(model, member.link, [member.far, member.near])?;
         }
-        let ends: Vec<MemberEnds<'_>> = parts.members.iter().map(|member| known_ends(balance, &parts, member)).collect();
+        let ends: Vec<MemberEnds<'_>> =
+            parts.members.iter().map(|member| known_ends(balance, &parts, member)).collect();
         let mut acts: Vec<Act<'_>> = ends.iter().flat_map(|ends| ends.acts.clone()).collect();
         for free in &parts.free {
             if let Free::Carrier(link) = free {
@@ -398,7 +396,8 @@ impl Rule for Block {
             .zip(&columns)
             .map(|(unknown, column)| {
                 let own = if let Unknown::Effort(effort) = unknown { motion.rate_of(*effort) } else { graph.zero() };
-                let outside = parts.unit(*unknown).iter().fold(graph.zero(), |sum, act| sum + power_outside(motion, group, act));
+                let outside =
+                    parts.unit(*unknown).iter().fold(graph.zero(), |sum, act| sum + power_outside(motion, group, act));
                 Equation { coefficients: column.clone(), right: own - outside }
             })
             .collect();
@@ -412,7 +411,8 @@ impl Rule for Block {
             match free {
                 Free::Carrier(link) => {
                     let name = &parts.model.link(*link).name;
-                    let rate = values[row + 2].named(motion.name(&format!("rate_{name}")), format!("rate of rotation of {name}"));
+                    let rate = values[row + 2]
+                        .named(motion.name(&format!("rate_{name}")), format!("rate of rotation of {name}"));
                     motion.found(*link, Twist { rate, at: parts.centre(*link), velocity });
                     row += 3;
                 }
@@ -426,7 +426,10 @@ impl Rule for Block {
             let end = |joint: JointId| {
                 let found = pins.iter().find(|(pin, _)| *pin == joint);
                 let neighbour = parts.other(joint, member.link);
-                found.map_or_else(|| motion.of_place(neighbour, parts.place(joint, neighbour)), |(_, velocity)| *velocity)
+                found.map_or_else(
+                    || motion.of_place(neighbour, parts.place(joint, neighbour)),
+                    |(_, velocity)| *velocity,
+                )
             };
             let velocity = end(member.near);
             let at = parts.place(member.near, member.link);
@@ -503,7 +506,13 @@ fn known_ends<'m>(balance: &Balance<'m, '_>, parts: &Parts<'_, 'm>, member: &Mem
 }
 
 /// Records the forces at a member's ends.
-fn put_member<'m>(balance: &mut Balance<'m, '_>, parts: &Parts<'_, 'm>, member: &Member, ends: &MemberEnds<'m>, value: Expr<'m>) {
+fn put_member<'m>(
+    balance: &mut Balance<'m, '_>,
+    parts: &Parts<'_, 'm>,
+    member: &Member,
+    ends: &MemberEnds<'m>,
+    value: Expr<'m>,
+) {
     let (graph, ground) = (balance.graph(), parts.ground());
     let is_slide = parts.is_slide(member.far);
     let own = if is_slide { Vector::new(graph.zero(), value) } else { Vector::new(value, graph.zero()) };
@@ -535,7 +544,13 @@ fn put_pin<'m>(
 }
 
 /// Records a joint that no member has. One of its links may be outside the group, and is loaded by it.
-fn put_joint<'m>(balance: &mut Balance<'m, '_>, parts: &Parts<'_, 'm>, joint: JointId, first: Expr<'m>, second: Expr<'m>) {
+fn put_joint<'m>(
+    balance: &mut Balance<'m, '_>,
+    parts: &Parts<'_, 'm>,
+    joint: JointId,
+    first: Expr<'m>,
+    second: Expr<'m>,
+) {
     let data = parts.model.joint(joint);
     if parts.is_slide(joint) {
         let axes = balance.placement.slide_direction(joint);
@@ -551,7 +566,13 @@ fn put_joint<'m>(balance: &mut Balance<'m, '_>, parts: &Parts<'_, 'm>, joint: Jo
 }
 
 /// What an effort does to links outside the group.
-fn put_effort<'m>(balance: &mut Balance<'m, '_>, parts: &Parts<'_, 'm>, group: &Group, effort: UnknownId, value: Expr<'m>) {
+fn put_effort<'m>(
+    balance: &mut Balance<'m, '_>,
+    parts: &Parts<'_, 'm>,
+    group: &Group,
+    effort: UnknownId,
+    value: Expr<'m>,
+) {
     for act in parts.unit_of_effort(effort) {
         match act {
             Act::Force(link, at, force) if !group.links.contains(&link) => {

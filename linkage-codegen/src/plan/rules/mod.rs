@@ -81,6 +81,9 @@ fn check_length(model: &Model, link: LinkId, pins: [JointId; 2]) -> RuleResult {
     }
     let [first, second] = pins.map(|pin| &model.joint(pin).name);
     let name = &model.link(link).name;
-    Err(Diagnostic::new(name.place(), format!("the link `{name}` has no length between its joints `{first}` and `{second}`"))
-        .help("put the two points apart, or join the two other links by one pin"))
+    Err(Diagnostic::new(
+        name.place(),
+        format!("the link `{name}` has no length between its joints `{first}` and `{second}`"),
+    )
+    .help("put the two points apart, or join the two other links by one pin"))
 }

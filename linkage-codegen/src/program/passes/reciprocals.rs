@@ -42,8 +42,7 @@ pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
 fn reciprocal_of(program: &mut Program, graph: &Graph, divisor: ValueId, first_use: ValueId) -> ValueId {
     let section = program.value(first_use).section.clone();
     let named = program.value(divisor).label.clone();
-    let label =
-        named.map(|label| Label { name: format!("inverse_{}", label.name), equation: String::new() });
+    let label = named.map(|label| Label { name: format!("inverse_{}", label.name), equation: String::new() });
     let mut add = |definition, label| {
         program.values.push(Value { definition: Definition::Computed(definition), label, section: section.clone() });
         ValueId::new(program.values.len() - 1)

@@ -1,0 +1,164 @@
+//! The general solution, against which generated results are held: all equilibrium equations of the free bodies at once, by nalgebra.
+//!
+//! For tests and for a host that wants to see the agreement; not part of the path that emitted code takes otherwise. A linkage emits
+//! the table of its equations for a scene with the method `verify`.
+
+extern crate alloc;
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use nalgebra::{DMatrix, DVector, RealField};
+
+use crate::Error;
+
+/// How far the ways to a scene's results disagree: the largest difference of forces over the largest force, or of moments over the
+/// largest moment, whichever is larger.
+///
+/// A size of `1e-15` is a matter of roundings; it grows with [`condition`](Self::condition).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verification<T> {
+    /// The sum of all contributions against equilibrium.
+    pub superposition: T,
+    /// The unknowns by virtual work against those by equilibrium.
+    pub virtual_work: T,
+    /// The general solution against equilibrium.
+    pub general: T,
+    /// The 2-norm condition number of the general equations, each line scaled to its largest coefficient.
+    pub condition: T,
+}
+
+impl<T: fmt::LowerExp> fmt::Display for Verification<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "superposition {:.1e}, virtual work {:.1e}, general solution {:.1e} (condition {:.1e})",
+            self.superposition, self.virtual_work, self.general, self.condition
+        )
+    }
+}
+
+/// A square linear system: for each unknown what its unit exerts on the links, for each equation what the loads exert.
+#[derive(Clone, Debug)]
+pub struct Equations<T> {
+    matrix: DMatrix<T>,
+    right: DVector<T>,
+}
+
+impl<T: RealField + Copy> Equations<T> {
+    /// From the coefficients that are not structurally zero, each as `(line, column, value)`, and what the loads exert.
+    ///
+    /// # Panics
+    ///
+    /// If a line or a column is beyond the number of equations.
+    #[must_use]
+    pub fn new(coefficients: &[(usize, usize, T)], loads: &[T]) -> Self {
+        let n = loads.len();
+        let mut matrix = DMatrix::zeros(n, n);
+        for (line, column, value) in coefficients {
+            matrix[(*line, *column)] = *value;
+        }
+        let mut right = DVector::from_iterator(n, loads.iter().map(|load| -*load));
+        // Forces and moments have different units: each line by its largest coefficient.
+        for line in 0..n {
+            let size = matrix.row(line).iter().fold(T::zero(), |m, x| m.max(x.abs()));
+            if size > T::zero() {
+                matrix.row_mut(line).iter_mut().for_each(|x| *x /= size);
+                right[line] /= size;
+            }
+        }
+        Self { matrix, right }
+    }
+
+    /// The unknowns; `None` if the equations are singular.
+    #[must_use]
+    pub fn solve(&self) -> Option<Vec<T>> {
+        self.matrix.clone().full_piv_lu().solve(&self.right).map(|x| x.iter().copied().collect())
+    }
+
+    /// The 2-norm condition number; infinite if singular.
+    #[must_use]
+    pub fn condition(&self) -> T {
+        let values = self.matrix.clone().singular_values();
+        values.max() / values.min()
+    }
+}
+
+/// What emitted code has found of one pose under one set of loads.
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct Compared<'a, T> {
+    /// The coefficients of the general equations.
+    pub coefficients: &'a [(usize, usize, T)],
+    /// What the loads exert.
+    pub loads: &'a [T],
+    /// Which unknowns are moments.
+    pub moments: &'a [bool],
+    /// The unknowns by equilibrium, in the order of the columns.
+    pub equilibrium: &'a [T],
+    /// The same by superposition.
+    pub superposition: &'a [T],
+    /// The efforts by virtual work: the last unknowns.
+    pub virtual_work: &'a [T],
+}
+
+/// Compares all ways to the results.
+///
+/// # Errors
+///
+/// [`Error::DeadCentre`] if the general equations are singular.
+#[doc(hidden)]
+pub fn verify<T: RealField + Copy>(compared: &Compared<'_, T>) -> Result<Verification<T>, Error> {
+    let Compared { coefficients, loads, moments, equilibrium, superposition, virtual_work } = compared;
+    let equations = Equations::new(coefficients, loads);
+    let singular = Error::DeadCentre { group: "the linkage", pivot: "determinant of the general equations" };
+    let general = equations.solve().ok_or(singular)?;
+    let efforts = equilibrium.len().saturating_sub(virtual_work.len());
+    // The unknowns from `first` on, forces and moments each by their largest.
+    let difference = |values: &[T], first: usize| {
+        let of = |kind: bool| {
+            let all = equilibrium.iter().zip(*moments).filter(|(_, moment)| **moment == kind);
+            let size = all.fold(T::zero(), |m, (x, _)| m.max(x.abs()));
+            let pairs =
+                equilibrium.iter().zip(*moments).skip(first).zip(values).filter(|((_, moment), _)| **moment == kind);
+            let largest = pairs.fold(T::zero(), |m, ((x, _), y)| m.max((*x - *y).abs()));
+            if size > T::zero() { largest / size } else { largest }
+        };
+        of(false).max(of(true))
+    };
+    Ok(Verification {
+        superposition: difference(superposition, 0),
+        virtual_work: difference(virtual_work, efforts),
+        general: difference(&general, 0),
+        condition: equations.condition(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Compared, Equations, verify};
+
+    const COEFFICIENTS: [(usize, usize, f64); 3] = [(0, 0, 2.0), (1, 0, 1.0), (1, 1, 1e-3)];
+
+    #[test]
+    fn solves_what_it_is_given() {
+        let solution = Equations::new(&COEFFICIENTS, &[-4.0, -5.0]).solve().unwrap();
+        assert!((solution[0] - 2.0).abs() < 1e-12 && (solution[1] - 3000.0).abs() < 1e-9);
+        assert!(Equations::new(&[(0, 0, 1.0), (1, 0, 1.0)], &[1.0, 1.0]).solve().is_none());
+    }
+
+    #[test]
+    fn a_wrong_answer_shows() {
+        let compared = |equilibrium: &'static [f64]| Compared {
+            coefficients: &COEFFICIENTS,
+            loads: &[-4.0, -5.0],
+            moments: &[false, true],
+            equilibrium,
+            superposition: &[2.0, 3000.0],
+            virtual_work: &[3000.0],
+        };
+        assert!(verify(&compared(&[2.0, 3000.0])).unwrap().general < 1e-12);
+        let wrong = verify(&compared(&[2.0, 3001.0])).unwrap();
+        assert!(wrong.general > 1e-4 && wrong.superposition > 1e-4 && wrong.virtual_work > 1e-4);
+    }
+}

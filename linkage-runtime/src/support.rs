@@ -1,0 +1,80 @@
+//! What emitted code uses beside the elementary functions: clamping, error gaps, and cores of two and three equations.
+
+/// The functions for a scalar; `$single` makes a single-precision number of one.
+macro_rules! support {
+    ($scalar:ident, $single:expr) => {
+        /// The value, or zero if it is negative or NaN.
+        #[inline]
+        #[must_use]
+        pub fn non_negative(x: $scalar) -> $scalar {
+            if x > 0.0 { x } else { 0.0 }
+        }
+
+        /// A gap for an error message: in single precision, at most its largest number.
+        #[cold]
+        #[must_use]
+        pub fn gap(x: $scalar) -> f32 {
+            let single: fn($scalar) -> f32 = $single;
+            let x = single(x);
+            if x < f32::MAX { x } else { f32::MAX }
+        }
+
+        /// `[x, y]` of `a x + b y = e`, `c x + d y = f`, by elimination from the equation with the larger coefficient of x.
+        ///
+        /// A regular pair is solved with a backward error of a few roundings; of a singular one the results are not finite.
+        #[inline]
+        #[must_use]
+        pub fn solve_2([[a, b], [c, d]]: [[$scalar; 2]; 2], [e, f]: [$scalar; 2]) -> ($scalar, $scalar) {
+            let (a, b, e, c, d, f) = if c.abs() > a.abs() { (c, d, f, a, b, e) } else { (a, b, e, c, d, f) };
+            let factor = c / a;
+            let y = (f - factor * e) / (d - factor * b);
+            let x = (e - b * y) / a;
+            (x, y)
+        }
+
+        /// The solution of three equations, by elimination from the equation with the largest coefficient of the first unknown.
+        #[inline]
+        #[must_use]
+        pub fn solve_3(
+            [[a0, a1, a2], [b0, b1, b2], [c0, c1, c2]]: [[$scalar; 3]; 3],
+            [a3, b3, c3]: [$scalar; 3],
+        ) -> ($scalar, $scalar, $scalar) {
+            let (mut first, mut second, mut third) = ((a0, a1, a2, a3), (b0, b1, b2, b3), (c0, c1, c2, c3));
+            if second.0.abs() > first.0.abs() {
+                (first, second) = (second, first);
+            }
+            if third.0.abs() > first.0.abs() {
+                (first, third) = (third, first);
+            }
+            let p = second.0 / first.0;
+            let (p1, p2, p3) = (second.1 - p * first.1, second.2 - p * first.2, second.3 - p * first.3);
+            let q = third.0 / first.0;
+            let (q1, q2, q3) = (third.1 - q * first.1, third.2 - q * first.2, third.3 - q * first.3);
+            let (y, z) = solve_2([[p1, p2], [q1, q2]], [p3, q3]);
+            let x = (first.3 - first.1 * y - first.2 * z) / first.0;
+            (x, y, z)
+        }
+    };
+}
+pub(crate) use support;
+
+#[cfg(test)]
+mod tests {
+    use crate::__private::f64::{gap, non_negative, solve_2, solve_3};
+
+    #[test]
+    fn small_systems_are_pivoted() {
+        // Without an exchange of rows the first of each would divide by zero.
+        assert_eq!(solve_2([[0.0, 2.0], [4.0, 1.0]], [6.0, 11.0]), (2.0, 3.0));
+        let (x, y, z) = solve_3([[0.0, 1.0, 1.0], [0.0, 2.0, -1.0], [5.0, 1.0, 0.0]], [5.0, 1.0, 7.0]);
+        assert_eq!((x, y, z), (1.0, 2.0, 3.0));
+    }
+
+    #[test]
+    fn clamps_and_gaps() {
+        assert_eq!(non_negative(-1.0).to_bits(), 0.0f64.to_bits());
+        assert_eq!(non_negative(f64::NAN).to_bits(), 0.0f64.to_bits());
+        assert_eq!(gap(1e300), f32::MAX);
+        assert_eq!(gap(f64::NAN), f32::MAX);
+    }
+}
