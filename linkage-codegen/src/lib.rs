@@ -81,7 +81,7 @@ pub fn expand(declaration: TokenStream) -> TokenStream {
         Ok(linkage) => emit::module(&linkage),
         Err(Refusal { errors, model }) => {
             let mut tokens = diagnostics::to_tokens(&errors);
-            tokens.extend(model.as_ref().map(emit::fallback));
+            tokens.extend(model.map(emit::fallback));
             tokens
         }
     }

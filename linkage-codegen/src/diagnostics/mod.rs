@@ -52,6 +52,12 @@ impl Diagnostic {
         Self { place, message: problem.into() }
     }
 
+    /// The same at another place.
+    #[must_use]
+    pub fn moved(self, place: Option<Place>) -> Self {
+        Self { place: place.unwrap_or(self.place), ..self }
+    }
+
     /// The way out. Each line of the text stands under the mark.
     #[must_use]
     pub fn help(self, text: impl AsRef<str>) -> Self {
@@ -71,7 +77,7 @@ impl Diagnostic {
         match closest(written, names.iter().copied()) {
             Some(name) => self.help(format!("did you mean `{name}`?")),
             None if names.is_empty() => self,
-            None => self.help(format!("there is {}", list(&names))),
+            None => self.help(format!("there {} {}", if names.len() == 1 { "is" } else { "are" }, list(&names))),
         }
     }
 

@@ -11,8 +11,9 @@ use crate::model::ids::LinkId;
 use crate::model::{JointKind, Method};
 use crate::program::Program;
 
-/// The whole text.
-pub(super) fn text(linkage: &Linkage) -> String {
+/// The derivation of a linkage as text.
+#[must_use]
+pub fn text(linkage: &Linkage) -> String {
     let model = &linkage.model;
     let mut text = format!("{}\n{}\n\n", model.name, "=".repeat(model.name.text.chars().count()));
     text.push_str(&mobility(linkage));

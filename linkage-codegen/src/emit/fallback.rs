@@ -1,72 +1,47 @@
 //! The module of a wrong declaration: the same names without bodies, so that what uses it makes no errors of its own.
 
-use proc_macro2::TokenStream;
+use std::collections::BTreeSet;
+
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
+use syn::ext::IdentExt;
 
 use super::literals::ident;
 use super::types::{loads, results, run_time_loads, scalar};
 use crate::graph::NodeId;
-use crate::model::{JointKind, LoadKind, Method, Model, Scene, Wanted, type_name};
+use crate::model::{JointKind, LoadKind, Method, Model, OWN_TYPES, Scene, Wanted, type_name};
 use crate::plan::{Field, Meaning, Output};
 
-/// The names of a module.
+/// The names of a module. Where several things would have one name, the first has it.
 #[must_use]
-pub fn module(model: &Model) -> TokenStream {
+pub fn module(mut model: Model) -> TokenStream {
+    let names: Vec<Ident> = model.scenes.iter().map(|scene| ident(&scene.name.text)).collect();
+    let direct: Vec<Ident> = model.scenes.iter().map(|scene| ident(&format!("{}_at", scene.name))).collect();
+    name_types_apart(&mut model);
+    let model = &model;
     let (visibility, name) = (&model.visibility, ident(&model.name.text));
     let runtime = model.runtime.clone().unwrap_or_else(|| quote!(::linkage_runtime));
-    let scalar = scalar(model);
-    let has_params = !model.params.is_empty();
-    let shapes: Vec<Output> = model.scenes.iter().map(|scene| shape(model, scene)).collect();
-    let loads = loads(model, false);
-    let records: TokenStream = shapes.iter().enumerate().map(|(index, shape)| results(model, index, shape)).collect();
-    let (params, pose, prepared, lifetime) = if has_params {
-        let fields = model.params.iter().map(|param| ident(&param.name.text));
-        let params = quote! {
-            #[derive(Clone, Copy, Debug, Default, PartialEq)]
-            pub struct Params { #(pub #fields: #scalar),* }
-            #[derive(Clone, Copy, Debug, PartialEq)]
-            pub struct Linkage(());
-            impl Linkage { pub fn new(params: &Params) -> Result<Self, Error> { loop {} } }
-        };
-        (
-            params,
-            quote!(
-                pub struct Pose<'l>(&'l Linkage);
-            ),
-            quote!(linkage: &'l Linkage,),
-            quote!(<'l>),
-        )
-    } else {
-        (
-            TokenStream::new(),
-            quote!(
-                pub struct Pose(());
-            ),
-            TokenStream::new(),
-            TokenStream::new(),
-        )
-    };
-    let drives: Vec<TokenStream> = model
-        .drives
-        .iter()
-        .map(|drive| {
-            let name = ident(&drive.name.text);
-            quote!(#name: #scalar)
-        })
-        .collect();
+    let types: Vec<Ident> = model.scenes.iter().map(|scene| ident(&type_name(&scene.name.text))).collect();
+    let records: TokenStream = (0..model.scenes.len()).map(|index| records(model, index, &runtime)).collect();
+    let (params, pose) = (params(model), pose(model));
+    let prepared = (!model.params.is_empty()).then(|| quote!(linkage: &Linkage));
+    let lifetime = (!model.params.is_empty()).then(|| quote!(<'l>));
+    let bound = (!model.params.is_empty()).then(|| quote!(linkage: &'l Linkage));
+    let drives: Vec<TokenStream> = drives(model);
+    let given: Vec<Option<TokenStream>> = model.scenes.iter().map(|scene| loads_argument(model, scene)).collect();
+    let at = arguments(bound, &drives, None);
     let accessors = accessors(model);
-    let reads_loads = |scene: &Scene| scene.loads.iter().any(|load| run_time_loads(model).contains(load));
-    let scenes = model.scenes.iter().map(|scene| {
-        let (name, ty) = (ident(&scene.name.text), ident(&type_name(&scene.name.text)));
-        let loads = if reads_loads(scene) { quote!(, loads: &Loads) } else { TokenStream::new() };
+    let from_pose = names.iter().zip(&types).zip(&given).map(|((name, ty), loads)| {
+        let loads = loads.as_ref().map(|loads| quote!(, #loads));
         quote!(pub fn #name(&self #loads) -> Result<#ty, Error> { loop {} })
     });
-    let direct = model.scenes.iter().map(|scene| {
-        let (name, ty) = (ident(&format!("{}_at", scene.name)), ident(&type_name(&scene.name.text)));
-        let loads = if reads_loads(scene) { quote!(, loads: &Loads) } else { TokenStream::new() };
-        let prepared = if has_params { quote!(linkage: &Linkage,) } else { TokenStream::new() };
-        quote!(pub fn #name(#prepared #(#drives),* #loads) -> Result<#ty, Error> { loop {} })
+    let direct = direct.iter().zip(&types).zip(&given).map(|((name, ty), loads)| {
+        let arguments = arguments(prepared.clone(), &drives, loads.clone());
+        quote!(pub fn #name(#arguments) -> Result<#ty, Error> { loop {} })
     });
+    let loads = loads(model, false);
+    let own = names.iter().map(|name| name.unraw().to_string());
+    let methods = distinct(own.zip(from_pose).chain(accessors));
     quote! {
         #[allow(warnings, clippy::all, clippy::pedantic, reason = "stands in for a declaration that has errors")]
         #visibility mod #name {
@@ -76,12 +51,10 @@ pub fn module(model: &Model) -> TokenStream {
             pub const SOURCE: &str = "";
             #loads
             #params
-            #[derive(Clone, Copy, Debug, PartialEq)]
             #pose
             impl #lifetime Pose #lifetime {
-                pub fn at(#prepared #(#drives),*) -> Result<Self, Error> { loop {} }
-                #accessors
-                #(#scenes)*
+                pub fn at(#at) -> Result<Self, Error> { loop {} }
+                #methods
             }
             #records
             #(#direct)*
@@ -89,15 +62,75 @@ pub fn module(model: &Model) -> TokenStream {
     }
 }
 
-fn accessors(model: &Model) -> TokenStream {
+/// Lets the results of every scene have types of their own, in whatever way its name clashes.
+fn name_types_apart(model: &mut Model) {
+    let mut taken: BTreeSet<String> = OWN_TYPES.iter().map(|name| (*name).to_owned()).collect();
+    taken.insert("Default".into());
+    for scene in &mut model.scenes {
+        if !scene.name.is_usable() {
+            scene.name.text.push('_');
+        }
+        while taken.contains(&type_name(&scene.name.text)) {
+            scene.name.text.push_str("_x");
+        }
+        taken.insert(type_name(&scene.name.text));
+    }
+}
+
+/// The first method of each name.
+fn distinct(named: impl Iterator<Item = (String, TokenStream)>) -> TokenStream {
+    let mut seen = BTreeSet::from(["at".to_owned()]);
+    named.filter(|(name, _)| seen.insert(name.clone())).map(|(_, method)| method).collect()
+}
+
+fn params(model: &Model) -> Option<TokenStream> {
+    let scalar = scalar(model);
+    let fields: Vec<Ident> = model.params.iter().map(|param| ident(&param.name.text)).collect();
+    (!fields.is_empty()).then(|| {
+        quote! {
+            #[derive(Clone, Copy, Debug, Default, PartialEq)]
+            pub struct Params { #(pub #fields: #scalar),* }
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub struct Linkage(());
+            impl Linkage { pub fn new(params: &Params) -> Result<Self, Error> { loop {} } }
+        }
+    })
+}
+
+fn pose(model: &Model) -> TokenStream {
+    let inside = if model.params.is_empty() { quote!((())) } else { quote!(<'l>(&'l Linkage)) };
+    quote! {
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Pose #inside;
+    }
+}
+
+/// The drives as arguments. What they are called is of no matter.
+fn drives(model: &Model) -> Vec<TokenStream> {
+    let scalar = scalar(model);
+    model.drives.iter().map(|_| quote!(_: #scalar)).collect()
+}
+
+fn loads_argument(model: &Model, scene: &Scene) -> Option<TokenStream> {
+    let reads = scene.loads.iter().any(|load| run_time_loads(model).contains(load));
+    reads.then(|| quote!(loads: &Loads))
+}
+
+fn arguments(first: Option<TokenStream>, drives: &[TokenStream], last: Option<TokenStream>) -> TokenStream {
+    let all = first.into_iter().chain(drives.iter().cloned()).chain(last);
+    quote!(#(#all),*)
+}
+
+/// What can be asked of a pose, by its name.
+fn accessors(model: &Model) -> impl Iterator<Item = (String, TokenStream)> {
     let scalar = scalar(model);
     let number = |name: String| {
-        let name = ident(&name);
-        quote!(pub fn #name(&self) -> #scalar { loop {} })
+        let method = ident(&name);
+        (name, quote!(pub fn #method(&self) -> #scalar { loop {} }))
     };
     let vector = |name: String| {
-        let name = ident(&name);
-        quote!(pub fn #name(&self) -> Vector2<#scalar> { loop {} })
+        let method = ident(&name);
+        (name, quote!(pub fn #method(&self) -> Vector2<#scalar> { loop {} }))
     };
     let drives = model.drives.iter().map(|drive| number(drive.name.text.clone()));
     let joints = model
@@ -108,17 +141,33 @@ fn accessors(model: &Model) -> TokenStream {
         let points = link.points.iter().map(|point| point.name.text.as_str()).chain(["direction"]);
         points.map(|point| vector(format!("{}_{point}", link.name))).collect::<Vec<_>>()
     });
-    // A name that was declared twice is made once.
-    let mut made = Vec::new();
-    let mut all = TokenStream::new();
-    for accessor in drives.chain(joints).chain(links) {
-        let text = accessor.to_string();
-        if !made.contains(&text) {
-            made.push(text);
-            all.extend(accessor);
+    drives.chain(joints).chain(links).collect::<Vec<_>>().into_iter()
+}
+
+/// The types of a scene.
+fn records(model: &Model, index: usize, runtime: &TokenStream) -> TokenStream {
+    let scene = &model.scenes[index];
+    let ty = ident(&type_name(&scene.name.text));
+    let scalar = scalar(model);
+    match scene.method {
+        Method::Verify if cfg!(feature = "reference") => {
+            quote!(pub type #ty = #runtime::reference::Verification<#scalar>;)
         }
+        // Without the general solution there is no such type; the scene keeps its name.
+        Method::Verify => quote! {
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub struct #ty {
+                pub superposition: #scalar,
+                pub virtual_work: #scalar,
+                pub general: #scalar,
+                pub condition: #scalar,
+            }
+            impl ::core::fmt::Display for #ty {
+                fn fmt(&self, _: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result { loop {} }
+            }
+        },
+        _ => results(model, index, &shape(model, scene)),
     }
-    all
 }
 
 /// The results of a scene without their values.
@@ -132,8 +181,6 @@ fn shape(model: &Model, scene: &Scene) -> Output {
         Output::Record(fields.collect())
     };
     match scene.method {
-        // Without the general solution there is no such type; the scene keeps its name.
-        Method::Verify => Output::Record(Vec::new()),
         Method::Superposition => parts(&|| record(model, scene, zero)),
         _ => record(model, scene, zero),
     }
@@ -143,14 +190,38 @@ fn field(name: &str, value: Output) -> Field {
     Field { name: name.to_owned(), doc: String::new(), value }
 }
 
-/// One for each link that has mass.
+/// One for each link that has mass; if none has, which is an error by itself, for each that moves.
 fn per_link(model: &Model, one: &dyn Fn() -> Output) -> Output {
-    let massive = model.links.iter().filter(|link| link.mass.is_some());
+    let none = model.links.iter().all(|link| link.mass.is_none());
+    let massive = model.links.iter().skip(1).filter(|link| none || link.mass.is_some());
     Output::Record(massive.map(|link| field(&link.name.text, one())).collect())
 }
 
 fn record(model: &Model, scene: &Scene, zero: NodeId) -> Output {
-    let place = scene.method == Method::Position;
+    let given = scene.results.iter().filter_map(|wanted| Some((name_of(model, *wanted)?, Some(*wanted))));
+    let refused = scene.refused.iter().cloned();
+    let mut seen = BTreeSet::new();
+    let all = given.chain(refused).filter(|(name, _)| seen.insert(name.clone()));
+    Output::Record(all.map(|(name, wanted)| field(&name, value(model, scene, wanted, zero))).collect())
+}
+
+/// The field of a result.
+fn name_of(model: &Model, wanted: Wanted) -> Option<String> {
+    Some(match wanted {
+        Wanted::Unknown(unknown) => model.unknowns.get(unknown.index())?.name.clone(),
+        Wanted::Joint(joint) => model.joints.get(joint.index())?.name.text.clone(),
+        Wanted::Load(load) => model.loads.get(load.index())?.name.text.clone(),
+        Wanted::Point(end) => {
+            let link = model.links.get(end.link.index())?;
+            format!("{}_{}", link.name, link.points.get(end.point.index())?.name)
+        }
+        Wanted::Angle(link) => format!("{}_angle", model.links.get(link.index())?.name),
+    })
+}
+
+/// What a result is like.
+fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> Output {
+    let vector = Output::Vector([zero, zero], Meaning::Place);
     let term = || Output::Term { velocity: zero, work: zero, meaning: Meaning::ForceTerm };
     let terms = || {
         if model.unknowns.len() == 1 {
@@ -158,31 +229,19 @@ fn record(model: &Model, scene: &Scene, zero: NodeId) -> Output {
         }
         Output::Record(model.unknowns.iter().map(|unknown| field(&unknown.name, term())).collect())
     };
-    let fields = scene.results.iter().filter_map(|wanted| {
-        Some(match *wanted {
-            Wanted::Unknown(unknown) => field(&model.unknown(unknown).name, Output::Scalar(zero, Meaning::Number)),
-            Wanted::Joint(joint) => {
-                let joint = model.joint(joint);
-                let slide = matches!(joint.kind, JointKind::Prismatic { .. }) && !place;
-                let vector = Output::Vector([zero, zero], Meaning::Place);
-                let slider = Output::Slider { force: [zero, zero], normal: zero, couple: zero };
-                field(&joint.name.text, if slide { slider } else { vector })
+    match wanted {
+        Some(Wanted::Joint(joint)) => {
+            let slides = model.joints.get(joint.index()).map(|joint| joint.kind);
+            if matches!(slides, Some(JointKind::Prismatic { .. })) && scene.method != Method::Position {
+                return Output::Slider { force: [zero, zero], normal: zero, couple: zero };
             }
-            Wanted::Load(load) => {
-                let load = model.load(load);
-                let value = if let LoadKind::Gravity { .. } = load.kind { per_link(model, &terms) } else { terms() };
-                field(&load.name.text, value)
-            }
-            Wanted::Point(end) => {
-                let link = model.links.get(end.link.index())?;
-                let point = link.points.get(end.point.index())?;
-                field(&format!("{}_{}", link.name, point.name), Output::Vector([zero, zero], Meaning::Place))
-            }
-            Wanted::Angle(link) => {
-                let link = model.links.get(link.index())?;
-                field(&format!("{}_angle", link.name), Output::Scalar(zero, Meaning::Angle))
-            }
-        })
-    });
-    Output::Record(fields.collect())
+            vector
+        }
+        Some(Wanted::Load(load)) => match model.loads.get(load.index()).map(|load| load.kind) {
+            Some(LoadKind::Gravity { .. }) => per_link(model, &terms),
+            _ => terms(),
+        },
+        Some(Wanted::Point(_)) => vector,
+        Some(Wanted::Unknown(_) | Wanted::Angle(_)) | None => Output::Scalar(zero, Meaning::Number),
+    }
 }

@@ -15,6 +15,7 @@ use quote::quote;
 use crate::Linkage;
 use crate::graph::{Op, Symbol};
 use crate::model::Method;
+pub use equations::text as equations;
 pub use fallback::module as fallback;
 use formula::{Formula, Nodes};
 use literals::ident;
@@ -108,7 +109,8 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
 }
 
 /// The operation counts of all functions, a line each.
-fn operations(linkage: &Linkage) -> String {
+#[must_use]
+pub fn operations(linkage: &Linkage) -> String {
     let mut text = format!("{:<28} {}\n", "Pose::at", linkage.functions.pose.counts());
     for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
         text.push_str(&format!("{:<28} {}\n", format!("Pose::{}", scene.name), functions.from_pose.counts()));

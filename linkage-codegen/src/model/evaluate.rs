@@ -2,7 +2,7 @@
 
 use super::Model;
 use super::ids::{LinkId, ParamId, PointId};
-use super::names::{FUNCTIONS, Names, Role};
+use super::names::{Entry, FUNCTIONS, Names, Role};
 use super::units::{Dimension, Kind, unit, unit_names};
 use crate::diagnostics::{Diagnostic, Place, closest};
 use crate::graph::number::Number;
@@ -84,7 +84,7 @@ impl<'m> Scope<'m> {
                 };
                 match (at(from), at(to)) {
                     (Some(from), Some(to)) => self.normalised(to - from, direction.place),
-                    _ => Ok(self.model.graph.zero().direction()),
+                    _ => Ok(self.model.unread().direction()),
                 }
             }
         }
@@ -102,6 +102,9 @@ impl<'m> Scope<'m> {
         let Some(body) = self.model.links.get(link.index()) else { return Ok(None) };
         if let Some(index) = body.points.iter().position(|p| p.name.text == name.text) {
             return Ok(Some(PointId::new(index)));
+        }
+        if body.unread {
+            return Ok(None);
         }
         let problem = format!("the link `{}` has no point `{name}`", body.name);
         Err(Diagnostic::new(name.place(), problem)
@@ -161,18 +164,25 @@ impl<'m> Scope<'m> {
         if name == "pi" {
             return Ok(Quantity { expr: graph.constant(&Number::pi(1, 1)), dimension: Some(Dimension::NUMBER) });
         }
-        if let Some(unit) = unit(name) {
-            let size = self.model.units.size_of(&unit);
-            return Ok(Quantity { expr: graph.constant(&size), dimension: Some(unit.dimension) });
-        }
-        match self.names.role(name) {
-            Some((Role::Param, index)) => {
+        match (self.names.entry(name), unit(name)) {
+            (Some(Entry { role: Role::Param, index, sound: true }), _) => {
                 let param = &self.model.params[index];
                 let expr = graph.symbol(Symbol::Parameter(ParamId::new(index)));
                 Ok(Quantity { expr, dimension: Some(param.kind.dimension()) })
             }
-            Some((Role::Broken, _)) => Ok(Quantity { expr: graph.zero(), dimension: None }),
-            _ => {
+            (_, Some(unit)) => {
+                let size = self.model.units.size_of(&unit);
+                Ok(Quantity { expr: graph.constant(&size), dimension: Some(unit.dimension) })
+            }
+            (Some(Entry { role: Role::Param | Role::Broken, .. }), _) => {
+                Ok(Quantity { expr: self.model.unread(), dimension: None })
+            }
+            (None, _) if self.names.may_be(Role::Param) => Ok(Quantity { expr: self.model.unread(), dimension: None }),
+            (Some(entry), _) => {
+                Err(Diagnostic::new(place, format!("`{name}` is {}, and no value", entry.role.describe()))
+                    .help("a value is a number with its unit, such as `80mm`, or a parameter"))
+            }
+            (None, _) => {
                 let mut known: Vec<&str> = self.names.of(Role::Param).collect();
                 unit_names().for_each(|unit| known.push(unit));
                 known.extend(FUNCTIONS);
@@ -191,7 +201,8 @@ impl<'m> Scope<'m> {
         let (left, right) = (self.quantity(a)?, self.quantity(b)?);
         if let (Some(wanted), Some(found)) = (left.dimension, right.dimension) {
             if wanted != found {
-                return Err(Diagnostic::new(b.place, format!("this is {found}, and it is joined to {wanted}")));
+                let problem = format!("{wanted} and {found} cannot be added or subtracted");
+                return Err(Diagnostic::new(a.place.to(b.place), problem));
             }
         }
         Ok(Quantity { expr: join(left.expr, right.expr), dimension: left.dimension.or(right.dimension) })

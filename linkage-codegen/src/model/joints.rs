@@ -2,30 +2,50 @@
 
 use super::evaluate::Scope;
 use super::ids::{GROUND, LinkId, PointId};
-use super::names::{Names, Role};
+use super::names::{Names, Role, unread};
 use super::units::Kind;
 use super::{End, Joint, JointKind, Model};
-use crate::diagnostics::{Diagnostic, Sink};
+use crate::diagnostics::{Diagnostic, Sink, closest, list};
 use crate::syntax::ast::{self, Ast, Item, Name};
 
 const NOWHERE: End = End { link: GROUND, point: PointId::FIRST };
 
 /// Joints, with both ends on points of two links.
-pub(super) fn joints(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
+pub(super) fn joints(model: &mut Model, ast: &Ast, names: &mut Names, sink: &Sink) {
     for item in &ast.items {
+        if let Some((broken, name)) = unread(item, Role::Joint) {
+            let kind = stand_in(model, broken.is("prismatic"));
+            model.joints.push(Joint { name: name.clone(), from: NOWHERE, to: NOWHERE, kind });
+        }
         let Item::Joint(given) = item else { continue };
         let scope = Scope { model, names };
         let ends = [&given.from, &given.to].map(|e| sink.absorb(end(scope, e, Some(&given.name))).flatten());
         let kind = sink.absorb(kind(scope, given, ends));
+        let kind = kind.unwrap_or_else(|| stand_in(model, given.keyword.text == "prismatic"));
+        if matches!(given.keyword.text.as_str(), "slot" | "weld" | "gear") {
+            names.distrust(&given.name);
+        }
         if let [Some(from), Some(to)] = ends {
             if from.link == to.link {
                 let problem = format!("the joint `{}` joins `{}` to itself", given.name, given.from.link);
-                sink.report(Diagnostic::new(given.from.place().to(given.to.place()), problem));
+                sink.report(
+                    Diagnostic::new(given.from.place().to(given.to.place()), problem)
+                        .help("a joint stands between two links: name the other one"),
+                );
             }
         }
         let [from, to] = ends.map(|end| end.unwrap_or(NOWHERE));
-        model.joints.push(Joint { name: given.name.clone(), from, to, kind: kind.unwrap_or(JointKind::Revolute) });
+        model.joints.push(Joint { name: given.name.clone(), from, to, kind });
     }
+}
+
+/// The kind of a joint of which only this is known.
+fn stand_in(model: &Model, slides: bool) -> JointKind {
+    if !slides {
+        return JointKind::Revolute;
+    }
+    let along = model.graph.zero().direction().into();
+    JointKind::Prismatic { carrier: GROUND, axis: along, turn: along, angle: model.graph.zero().id() }
 }
 
 /// A point on a link; the one of the joint's name, if none is said. `None` if the link could not be read.
@@ -36,22 +56,39 @@ pub(super) fn end(scope: Scope<'_>, end: &ast::End, joint: Option<&Name>) -> Res
         (Some(point), _) => scope.point(link, point)?,
         (None, Some(joint)) => {
             let unspoken = Name { text: joint.text.clone(), span: end.link.span };
-            scope.point(link, &unspoken).map_err(|error| {
-                error.help(format!("add `{joint}` to `{}`, or name another point: `{}.…`", end.link, end.link))
-            })?
+            scope.point(link, &unspoken).map_err(|_| without_point(scope.model, link, end, joint))?
         }
         (None, None) => {
-            let problem = format!("at which point of `{}`?", end.link);
-            return Err(
-                Diagnostic::new(end.link.place(), problem).help(format!("write it behind the link: `{}.P`", end.link))
-            );
+            let points = scope.model.links.get(link.index()).map_or(&[][..], |link| &link.points);
+            let points: Vec<String> = points.iter().map(|point| format!("{}.{}", end.link, point.name)).collect();
+            let points: Vec<&str> = points.iter().map(String::as_str).collect();
+            let help = match points.as_slice() {
+                [] => format!("give the link one, and write it behind the link: `{}.P`", end.link),
+                [one] => format!("write `{one}`"),
+                several => format!("choose from {}", list(several)),
+            };
+            return Err(Diagnostic::new(end.link.place(), format!("at which point of `{}`?", end.link)).help(help));
         }
     };
     Ok(found.map(|point| End { link, point }))
 }
 
+/// A joint's name is no point of its link.
+fn without_point(model: &Model, link: LinkId, end: &ast::End, joint: &Name) -> Diagnostic {
+    let points = model.links.get(link.index()).map_or(&[][..], |link| &link.points);
+    let names = points.iter().map(|point| point.name.text.as_str());
+    let other = closest(&joint.text, names.clone()).or_else(|| names.clone().next());
+    let problem = format!("the link `{}` has no point `{joint}` for the joint `{joint}`", end.link);
+    Diagnostic::new(end.link.place(), problem).help(format!(
+        "give the link that point, or say which other one it is: `{}.{}`",
+        end.link,
+        other.unwrap_or("P")
+    ))
+}
+
 fn kind(scope: Scope<'_>, given: &ast::Joint, ends: [Option<End>; 2]) -> Result<JointKind, Diagnostic> {
-    let planned = |what: &str| Err(Diagnostic::new(given.keyword.place(), format!("{what} are not supported yet")));
+    let place = given.keyword.place().to(given.to.place());
+    let planned = |what: &str| Err(Diagnostic::new(place, format!("{what} are not supported yet")));
     match given.keyword.text.as_str() {
         "slot" => planned("pins in slots"),
         "weld" => planned("welds"),
@@ -62,27 +99,25 @@ fn kind(scope: Scope<'_>, given: &ast::Joint, ends: [Option<End>; 2]) -> Result<
 }
 
 fn prismatic(scope: Scope<'_>, given: &ast::Joint, ends: [Option<End>; 2]) -> Result<JointKind, Diagnostic> {
-    let ([Some(from), Some(to)], Some(along)) = (ends, &given.along) else { return Ok(JointKind::Revolute) };
+    let unread = || stand_in(scope.model, true);
+    let ([Some(from), Some(to)], Some(along)) = (ends, &given.along) else { return Ok(unread()) };
     let links = [from.link, to.link];
     let carrier = match &along.of {
         Some(name) => match scope.names.find(Role::Link, name)?.map(LinkId::new) {
-            None => return Ok(JointKind::Revolute),
+            None => return Ok(unread()),
             Some(link) if links.contains(&link) => link,
             Some(_) => {
-                let problem = format!(
-                    "the line of `{}` turns with one of its own links, and `{name}` is none of them",
-                    given.name
-                );
+                let problem =
+                    format!("the line of `{}` belongs to one of its two links, and `{name}` is neither", given.name);
                 return Err(Diagnostic::new(name.place(), problem)
-                    .help(format!("`of {}` or `of {}`", given.from.link, given.to.link)));
+                    .help(format!("write `of {}` or `of {}`", given.from.link, given.to.link)));
             }
         },
         None if links.contains(&GROUND) => GROUND,
         None => {
-            let problem = format!("with which link does the line of `{}` turn?", given.name);
+            let problem = format!("both links of `{}` move: with which of them does its line turn?", given.name);
             return Err(Diagnostic::new(along.place, problem)
-                .help(format!("say it: `of {}` or `of {}`", given.from.link, given.to.link))
-                .note("the ground, in whose axes a direction is meant by default, is neither of the two"));
+                .help(format!("write `of {}` or `of {}` behind the direction", given.from.link, given.to.link)));
         }
     };
     let axis = scope.direction(along, carrier)?;

@@ -2,37 +2,55 @@
 
 use super::evaluate::Scope;
 use super::ids::{GROUND, LinkId, PointId};
-use super::names::{Names, Role};
+use super::names::{Names, Role, unread};
 use super::units::{Kind, PARAMETER_KINDS};
 use super::{Link, Mass, Model, Param, Point};
-use crate::diagnostics::{Diagnostic, Place, Sink};
+use crate::diagnostics::{Diagnostic, Sink};
 use crate::graph::{Expr, Failure, NodeId, Vector};
-use crate::syntax::ast::{self, Ast, Distances, Item, Name, PointPlace, PointRef};
+use crate::syntax::ast::{self, Ast, Distances, Item, Name, PointPlace, PointRef, ValueKind};
 
 /// Parameters. Their defaults are constants.
-pub(super) fn params(model: &mut Model, ast: &Ast, sink: &Sink) {
+pub(super) fn params(model: &mut Model, ast: &Ast, names: &mut Names, sink: &Sink) {
+    let constants = Names::collect(&Ast { items: Vec::new(), ..ast.clone() }, &Sink::default());
     for item in &ast.items {
-        let Item::Param(param) = item else { continue };
-        let kind = PARAMETER_KINDS.iter().find(|(name, _)| *name == param.dimension.text);
-        if kind.is_none() {
-            let names = PARAMETER_KINDS.iter().map(|(name, _)| *name);
-            let problem = format!("there is no dimension `{}`", param.dimension);
-            sink.report(Diagnostic::new(param.dimension.place(), problem).suggest(&param.dimension.text, names));
+        if let Some((_, name)) = unread(item, Role::Param) {
+            model.params.push(Param { name: name.clone(), kind: Kind::Number, default: None });
         }
-        let kind = kind.map_or(Kind::Number, |(_, kind)| *kind);
-        model.params.push(Param { name: param.name.clone(), kind, default: None });
-    }
-    let names = Names::collect(&Ast { items: Vec::new(), ..ast.clone() }, &Sink::default());
-    let mut defaults = Vec::new();
-    for item in &ast.items {
         let Item::Param(param) = item else { continue };
-        let kind = model.params[defaults.len()].kind;
-        let scope = Scope { model, names: &names };
-        let default = param.default.as_ref().and_then(|value| sink.absorb(scope.scalar(value, kind)));
-        defaults.push(default.map(Expr::id));
+        let name = param.name.clone();
+        let Some((_, kind)) = PARAMETER_KINDS.iter().find(|(name, _)| *name == param.dimension.text) else {
+            let known = PARAMETER_KINDS.iter().map(|(name, _)| *name);
+            let problem = format!("there is no dimension `{}`", param.dimension);
+            sink.report(Diagnostic::new(param.dimension.place(), problem).suggest(&param.dimension.text, known));
+            names.distrust(&name);
+            model.params.push(Param { name, kind: Kind::Number, default: None });
+            continue;
+        };
+        let scope = Scope { model, names: &constants };
+        let default = param.default.as_ref().and_then(|value| {
+            let variable = parameter_in(value, names);
+            sink.absorb(variable.map_or_else(|| scope.scalar(value, *kind), Err))
+        });
+        let default = default.map(Expr::id);
+        model.params.push(Param { name, kind: *kind, default });
     }
-    for (param, default) in model.params.iter_mut().zip(defaults) {
-        param.default = default;
+}
+
+/// A parameter on which a default would depend.
+fn parameter_in(value: &ast::Value, names: &Names) -> Option<Diagnostic> {
+    match &value.kind {
+        ValueKind::Name(name) => {
+            let param = names.entry(name).is_some_and(|entry| entry.role == Role::Param);
+            let found =
+                || Diagnostic::new(value.place, format!("`{name}` is a parameter, and a default is a constant"));
+            param.then(|| found().help("write the number with its unit"))
+        }
+        ValueKind::Number(..) => None,
+        ValueKind::Negative(inner) | ValueKind::Power(inner, _) => parameter_in(inner, names),
+        ValueKind::Sum(a, b) | ValueKind::Difference(a, b) | ValueKind::Product(a, b) | ValueKind::Quotient(a, b) => {
+            parameter_in(a, names).or_else(|| parameter_in(b, names))
+        }
+        ValueKind::Call(_, args) => args.iter().find_map(|arg| parameter_in(arg, names)),
     }
 }
 
@@ -41,29 +59,46 @@ pub(super) fn links(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
     let bodies: Vec<&ast::Link> =
         ast.items.iter().filter_map(|i| if let Item::Link(l) = i { Some(l) } else { None }).collect();
     let grounds: Vec<&&ast::Link> = bodies.iter().filter(|l| l.name.is_none()).collect();
-    if let [_, second, ..] = grounds.as_slice() {
-        sink.report(
-            Diagnostic::new(Place::at(second.keyword), "there is one ground")
-                .help("put all its points into one `ground { … }`"),
-        );
-    }
-    let ground_broken = ast.items.iter().any(|i| matches!(i, Item::Broken(None)));
-    if grounds.is_empty() && !ground_broken {
+    let ground_unread = ast.items.iter().find_map(|item| match item {
+        Item::Broken(broken) if broken.is("ground") => Some(broken),
+        _ => None,
+    });
+    let may_be_ground = ground_unread.is_some() || names.may_be(Role::Broken);
+    if grounds.is_empty() && !may_be_ground {
         sink.report(
             Diagnostic::new(ast.name.place(), "the linkage has no ground")
                 .help("say where its fixed points are: `ground { A0: (0, 0), B0: (140mm, 0) }`"),
         );
     }
     let ground_name = Name { text: "ground".into(), span: grounds.first().map_or(ast.name.span, |g| g.keyword) };
-    model.links.push(Link { name: ground_name, points: Vec::new(), distances: Vec::new(), mass: None });
+    model.links.push(link(ground_name, grounds.is_empty()));
     if let Some(ground) = grounds.first() {
         points(model, GROUND, ground, names, sink);
     }
-    for body in bodies.iter().filter(|l| l.name.is_some()) {
+    for item in &ast.items {
         let id = LinkId::new(model.links.len());
-        let name = body.name.clone().unwrap_or_else(|| ast.name.clone());
-        model.links.push(Link { name, points: Vec::new(), distances: Vec::new(), mass: None });
+        if let Some((broken, name)) = unread(item, Role::Link) {
+            model.links.push(link(name.clone(), true));
+            unread_points(model, id, broken.words());
+        }
+        let Item::Link(body @ ast::Link { name: Some(name), .. }) = item else { continue };
+        model.links.push(link(name.clone(), false));
         points(model, id, body, names, sink);
+    }
+}
+
+fn link(name: Name, unread: bool) -> Link {
+    Link { name, points: Vec::new(), distances: Vec::new(), mass: None, unread }
+}
+
+/// Any of these words may have been meant as a point.
+fn unread_points(model: &mut Model, link: LinkId, words: Vec<Name>) {
+    model.links[link.index()].unread = true;
+    for word in words {
+        if model.link(link).points.iter().all(|point| point.name.text != word.text) {
+            let at = model.unread_vector().into();
+            model.links[link.index()].points.push(Point { name: word, at });
+        }
     }
 }
 
@@ -82,7 +117,7 @@ fn points(model: &mut Model, link: LinkId, body: &ast::Link, names: &Names, sink
                 frame_given = true;
                 let length = sink.absorb(frame_length(model, names, link, (from, to), length));
                 let zero = model.graph.zero().id();
-                let length = length.unwrap_or(zero);
+                let length = length.unwrap_or_else(|| model.unread().known_positive().id());
                 let start = add_point(model, link, from, (zero, zero), sink);
                 let end = add_point(model, link, to, (length, zero), sink);
                 model.links[link.index()].distances.push((start, end, length));
@@ -93,18 +128,22 @@ fn points(model: &mut Model, link: LinkId, body: &ast::Link, names: &Names, sink
             }
             PointPlace::At(name, vector) => {
                 let scope = Scope { model, names };
-                let at = sink.absorb(scope.vector(vector, Kind::Length)).unwrap_or_else(|| model.graph.zero_vector());
+                let at = sink.absorb(scope.vector(vector, Kind::Length));
+                let at = at.unwrap_or_else(|| model.unread_vector());
                 let at = (at.x.id(), at.y.id());
                 let id = add_point(model, link, name, at, sink);
                 polar_distance(model, link, id, vector, names);
             }
             PointPlace::Distances(name, distances) => {
                 let found = sink.absorb(by_distances(model, names, link, name, distances));
-                let zero = model.graph.zero().id();
-                let (at, legs) = found.unwrap_or(((zero, zero), Vec::new()));
+                let (at, legs) = found.unwrap_or_else(|| {
+                    let at = model.unread_vector();
+                    ((at.x.id(), at.y.id()), Vec::new())
+                });
                 let id = add_point(model, link, name, at, sink);
                 model.links[link.index()].distances.extend(legs.into_iter().map(|(to, length)| (to, id, length)));
             }
+            PointPlace::Unread(words) => unread_points(model, link, words.clone()),
         }
     }
 }
@@ -113,14 +152,24 @@ type Ids = (NodeId, NodeId);
 
 fn add_point(model: &mut Model, link: LinkId, name: &Name, at: Ids, sink: &Sink) -> PointId {
     let body = &mut model.links[link.index()];
-    if body.points.iter().any(|p| p.name.text == name.text) {
-        sink.report(Diagnostic::new(name.place(), format!("the link `{}` has a point `{name}` already", body.name)));
+    if body.points.iter().any(|p| p.name.text == name.text) && !body.unread {
+        sink.report(
+            Diagnostic::new(name.place(), format!("the link `{}` has a point `{name}` already", body.name))
+                .help("give this one another name, or leave it out"),
+        );
+    }
+    if !name.is_usable() {
+        let problem = format!("`{name}` cannot be a name: Rust keeps the word for itself");
+        sink.report(Diagnostic::new(name.place(), problem).help("choose another name"));
     }
     if matches!(name.text.as_str(), "angle" | "direction") {
-        sink.report(Diagnostic::new(
-            name.place(),
-            format!("a point cannot be called `{name}`: that is a property of the link"),
-        ));
+        sink.report(
+            Diagnostic::new(
+                name.place(),
+                format!("a point cannot be called `{name}`: `{}.{name}` is the link's own {name}", body.name),
+            )
+            .help("choose another name"),
+        );
     }
     body.points.push(Point { name: name.clone(), at: super::Pair { x: at.0, y: at.1 } });
     PointId::new(body.points.len() - 1)
@@ -177,8 +226,8 @@ fn by_distances(
     let r1 = scope.scalar(&given.from_distance, Kind::Length)?;
     let r2 = scope.scalar(&given.to_distance, Kind::Length)?;
     let (Some(from), Some(to)) = (scope.point(link, &given.from)?, scope.point(link, &given.to)?) else {
-        let zero = model.graph.zero().id();
-        return Ok(((zero, zero), Vec::new()));
+        let at = model.unread_vector();
+        return Ok(((at.x.id(), at.y.id()), Vec::new()));
     };
     let point = |p: PointId| model.link(link).points[p.index()].at.vector(&model.graph);
     let base = point(to) - point(from);
@@ -192,12 +241,15 @@ fn by_distances(
     let body = &model.link(link).name;
     if height_squared.sign() == Some(-1) || r1.sign() == Some(-1) || r2.sign() == Some(-1) {
         let problem = format!("no point is at these distances from `{}` and `{}`", given.from, given.to);
-        return Err(Diagnostic::new(given.place, problem).note(format!(
-            "the three sides of the triangle are {}, {} and {}: none may be longer than the other two together",
-            number(d),
-            number(r1),
-            number(r2)
-        )));
+        let unit = model.units.length.name;
+        return Err(Diagnostic::new(given.place, problem)
+            .note(format!(
+                "the sides of the triangle are {} {unit}, {} {unit} and {} {unit}, and none may be longer than the other two together",
+                number(d),
+                number(r1),
+                number(r2)
+            ))
+            .help(format!("change a distance, or give coordinates: `{name}: (x, y)`")));
     }
     let requirement =
         format!("{body}: the distances of {name} must close the triangle {} {} {name}", given.from, given.to);
@@ -223,11 +275,20 @@ pub(super) fn masses(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         let Some(Some(link)) = sink.absorb(names.find(Role::Link, &given.link)) else { continue };
         let link = LinkId::new(link);
         if link == GROUND {
-            sink.report(Diagnostic::new(given.link.place(), "the ground does not move: its mass plays no part"));
+            sink.report(
+                Diagnostic::new(given.link.place(), "the ground does not move: its mass plays no part")
+                    .help("leave it out"),
+            );
+            continue;
+        }
+        if model.links.len() <= link.index() {
             continue;
         }
         let found = mass(Scope { model, names }, link, given);
-        let Some(Some(added)) = sink.absorb(found) else { continue };
+        let added = sink.absorb(found).flatten().unwrap_or_else(|| {
+            let unread = || model.unread().known_positive().id();
+            Mass { mass: unread(), centroid: model.unread_vector().into(), inertia: unread() }
+        });
         let total = match model.link(link).mass {
             None => added,
             Some(first) => together(model, first, added),

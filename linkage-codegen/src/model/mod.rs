@@ -10,13 +10,14 @@ mod motion;
 mod names;
 mod options;
 mod scenes;
+pub(crate) use scenes::OWN_TYPES;
 pub use scenes::type_name;
 pub mod units;
 
 use proc_macro2::TokenStream;
 
 use crate::diagnostics::{Diagnostic, Place, Sink};
-use crate::graph::{Expr, Graph, NodeId, Scalar, Vector};
+use crate::graph::{Expr, Graph, NodeId, Scalar, Symbol, Vector};
 use crate::syntax::ast::{Ast, Name};
 use ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
 use units::{Kind, Units};
@@ -101,6 +102,8 @@ pub struct Link {
     pub distances: Vec<(PointId, PointId, NodeId)>,
     /// Its masses taken together.
     pub mass: Option<Mass>,
+    /// Whether some of its points could not be read. Never in a sound declaration.
+    pub unread: bool,
 }
 
 /// A point of a link.
@@ -243,6 +246,10 @@ pub struct Closure {
     pub smooth_at: Option<NodeId>,
     /// Where it was declared.
     pub place: Place,
+    /// Where its side is said.
+    pub side_place: Place,
+    /// Where its motion is said to be smooth.
+    pub smooth_place: Place,
 }
 
 /// A side.
@@ -330,6 +337,8 @@ pub struct Scene {
     pub loads: Vec<LoadId>,
     /// For which results.
     pub results: Vec<Wanted>,
+    /// Results that were asked for in vain, and what they are like. None in a sound declaration.
+    pub refused: Vec<(String, Option<Wanted>)>,
 }
 
 /// How a scene is solved.
@@ -379,6 +388,17 @@ impl Model {
     #[must_use]
     pub fn load(&self, id: LoadId) -> &Load {
         &self.loads[id.index()]
+    }
+
+    /// Stands for a value that could not be read: of no known size, sign or place.
+    fn unread(&self) -> Expr<'_> {
+        // Another one each time, so that no two of them cancel.
+        self.graph.symbol(Symbol::Dimension(u32::try_from(self.graph.len()).unwrap_or(u32::MAX)))
+    }
+
+    /// Stands for a vector that could not be read.
+    fn unread_vector(&self) -> Vector<'_> {
+        Vector::new(self.unread(), self.unread())
     }
 
     /// A drive.
@@ -452,7 +472,8 @@ impl Model {
 
 /// Resolves a declaration. What is wrong is reported; the model is whole only if nothing was.
 pub fn resolve(ast: &Ast, sink: &Sink) -> Model {
-    let names = names::Names::collect(ast, sink);
+    let ast = &names::distinct(ast, sink);
+    let mut names = names::Names::collect(ast, sink);
     let options = options::options(ast, sink);
     let mut model = Model {
         name: ast.name.clone(),
@@ -471,15 +492,14 @@ pub fn resolve(ast: &Ast, sink: &Sink) -> Model {
         loads: Vec::new(),
         scenes: Vec::new(),
     };
-    links::params(&mut model, ast, sink);
+    links::params(&mut model, ast, &mut names, sink);
     links::links(&mut model, ast, &names, sink);
     links::masses(&mut model, ast, &names, sink);
-    joints::joints(&mut model, ast, &names, sink);
+    joints::joints(&mut model, ast, &mut names, sink);
     motion::drives(&mut model, ast, &names, sink);
     motion::unknowns(&mut model, ast, &names, sink);
     motion::closures(&mut model, ast, &names, sink);
     loads::loads(&mut model, ast, &names, sink);
-    loads::broken(&mut model, ast);
     scenes::scenes(&mut model, ast, &names, sink);
     if sink.is_clean() {
         check_connected(&model, sink);
@@ -492,14 +512,18 @@ fn check_connected(model: &Model, sink: &Sink) {
     for id in model.moving_links() {
         if model.joints.iter().all(|j| j.end_on(id).is_none()) {
             let name = &model.link(id).name;
-            sink.report(
-                Diagnostic::new(name.place(), format!("no joint connects the link `{name}`"))
-                    .help(format!("join it: `revolute A: ground -> {name};`")),
-            );
+            let found = Diagnostic::new(name.place(), format!("no joint holds the link `{name}`"));
+            let point = model.link(id).points.first().map_or("P", |point| point.name.text.as_str());
+            sink.report(found.help(format!(
+                "join it to another link, as in `revolute {point}: ground -> {name};` with a point `{point}` on both, or leave it out"
+            )));
         }
     }
     if model.links.len() <= GROUND.index() + 1 {
-        sink.report(Diagnostic::new(model.name.place(), "a linkage needs a link besides the ground"));
+        sink.report(
+            Diagnostic::new(model.name.place(), "a linkage needs a link besides the ground")
+                .help("declare one: `link crank { A0 -> A: 80mm }`"),
+        );
     }
 }
 

@@ -3,15 +3,18 @@
 use super::evaluate::Scope;
 use super::ids::{DriveId, GROUND, JointId, LinkId};
 use super::joints::end;
-use super::names::{Names, Role};
+use super::names::{Names, Role, unread};
 use super::units::Kind;
 use super::{Closure, Drive, JointKind, Model, Side, Unknown, UnknownKind};
-use crate::diagnostics::{Diagnostic, Place, Sink};
+use crate::diagnostics::{Diagnostic, Sink};
 use crate::syntax::ast::{self, Ast, Effort, Item, Name};
 
 /// Drives: each at a joint of its own.
 pub(super) fn drives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
     for item in &ast.items {
+        if let Some((_, name)) = unread(item, Role::Drive) {
+            model.drives.push(Drive { name: name.clone(), joint: JointId::new(model.joints.len()) });
+        }
         let Item::Drive(given) = item else { continue };
         let joint = sink.absorb(names.find(Role::Joint, &given.joint)).flatten().map(JointId::new);
         if let Some(joint) = joint {
@@ -23,7 +26,9 @@ pub(super) fn drives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
                     .help("leave it out: statics needs no rates"),
             );
         }
-        model.drives.push(Drive { name: given.name.clone(), joint: joint.unwrap_or(JointId::new(0)) });
+        // No joint, if none could be found: no other drive is on the same one.
+        let joint = joint.unwrap_or(JointId::new(model.joints.len()));
+        model.drives.push(Drive { name: given.name.clone(), joint });
     }
 }
 
@@ -33,7 +38,8 @@ fn check_drive(model: &Model, given: &ast::Drive, joint: JointId, sink: &Sink) {
         let problem = format!("the joint `{}` is driven by `{}` already", target.name, first.name);
         sink.report(
             Diagnostic::new(given.joint.place(), problem)
-                .note("both drives would say the same coordinate: one is too many, and another freedom stays loose"),
+                .note("both drives would give the same coordinate")
+                .help("drive another joint, or leave one of them out"),
         );
     }
     let Some(coordinate) = &given.coordinate else { return };
@@ -42,8 +48,10 @@ fn check_drive(model: &Model, given: &ast::Drive, joint: JointId, sink: &Sink) {
         JointKind::Prismatic { .. } => ("prismatic", "travel"),
     };
     if coordinate.text != has {
-        let problem = format!("the coordinate of the {kind} joint `{}` is its {has}, not `{coordinate}`", target.name);
-        sink.report(Diagnostic::new(coordinate.place(), problem).help(format!("write `{}`", given.joint)));
+        let problem = format!("the {kind} joint `{}` has an {has}, and no {coordinate}", target.name);
+        let problem = if has == "travel" { problem.replace(" an ", " a ") } else { problem };
+        let place = given.joint.place().to(coordinate.place());
+        sink.report(Diagnostic::new(place, problem).help(format!("write `drive {}: {};`", given.name, given.joint)));
     }
 }
 
@@ -51,12 +59,17 @@ fn check_drive(model: &Model, given: &ast::Drive, joint: JointId, sink: &Sink) {
 pub(super) fn unknowns(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
     let given: Vec<&ast::Unknown> =
         ast.items.iter().filter_map(|i| if let Item::Unknown(u) = i { Some(u) } else { None }).collect();
-    let broken = ast.items.iter().any(|i| matches!(i, Item::Broken(_)));
-    if given.is_empty() {
+    let lost: Vec<&Name> = ast.items.iter().filter_map(|i| Some(unread(i, Role::Unknown)?.1)).collect();
+    let nowhere = UnknownKind::Torque(GROUND, GROUND);
+    for name in &lost {
+        model.unknowns.push(Unknown { name: name.text.clone(), place: name.place(), kind: nowhere });
+    }
+    let lost = !lost.is_empty() || names.may_be(Role::Unknown);
+    if given.is_empty() && !lost {
         for (index, drive) in model.drives.iter().enumerate() {
             let kind = UnknownKind::Drive(DriveId::new(index));
             let name = format!("effort_{}", drive.name);
-            if names.role(&name).is_some() && !broken {
+            if names.entry(&name).is_some_and(|entry| entry.sound) {
                 let problem =
                     format!("the effort at the drive `{}` is called `{name}`, and that name is taken", drive.name);
                 sink.report(Diagnostic::new(drive.name.place(), problem).help(format!(
@@ -70,16 +83,33 @@ pub(super) fn unknowns(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink)
     }
     for unknown in &given {
         let kind = sink.absorb(effort(Scope { model, names }, unknown));
-        let kind = kind.unwrap_or(UnknownKind::Torque(GROUND, GROUND));
-        model.unknowns.push(Unknown { name: unknown.name.text.clone(), place: unknown.name.place(), kind });
+        let kind = kind.unwrap_or(nowhere);
+        model.unknowns.push(Unknown { name: unknown.name.text.clone(), place: unknown.place, kind });
     }
     let (found, wanted) = (given.len(), model.drives.len());
-    if found != wanted && !broken {
-        let last = given.last().map_or(ast.name.place(), |u| u.name.place());
-        let problem = format!("{} for {}: there must be as many", count(found, "unknown"), count(wanted, "drive"));
-        sink.report(Diagnostic::new(last, problem).note(
-            "every drive fixes one freedom, and one effort, wherever it acts, must hold the linkage against its loads in that freedom",
-        ));
+    let unsure =
+        lost || names.may_be(Role::Drive) || model.drives.iter().any(|d| d.joint.index() >= model.joints.len());
+    // Without any drive, that is the error; the mobility tells it.
+    if found != wanted && wanted > 0 && !unsure {
+        let last = given.last().map_or(ast.name.place(), |u| u.place);
+        let problem = format!(
+            "{} hold{} as many freedoms, and the drives leave {wanted} to hold",
+            count(found, "unknown"),
+            if found == 1 { "s" } else { "" }
+        );
+        let help = if found > wanted {
+            format!("take {} out, or drive as many joints more", count(found - wanted, "unknown"))
+        } else {
+            format!(
+                "declare {} more, or none: then the effort at each drive is unknown",
+                count(wanted - found, "unknown")
+            )
+        };
+        sink.report(
+            Diagnostic::new(last, problem)
+                .note("each drive fixes one freedom, in which one effort, wherever it acts, holds the linkage against its loads")
+                .help(help),
+        );
     }
 }
 
@@ -117,10 +147,13 @@ fn effort(scope: Scope<'_>, unknown: &ast::Unknown) -> Result<UnknownKind, Diagn
             let along = scope.direction(direction, frame)?;
             Ok(UnknownKind::Force { at: at_end, along: along.into(), frame })
         }
-        Effort::Thrust(place) => {
-            Err(Diagnostic::new(*place, "an unknown thrust between two points is not supported yet")
-                .help("a force along a line at one point, or a torque between two links, is"))
-        }
+        Effort::Thrust(place) => Err(Diagnostic::new(
+            *place,
+            "an unknown thrust between two points is not supported yet",
+        )
+        .help(
+            "write a force at one of the points, as in `force(piston.B) along 180deg`, or a torque between two links",
+        )),
     }
 }
 
@@ -131,8 +164,8 @@ pub(super) fn closures(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink)
         let found = closure(Scope { model, names }, given);
         let Some(Some(closure)) = sink.absorb(found) else { continue };
         if model.closures.iter().any(|c| c.joint == closure.joint) {
-            let problem = format!("the closure at `{}` is chosen already", given.joint);
-            sink.report(Diagnostic::new(closure.place, problem));
+            let problem = format!("the side of `{}` is chosen already", given.joint);
+            sink.report(Diagnostic::new(closure.place, problem).help("keep one of the two"));
         }
         model.closures.push(closure);
     }
@@ -153,17 +186,17 @@ fn closure(scope: Scope<'_>, given: &ast::Assemble) -> Result<Option<Closure>, D
             .help("choose it here: `left(A -> B0)`, `right(A -> B0)`, or with a slider `ahead(A)`, `behind(A)`"));
         }
         other => {
-            let problem = format!("`{other}` is no side");
+            let problem = format!("there is no side `{other}`");
             return Err(
                 Diagnostic::new(given.side.place(), problem).suggest(other, ["left", "right", "ahead", "behind"])
             );
         }
     };
     if given.joints.len() != wanted {
-        let how =
-            if wanted == 2 { "of a line between two joints: `left(A -> B0)`" } else { "of one joint: `ahead(A)`" };
-        let place = given.joints.iter().fold(given.side.place(), |place, name| place.to(name.place()));
-        return Err(Diagnostic::new(place, format!("`{}` is meant {how}", given.side)));
+        let side = &given.side;
+        let (of, example) = if wanted == 2 { ("the line between two joints", "A -> B0") } else { ("one joint", "A") };
+        return Err(Diagnostic::new(given.chosen, format!("`{side}` is a side of {of}"))
+            .help(format!("as in `{side}({example})`")));
     }
     let Some(inner) = joint(&given.joint)? else { return Ok(None) };
     let mut of = Vec::new();
@@ -174,9 +207,10 @@ fn closure(scope: Scope<'_>, given: &ast::Assemble) -> Result<Option<Closure>, D
         }
     }
     let smooth_at = match &given.smooth {
-        Some(value) => Some(scope.scalar(value, Kind::Angle)?.id()),
+        Some(smooth) => Some(scope.scalar(&smooth.at, Kind::Angle)?.id()),
         None => None,
     };
-    let place = Place::at(given.keyword).to(given.joint.place());
-    Ok(Some(Closure { joint: inner, side, of, smooth_at, place }))
+    let smooth_place = given.smooth.as_ref().map_or(given.place, |smooth| smooth.place);
+    let (place, side_place) = (given.place, given.chosen);
+    Ok(Some(Closure { joint: inner, side, of, smooth_at, place, side_place, smooth_place }))
 }

@@ -1,10 +1,10 @@
 //! Which names are declared, and as what.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::diagnostics::{Diagnostic, Sink};
+use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 use crate::model::units::unit_names;
-use crate::syntax::ast::{Ast, Item, Name};
+use crate::syntax::ast::{self, Ast, Broken, Item, Name};
 
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,12 +16,12 @@ pub(super) enum Role {
     Unknown,
     Load,
     Scene,
-    /// Its item could not be read: it may stand for anything.
+    /// Not even its item's kind could be read: it may stand for anything.
     Broken,
 }
 
 impl Role {
-    fn describe(self) -> &'static str {
+    pub(super) fn describe(self) -> &'static str {
         match self {
             Self::Param => "a parameter",
             Self::Link => "a link",
@@ -39,14 +39,98 @@ impl Role {
     }
 }
 
-struct Entry {
-    role: Role,
-    index: usize,
+/// What a name stands for, and its place in the list of that role.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    pub(super) role: Role,
+    pub(super) index: usize,
+    /// Its item was read and accepted; of another one, nothing but the name is sure.
+    pub(super) sound: bool,
 }
 
 /// The names of all items.
 pub(super) struct Names {
     entries: BTreeMap<String, Entry>,
+    /// Roles of items whose names could not be read: any unknown name may be theirs.
+    nameless: Vec<Role>,
+}
+
+/// What an item would declare, and under which name if that could be read.
+fn declared(item: &Item) -> Option<(Role, Option<&Name>)> {
+    Some(match item {
+        Item::Param(param) => (Role::Param, Some(&param.name)),
+        Item::Link(link) => (Role::Link, Some(link.name.as_ref()?)),
+        Item::Joint(joint) => (Role::Joint, Some(&joint.name)),
+        Item::Drive(drive) => (Role::Drive, Some(&drive.name)),
+        Item::Unknown(unknown) => (Role::Unknown, Some(&unknown.name)),
+        Item::Load(load) => (Role::Load, Some(&load.name)),
+        Item::Scene(scene) => (Role::Scene, Some(&scene.name)),
+        Item::Broken(broken) => (role_of(broken)?, broken.name.as_ref()),
+        _ => return None,
+    })
+}
+
+/// What an item that could not be read would declare.
+pub(super) fn role_of(broken: &Broken) -> Option<Role> {
+    let Some(keyword) = &broken.keyword else { return Some(Role::Broken) };
+    Some(match keyword.text.as_str() {
+        "param" => Role::Param,
+        "link" => Role::Link,
+        "revolute" | "prismatic" | "slot" | "weld" | "gear" => Role::Joint,
+        "drive" => Role::Drive,
+        "unknown" => Role::Unknown,
+        "load" => Role::Load,
+        "scene" => Role::Scene,
+        "units" | "scalar" | "arithmetic" | "crate" | "emit" | "ground" | "mass" | "assemble" | "start" => return None,
+        _ => Role::Broken,
+    })
+}
+
+/// The name of an item of this role that could not be read.
+pub(super) fn unread(item: &Item, role: Role) -> Option<(&Broken, &Name)> {
+    match item {
+        Item::Broken(broken) if role_of(broken) == Some(role) => Some((broken, broken.name.as_ref()?)),
+        _ => None,
+    }
+}
+
+/// The declaration with one item for each role and name, and one ground: what is there twice is reported and left out.
+pub(super) fn distinct(ast: &Ast, sink: &Sink) -> Ast {
+    let mut seen: BTreeSet<(usize, String)> = BTreeSet::new();
+    let mut items: Vec<Item> = Vec::new();
+    for item in &ast.items {
+        if let Some((role, Some(name))) = declared(item) {
+            let first = seen.insert((role as usize, name.text.clone()));
+            if !first {
+                if !matches!(item, Item::Broken(_)) {
+                    sink.report(taken(name, Entry { role, index: 0, sound: true }));
+                }
+                continue;
+            }
+        }
+        if let Item::Link(second @ ast::Link { name: None, .. }) = item {
+            let first = items.iter_mut().find_map(|item| match item {
+                Item::Link(link @ ast::Link { name: None, .. }) => Some(link),
+                _ => None,
+            });
+            if let Some(first) = first {
+                sink.report(
+                    Diagnostic::new(Place::at(second.keyword), "there is one ground")
+                        .help("put all its points into one `ground { … }`"),
+                );
+                first.places.extend(second.places.clone());
+                continue;
+            }
+        }
+        items.push(item.clone());
+    }
+    Ast { items, ..ast.clone() }
+}
+
+fn taken(name: &Name, by: Entry) -> Diagnostic {
+    let problem = format!("the name `{name}` is taken: it is {} already", by.role.describe());
+    Diagnostic::new(name.place(), problem)
+        .help("parameters, links, joints, drives, unknowns, loads and scenes share their names: choose another one")
 }
 
 /// Names of functions in expressions.
@@ -55,33 +139,28 @@ pub(super) const FUNCTIONS: [&str; 8] = ["sqrt", "sin", "cos", "tan", "asin", "a
 impl Names {
     /// Every name with its role and its place in the list of that role. The ground is the first link.
     pub(super) fn collect(ast: &Ast, sink: &Sink) -> Self {
-        let mut names = Self { entries: BTreeMap::new() };
+        let mut names = Self { entries: BTreeMap::new(), nameless: Vec::new() };
         let mut counts: [usize; 8] = [0; 8];
         counts[Role::Link as usize] = 1;
-        names.entries.insert("ground".into(), Entry { role: Role::Link, index: 0 });
+        names.entries.insert("ground".into(), Entry { role: Role::Link, index: 0, sound: true });
         for item in &ast.items {
-            let (role, name) = match item {
-                Item::Param(p) => (Role::Param, &p.name),
-                Item::Link(l) => match &l.name {
-                    Some(name) => (Role::Link, name),
-                    None => continue,
-                },
-                Item::Joint(j) => (Role::Joint, &j.name),
-                Item::Drive(d) => (Role::Drive, &d.name),
-                Item::Unknown(u) => (Role::Unknown, &u.name),
-                Item::Load(l) => (Role::Load, &l.name),
-                Item::Scene(s) => (Role::Scene, &s.name),
-                Item::Broken(Some(broken)) => (Role::Broken, &broken.name),
-                _ => continue,
+            let Some((role, name)) = declared(item) else { continue };
+            let Some(name) = name else {
+                names.nameless.push(role);
+                continue;
             };
             let index = counts[role as usize];
             counts[role as usize] += 1;
-            names.declare(name, Entry { role, index }, sink);
+            names.declare(name, Entry { role, index, sound: !matches!(item, Item::Broken(_)) }, sink);
         }
         names
     }
 
     fn declare(&mut self, name: &Name, entry: Entry, sink: &Sink) {
+        if !name.is_usable() {
+            let problem = format!("`{name}` cannot be a name: Rust keeps the word for itself");
+            sink.report(Diagnostic::new(name.place(), problem).help("choose another name"));
+        }
         if entry.role == Role::Param
             && (name.text == "pi" || FUNCTIONS.contains(&name.text.as_str()) || unit_names().any(|u| u == name.text))
         {
@@ -91,16 +170,11 @@ impl Names {
             );
         }
         match self.entries.get(&name.text) {
-            Some(first) if name.text == "ground" => {
-                debug_assert!(first.role == Role::Link);
-                sink.report(
-                    Diagnostic::new(name.place(), "`ground` is the fixed link, declared as `ground { … }`"),
-                );
-            }
-            Some(first) if first.role != Role::Broken && entry.role != Role::Broken => sink.report(
-                Diagnostic::new(name.place(), format!("the name `{name}` is taken: it is {} already", first.role.describe()))
-                    .help("parameters, links, joints, drives, unknowns, loads and scenes share their names: choose another one"),
+            Some(_) if name.text == "ground" => sink.report(
+                Diagnostic::new(name.place(), "`ground` is the fixed link, and no name for another item")
+                    .help("its points are declared by `ground { A0: (0, 0) }`"),
             ),
+            Some(first) if first.sound && entry.sound => sink.report(taken(name, *first)),
             Some(_) => {}
             None => {
                 self.entries.insert(name.text.clone(), entry);
@@ -111,8 +185,9 @@ impl Names {
     /// The place of a name in the list of its role; `None` if its item could not be read.
     pub(super) fn find(&self, role: Role, name: &Name) -> Result<Option<usize>, Diagnostic> {
         match self.entries.get(&name.text) {
-            Some(entry) if entry.role == Role::Broken => Ok(None),
+            Some(entry) if entry.role == Role::Broken || entry.role == role && !entry.sound => Ok(None),
             Some(entry) if entry.role == role => Ok(Some(entry.index)),
+            None if self.nameless.iter().any(|other| *other == role || *other == Role::Broken) => Ok(None),
             Some(entry) => Err(Diagnostic::new(
                 name.place(),
                 format!("`{name}` is {}, and {} is needed here", entry.role.describe(), role.describe()),
@@ -124,8 +199,25 @@ impl Names {
     }
 
     /// What a name stands for.
-    pub(super) fn role(&self, name: &str) -> Option<(Role, usize)> {
-        self.entries.get(name).map(|entry| (entry.role, entry.index))
+    pub(super) fn entry(&self, name: &str) -> Option<Entry> {
+        self.entries.get(name).copied()
+    }
+
+    /// Whether an unknown name may be that of an item of this role whose name could not be read.
+    pub(super) fn may_be(&self, role: Role) -> bool {
+        self.nameless.contains(&role) || self.nameless.contains(&Role::Broken)
+    }
+
+    /// From now on nothing but the name of this item is sure: what refers to it is not held against it.
+    pub(super) fn distrust(&mut self, name: &Name) {
+        if let Some(entry) = self.entries.get_mut(&name.text) {
+            entry.sound = false;
+        }
+    }
+
+    /// The item of this role that was probably meant by a name.
+    pub(super) fn near(&self, role: Role, name: &str) -> Option<usize> {
+        closest(name, self.of(role)).and_then(|near| self.entry(near)).map(|entry| entry.index)
     }
 
     /// All names of a role.

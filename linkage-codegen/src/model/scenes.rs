@@ -3,46 +3,64 @@
 use std::collections::BTreeMap;
 
 use super::ids::{JointId, LinkId, LoadId, PointId, UnknownId};
-use super::names::{Names, Role};
+use super::names::{Names, Role, unread};
 use super::{End, LoadKind, Method, Model, Scene, Wanted};
-use crate::diagnostics::{Diagnostic, Sink};
+use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
 use crate::syntax::{METHODS, PLANNED_METHODS};
 
 /// Scenes with their loads and results.
 pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
-    let broken = ast.items.iter().any(|i| matches!(i, Item::Broken(_)));
+    let unloaded = model.loads.is_empty() && !names.may_be(Role::Load);
+    let mut told = false;
     for item in &ast.items {
+        if let Some((broken, name)) = unread(item, Role::Scene) {
+            model.scenes.push(stand_in(model, broken, name));
+        }
         let Item::Scene(given) = item else { continue };
         // A scene that is refused still brings its names.
-        let method = sink.absorb(method(given)).unwrap_or(Method::Equilibrium);
-        let scene = Scene {
-            name: given.name.clone(),
-            method,
-            loads: loads(model, given, method, names, sink),
-            results: results(model, given, method, names, sink),
-        };
-        if model.loads.is_empty() && method != Method::Position && !broken {
+        let method = sink.absorb(method(given)).unwrap_or_else(|| likely_method(&given.method.text));
+        let (results, refused) = results(model, given, method, names, sink);
+        let loads = loads(model, given, method, names, sink);
+        if unloaded && method != Method::Position && !told {
+            told = true;
             sink.report(
-                Diagnostic::new(given.method.place(), "there is no load to balance")
-                    .help("declare one: `load F: force(coupler.C);`"),
+                Diagnostic::new(given.name.place().to(given.method.place()), "there is no load to balance")
+                    .help("declare one, as in `load F: force(coupler.C);`; only `position` scenes need none"),
             );
         }
-        model.scenes.push(scene);
-    }
-    for item in &ast.items {
-        let Item::Broken(Some(broken)) = item else { continue };
-        if broken.keyword.text == "scene" {
-            let given =
-                ast::Scene { name: broken.name.clone(), method: broken.name.clone(), loads: None, results: None };
-            let results = all_results(model, &given, Method::Equilibrium, names);
-            let loads = (0..model.loads.len()).map(LoadId::new).collect();
-            model.scenes.push(Scene { name: given.name, method: Method::Equilibrium, loads, results });
-        }
+        model.scenes.push(Scene { name: given.name.clone(), method, loads, results, refused });
     }
     if sink.is_clean() {
         check_generated_names(model, sink);
     }
+}
+
+/// The method that a refused one is most like.
+fn likely_method(word: &str) -> Method {
+    match word {
+        "velocity" | "acceleration" | "inverse" | "position" => Method::Position,
+        "verify" => Method::Verify,
+        _ => Method::Equilibrium,
+    }
+}
+
+/// A scene that could not be read: its method if that is among its words, and all results, whatever gives them.
+fn stand_in(model: &Model, broken: &ast::Broken, name: &Name) -> Scene {
+    let words = broken.words();
+    let method = words.first().map_or(Method::Equilibrium, |word| match word.text.as_str() {
+        "superposition" => Method::Superposition,
+        "virtual_work" => Method::VirtualWork,
+        other => likely_method(other),
+    });
+    let all = if method == Method::Position { 0 } else { model.loads.len() };
+    let named: Vec<LoadId> = (0..all)
+        .map(LoadId::new)
+        .filter(|load| words.iter().any(|word| word.text == model.load(*load).name.text))
+        .collect();
+    let loads = if named.is_empty() { (0..all).map(LoadId::new).collect() } else { named };
+    let results = all_results(model, method, &loads);
+    Scene { name: name.clone(), method, loads, results, refused: Vec::new() }
 }
 
 fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
@@ -57,7 +75,8 @@ fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
                 .help("in Cargo.toml: linkage-runtime = { …, features = [\"reference\"] }"))
         }
         word if PLANNED_METHODS.contains(&word) => {
-            Err(Diagnostic::new(given.method.place(), format!("the method `{word}` is not supported yet")))
+            Err(Diagnostic::new(given.method.place(), format!("the method `{word}` is not supported yet"))
+                .help(format!("supported are {}", list(&METHODS))))
         }
         word => {
             Err(Diagnostic::new(given.method.place(), format!("there is no method `{word}`")).suggest(word, METHODS))
@@ -79,12 +98,18 @@ fn loads(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink:
     }
     let mut loads = Vec::new();
     for name in listed {
-        let Some(Some(load)) = sink.absorb(names.find(Role::Load, name)) else { continue };
+        let found = sink.absorb(names.find(Role::Load, name));
+        // One that is refused is given at run time or not, as the one that was probably meant.
+        let known = names.entry(&name.text).filter(|entry| entry.role == Role::Load).map(|entry| entry.index);
+        let Some(load) = found.flatten().or(known).or_else(|| names.near(Role::Load, &name.text)) else { continue };
         let load = LoadId::new(load);
-        if loads.contains(&load) {
-            sink.report(Diagnostic::new(name.place(), format!("the load `{name}` is listed twice")));
-        } else {
+        if !loads.contains(&load) {
             loads.push(load);
+        } else if found.is_some() {
+            sink.report(
+                Diagnostic::new(name.place(), format!("the load `{name}` is listed twice"))
+                    .help("leave one of them out"),
+            );
         }
     }
     if listed.is_empty() {
@@ -96,21 +121,34 @@ fn loads(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink:
     loads
 }
 
-fn results(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink: &Sink) -> Vec<Wanted> {
-    let Some(listed) = &given.results else { return all_results(model, given, method, names) };
+type Refused = Vec<(String, Option<Wanted>)>;
+
+/// The results of a scene, and those that it names in vain.
+fn results(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink: &Sink) -> (Vec<Wanted>, Refused) {
+    let Some(listed) = &given.results else {
+        let loads = loads(model, given, method, names, &Sink::default());
+        return (all_results(model, method, &loads), Vec::new());
+    };
     if method == Method::Verify {
         let place = given.method.place();
-        sink.report(Diagnostic::new(place, "`verify` compares all results").help("leave the list of results out"));
-        return Vec::new();
+        if cfg!(feature = "reference") {
+            sink.report(Diagnostic::new(place, "`verify` compares all results").help("leave the list of results out"));
+        }
+        return (Vec::new(), Vec::new());
     }
-    let mut results: Vec<Wanted> = Vec::new();
+    let (mut results, mut refused): (Vec<Wanted>, Refused) = (Vec::new(), Vec::new());
     for item in listed {
-        let Some(Some(wanted)) = sink.absorb(result(model, given, method, item, names)) else { continue };
-        if results.contains(&wanted) {
-            let (ResultItem::Name(name) | ResultItem::Point(name, _)) = item else { continue };
-            sink.report(Diagnostic::new(name.place(), "this result is listed twice"));
-        } else {
-            results.push(wanted);
+        match result(model, given, method, item, names) {
+            Ok(Some(wanted)) if results.contains(&wanted) => {
+                let place = end_of(item).place();
+                sink.report(Diagnostic::new(place, "this result is listed twice").help("leave one of them out"));
+            }
+            Ok(Some(wanted)) => results.push(wanted),
+            Ok(None) => refused.push(likely(model, names, item)),
+            Err(error) => {
+                sink.report(error);
+                refused.push(likely(model, names, item));
+            }
         }
     }
     if listed.is_empty() {
@@ -119,11 +157,44 @@ fn results(model: &Model, given: &ast::Scene, method: Method, names: &Names, sin
                 .help("list its results, or leave the list out to have them all"),
         );
     }
-    results
+    (results, refused)
+}
+
+/// What a result is about.
+fn end_of(item: &ResultItem) -> ast::End {
+    match item {
+        ResultItem::Name(name) => ast::End { link: name.clone(), point: None },
+        ResultItem::Point(link, point) => ast::End { link: link.clone(), point: Some(point.clone()) },
+        ResultItem::Planned { of, .. } => of.clone(),
+    }
+}
+
+/// The field of a refused result, and what it is like.
+fn likely(model: &Model, names: &Names, item: &ResultItem) -> (String, Option<Wanted>) {
+    let ast::End { link, point } = end_of(item);
+    if let Some(point) = point {
+        let id = LinkId::new(names.near(Role::Link, &link.text).unwrap_or(0));
+        let at = Wanted::Point(End { link: id, point: PointId::FIRST });
+        return (format!("{link}_{point}"), Some(if point.text == "angle" { Wanted::Angle(id) } else { at }));
+    }
+    let of = |name: &str| {
+        let unknown = model.unknowns.iter().position(|unknown| unknown.name == name);
+        let entry = names.entry(name);
+        match (unknown, entry.map(|entry| (entry.role, entry.index))) {
+            (Some(unknown), _) => Some(Wanted::Unknown(UnknownId::new(unknown))),
+            (_, Some((Role::Joint, joint))) => Some(Wanted::Joint(JointId::new(joint))),
+            (_, Some((Role::Load, load))) => Some(Wanted::Load(LoadId::new(load))),
+            _ => None,
+        }
+    };
+    let known = model.unknowns.iter().map(|unknown| unknown.name.as_str());
+    let known = known.chain(names.of(Role::Joint)).chain(names.of(Role::Load));
+    let like = of(&link.text).or_else(|| closest(&link.text, known).and_then(of));
+    (link.text, like)
 }
 
 /// All that a method gives.
-fn all_results(model: &Model, given: &ast::Scene, method: Method, names: &Names) -> Vec<Wanted> {
+fn all_results(model: &Model, method: Method, loads: &[LoadId]) -> Vec<Wanted> {
     let joints = (0..model.joints.len()).map(|j| Wanted::Joint(JointId::new(j)));
     let unknowns = (0..model.unknowns.len()).map(|u| Wanted::Unknown(UnknownId::new(u)));
     match method {
@@ -136,10 +207,7 @@ fn all_results(model: &Model, given: &ast::Scene, method: Method, names: &Names)
             joints.chain(points).chain(model.moving_links().map(Wanted::Angle)).collect()
         }
         Method::Equilibrium | Method::Superposition => unknowns.chain(joints).collect(),
-        Method::VirtualWork => {
-            let terms = loads(model, given, method, names, &Sink::default()).into_iter().map(Wanted::Load);
-            unknowns.chain(terms).collect()
-        }
+        Method::VirtualWork => unknowns.chain(loads.iter().copied().map(Wanted::Load)).collect(),
         Method::Verify => Vec::new(),
     }
 }
@@ -152,11 +220,21 @@ fn result(
     names: &Names,
 ) -> Result<Option<Wanted>, Diagnostic> {
     match item {
-        ResultItem::Planned(place, what) => Err(Diagnostic::new(*place, format!("{what} is not supported yet"))),
+        // Of a method that is not known, nothing is known of its results.
+        _ if given.method.text != word(method) => Ok(None),
+        ResultItem::Planned { of, place, what } => Err(Diagnostic::new(*place, format!("{what} is not supported yet"))
+            .help(match method {
+                Method::Equilibrium | Method::Superposition if names.find(Role::Joint, &of.link).is_ok() => {
+                    format!("ask for `{}` itself, and resolve it yourself", of.link)
+                }
+                _ => "leave it out".to_owned(),
+            })),
         ResultItem::Point(link, point) => {
+            let place = link.place().to(point.place());
             let Some(id) = names.find(Role::Link, link)?.map(LinkId::new) else { return Ok(None) };
             if method != Method::Position {
-                return Err(cannot(given, link, "where a point is"));
+                let what = if point.text == "angle" { "the angle of a link" } else { "the place of a point" };
+                return Err(cannot(given, place, &format!("{link}.{point}"), what).note("`position` gives it"));
             }
             if point.text == "angle" {
                 return Ok(Some(Wanted::Angle(id)));
@@ -164,6 +242,7 @@ fn result(
             let Some(body) = model.links.get(id.index()) else { return Ok(None) };
             match body.points.iter().position(|p| p.name.text == point.text) {
                 Some(index) => Ok(Some(Wanted::Point(End { link: id, point: PointId::new(index) }))),
+                None if body.unread => Ok(None),
                 None => {
                     let known = body.points.iter().map(|p| p.name.text.as_str()).chain(["angle"]);
                     let problem = format!("the link `{link}` has no point `{point}`");
@@ -172,6 +251,16 @@ fn result(
             }
         }
         ResultItem::Name(name) => named_result(model, given, method, name, names),
+    }
+}
+
+fn word(method: Method) -> &'static str {
+    match method {
+        Method::Position => "position",
+        Method::Equilibrium => "equilibrium",
+        Method::Superposition => "superposition",
+        Method::VirtualWork => "virtual_work",
+        Method::Verify => "verify",
     }
 }
 
@@ -184,23 +273,27 @@ fn named_result(
 ) -> Result<Option<Wanted>, Diagnostic> {
     if let Some(index) = model.unknowns.iter().position(|u| u.name == name.text) {
         return match method {
-            Method::Position => Err(cannot(given, name, "an effort")),
+            Method::Position => {
+                Err(cannot(given, name.place(), &name.text, "an effort")
+                    .note("`equilibrium` and `virtual_work` give it"))
+            }
             _ => Ok(Some(Wanted::Unknown(UnknownId::new(index)))),
         };
     }
-    match names.role(&name.text) {
+    match names.entry(&name.text).map(|entry| (entry.role, entry.index)) {
         Some((Role::Broken, _)) => Ok(None),
         Some((Role::Joint, index)) => match method {
-            Method::VirtualWork => Err(cannot(given, name, "the reaction of a joint").note(
-                "a joint's reaction does no work in the motion that the joints allow, so it never enters; \
-                 `equilibrium` gives it",
-            )),
+            Method::VirtualWork => Err(cannot(given, name.place(), &name.text, "the reaction of a joint")
+                .note("a reaction does no work in the motion that its joint allows, so it never enters")
+                .help("`equilibrium` gives it")),
             _ => Ok(Some(Wanted::Joint(JointId::new(index)))),
         },
         Some((Role::Load, index)) => {
             let load = LoadId::new(index);
             if method != Method::VirtualWork {
-                return Err(cannot(given, name, "the term of a load").note("`virtual_work` gives it"));
+                return Err(
+                    cannot(given, name.place(), &name.text, "the term of a load").note("`virtual_work` gives it")
+                );
             }
             let listed = given.loads.as_ref().is_none_or(|l| l.iter().any(|n| n.text == name.text));
             if !listed {
@@ -209,10 +302,13 @@ fn named_result(
             }
             Ok(Some(Wanted::Load(load)))
         }
-        Some((Role::Link, _)) if method == Method::Position => {
+        Some((Role::Link, index)) if method == Method::Position => {
+            let points = model.links.get(index).map_or(&[][..], |link| &link.points);
+            let point = points.last().map_or("P", |point| point.name.text.as_str());
             Err(Diagnostic::new(name.place(), format!("of the link `{name}`, its angle or a point?"))
-                .help(format!("`{name}.angle`, or `{name}.P` with a point of it")))
+                .help(format!("write `{name}.angle`, or a point of it, such as `{name}.{point}`")))
         }
+        None if names.may_be(Role::Joint) || names.may_be(Role::Load) || names.may_be(Role::Unknown) => Ok(None),
         _ => {
             let known: Vec<&str> = match method {
                 Method::Position => names.of(Role::Joint).collect(),
@@ -227,70 +323,94 @@ fn named_result(
     }
 }
 
-fn cannot(given: &ast::Scene, name: &Name, what: &str) -> Diagnostic {
-    Diagnostic::new(name.place(), format!("`{}` cannot give `{name}`: {what} is not among its results", given.method))
+fn cannot(given: &ast::Scene, place: Place, result: &str, what: &str) -> Diagnostic {
+    Diagnostic::new(place, format!("`{}` cannot give `{result}`: {what} is not among its results", given.method))
 }
 
-/// A type's name for a scene: `bearing_load` becomes `BearingLoad`.
+/// A type's name for a scene: `bearing_load` becomes `BearingLoad`. Underscores in front stay.
 #[must_use]
 pub fn type_name(name: &str) -> String {
-    name.split('_')
-        .map(|part| {
-            let mut letters = part.chars();
-            letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-        })
-        .collect()
+    let inner = name.trim_start_matches('_');
+    let capitals = inner.split('_').map(|part| {
+        let mut letters = part.chars();
+        letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+    });
+    core::iter::once(name[..name.len() - inner.len()].to_owned()).chain(capitals).collect()
 }
+
+/// Types of the generated module and names that it takes from elsewhere.
+pub(crate) const OWN_TYPES: [&str; 9] =
+    ["Pose", "Loads", "Params", "Linkage", "Error", "Result", "Vector2", "SliderReaction", "WorkTerm"];
+/// The same, where there are parameters, and where there is something to verify.
+const FURTHER_TYPES: [&str; 2] = ["Default", "Verification"];
 
 /// No two things of the generated module may have one name.
 fn check_generated_names(model: &Model, sink: &Sink) {
-    let mut types: BTreeMap<String, String> = ["Pose", "Loads", "Params", "Linkage", "Error"]
-        .into_iter()
-        .map(|n| (n.to_owned(), "the module's own".to_owned()))
-        .collect();
     let mut methods: BTreeMap<String, String> = BTreeMap::new();
-    methods.insert("at".into(), "the pose's own".into());
-    let clash = |name: &Name, made: &str, other: &str| {
-        sink.report(
-            Diagnostic::new(
-                name.place(),
-                format!("`{name}` brings the name `{made}` into the module, where it is {other} already"),
-            )
-            .help("choose another name"),
-        );
+    methods.insert("at".into(), "makes a pose".into());
+    let clash =
+        |name: &Name, problem: String| sink.report(Diagnostic::new(name.place(), problem).help("choose another name"));
+    let method = |name: &Name, made: &str, other: &str| {
+        clash(name, format!("a pose would have two methods `{made}`: the other one {other}"));
     };
     for drive in &model.drives {
-        methods.insert(drive.name.text.clone(), format!("the drive `{}`", drive.name));
+        if drive.name.text == "at" {
+            method(&drive.name, "at", &methods["at"]);
+        }
+        methods.insert(drive.name.text.clone(), format!("gives the drive `{}`", drive.name));
     }
     for joint in &model.joints {
         for made in [joint.name.text.clone(), format!("sin_mu_{}", joint.name)] {
-            if let Some(other) = methods.insert(made.clone(), format!("of the joint `{}`", joint.name)) {
-                clash(&joint.name, &made, &other);
+            if let Some(other) = methods.insert(made.clone(), format!("belongs to the joint `{}`", joint.name)) {
+                method(&joint.name, &made, &other);
             }
         }
     }
     for link in &model.links {
-        let points = link.points.iter().map(|p| p.name.text.as_str()).chain(["direction"]);
-        for made in points.map(|p| format!("{}_{p}", link.name)) {
-            if let Some(other) = methods.insert(made.clone(), format!("of the link `{}`", link.name)) {
-                clash(&link.name, &made, &other);
+        let points = link.points.iter().map(|p| (p.name.text.as_str(), &p.name));
+        for (point, name) in points.chain([("direction", &link.name)]) {
+            let made = format!("{}_{point}", link.name);
+            if let Some(other) = methods.insert(made.clone(), format!("gives `{}.{point}`", link.name)) {
+                method(name, &made, &other);
             }
         }
     }
+    let further = [!model.params.is_empty(), model.scenes.iter().any(|scene| scene.method == Method::Verify)];
+    let further = FURTHER_TYPES.iter().zip(further).filter(|(_, there)| *there).map(|(name, _)| name);
+    let mut types: BTreeMap<String, String> = OWN_TYPES
+        .iter()
+        .chain(further)
+        .map(|name| ((*name).to_owned(), "the module has that already".to_owned()))
+        .collect();
     for scene in &model.scenes {
-        let own = format!("of the scene `{}`", scene.name);
-        for made in [scene.name.text.clone(), format!("{}_at", scene.name)] {
-            if let Some(other) = methods.insert(made.clone(), own.clone()) {
-                clash(&scene.name, &made, &other);
-            }
+        let own = format!("belongs to the scene `{}`", scene.name);
+        let taken = [scene.name.text.clone(), format!("{}_at", scene.name)]
+            .into_iter()
+            .find_map(|made| methods.insert(made.clone(), own.clone()).map(|other| (made, other)));
+        if let Some((made, other)) = taken {
+            method(&scene.name, &made, &other);
+            continue;
         }
-        let base = type_name(&scene.name.text);
-        let gravity = scene.loads.iter().filter(|l| matches!(model.load(**l).kind, LoadKind::Gravity { .. }));
-        let per_link = gravity.map(|l| format!("{base}{}", type_name(&model.load(*l).name.text)));
-        for made in [base.clone(), format!("{base}Contribution")].into_iter().chain(per_link) {
-            if let Some(other) = types.insert(made.clone(), own.clone()) {
-                clash(&scene.name, &made, &other);
+        for made in types_of(model, scene) {
+            let own = format!("the scene `{}` has that", scene.name);
+            if let Some(other) = types.insert(made.clone(), own) {
+                clash(&scene.name, format!("the results of `{}` would be the type `{made}`, and {other}", scene.name));
+                break;
             }
         }
     }
+}
+
+/// The types that a scene brings.
+fn types_of(model: &Model, scene: &Scene) -> Vec<String> {
+    let base = type_name(&scene.name.text);
+    let gravity = |load: &LoadId| matches!(model.load(*load).kind, LoadKind::Gravity { .. });
+    let records = scene.loads.iter().filter(|load| match scene.method {
+        Method::VirtualWork => gravity(load) || model.unknowns.len() > 1,
+        Method::Superposition => gravity(load),
+        _ => false,
+    });
+    let records = records.map(|load| format!("{base}{}", type_name(&model.load(*load).name.text)));
+    let parts = (scene.method == Method::Superposition).then(|| format!("{base}Contribution"));
+    core::iter::once(base.clone()).chain(parts).chain(records).collect()
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::pivots::Pivots;
 use super::placement::Placement;
-use crate::diagnostics::Diagnostic;
+use crate::diagnostics::{Diagnostic, list};
 use crate::graph::{Expr, Graph, Symbol};
 use crate::model::ids::{DriveId, JointId};
 use crate::model::{Closure, Model, Side};
@@ -81,7 +81,8 @@ impl<'m> Assembly<'m> {
         let model = self.model();
         let joint = &model.joint(inner).name;
         let [one, other] = sides.map(|side| format!("assemble {joint}: {}({of});", side.word()));
-        Diagnostic::new(joint.place(), format!("{} can be assembled in two ways", model.link_names(&group.links)))
+        let links: Vec<&str> = group.links.iter().map(|link| model.link(*link).name.text.as_str()).collect();
+        Diagnostic::new(joint.place(), format!("{} can be assembled at `{joint}` in two ways", list(&links)))
             .help(format!("choose one of\n{one}\n{other}"))
     }
 }

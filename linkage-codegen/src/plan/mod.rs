@@ -22,7 +22,7 @@ pub use pivots::Pivots;
 pub use placement::Placement;
 pub use velocities::Motion;
 
-use crate::diagnostics::{Diagnostic, Sink};
+use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::equations::System;
 use crate::graph::{Coordinate, Expr, NodeId, Op};
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
@@ -105,13 +105,18 @@ impl Plan {
             model.graph.begin_section(heading(model, index, group, rule.class(), "position"));
             if let Err(error) = rule.place(&mut assembly, group) {
                 sink.report(error);
+                // What is chosen at a group that has an error is no second one.
+                for joint in &group.inner {
+                    assembly.closure(*joint);
+                }
             }
         }
         for closure in assembly.unused_closures() {
             let joint = &model.joint(closure.joint).name;
             sink.report(
                 Diagnostic::new(closure.place, format!("there is nothing to choose at `{joint}`"))
-                    .note("a closure is chosen at the inner joint of a dyad: of the joint between its two links"),
+                    .note("a side is chosen at the inner joint of a dyad: at the joint between its two links")
+                    .help("leave it out"),
             );
         }
         if !sink.is_clean() {
@@ -148,7 +153,7 @@ fn rules_of(model: &Model, groups: &[Group], what: &str, choose: Choice, sink: &
 
 /// A group for which there is no rule.
 fn unsupported(model: &Model, group: &Group, what: &str) -> Diagnostic {
-    let links = model.link_names(&group.links);
+    let links: Vec<&str> = group.links.iter().map(|link| model.link(*link).name.text.as_str()).collect();
     let place = match group.inputs.first() {
         Some(Input::Unknown(unknown)) => model.unknown(*unknown).place,
         Some(Input::Drive(drive)) => model.drive(*drive).name.place(),
@@ -156,13 +161,11 @@ fn unsupported(model: &Model, group: &Group, what: &str) -> Diagnostic {
     };
     let letters = group.letters(model);
     let joints = group.outer.iter().chain(&group.inner).map(|j| model.joint(*j).name.text.as_str());
-    let joints = joints.collect::<Vec<_>>().join(", ");
-    Diagnostic::new(place, format!("groups of the class of {links} are not supported yet: there is no rule to {what} them"))
-        .note(format!(
-            "the group has {} link{} and the joints {joints} ({letters}); supported are links on one pin or one slide, and RRR and RRP dyads",
-            group.links.len(),
-            if group.links.len() == 1 { "" } else { "s" },
-        ))
+    let joints = joints.collect::<Vec<_>>();
+    let (it, depend) = if links.len() == 1 { ("this link", "it hangs") } else { ("these links together", "they hang") };
+    Diagnostic::new(place, format!("to {what} {it} is not supported yet: {}", list(&links)))
+        .note(format!("{depend} on the joints {} ({letters})", list(&joints)))
+        .help("supported are links on one pin or one slide, and RRR and RRP dyads: another drive or unknown may split the linkage so")
 }
 
 /// The heading of a group's steps.

@@ -170,14 +170,22 @@ impl<'m> Placement<'m> {
         }
     }
 
+    /// The direction of a slide along and across the direction that its links carry: the same vector for both.
+    #[must_use]
+    pub fn slide_along(&self, joint: JointId) -> Vector<'m> {
+        match self.model.joint(joint).kind {
+            JointKind::Prismatic { carrier, axis, .. } => self.carried(carrier, axis.vector(self.graph())),
+            JointKind::Revolute => self.direction(GROUND),
+        }
+    }
+
     /// The place of a slide's runner on one of its links, along and across that link's direction.
     #[must_use]
     pub fn slide_point(&self, joint: JointId, link: LinkId) -> Vector<'m> {
         let data = self.model.joint(joint);
         match data.kind {
-            // Both links carry the same direction, so that the slide's direction is the same vector for both.
-            JointKind::Prismatic { carrier, axis, .. } if carrier == link => {
-                let along = self.carried(carrier, axis.vector(self.graph()));
+            JointKind::Prismatic { carrier, .. } if carrier == link => {
+                let along = self.slide_along(joint);
                 let travel = self.travel(joint);
                 let (own, travel) = if data.from.link == link { (data.from, travel) } else { (data.to, -travel) };
                 self.point(own) + along.scaled(travel)

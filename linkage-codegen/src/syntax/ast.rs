@@ -1,6 +1,7 @@
 //! The declaration as it was written: every construct of the grammar, with its place, unresolved.
 
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use syn::ext::IdentExt;
 
 use crate::diagnostics::Place;
 
@@ -14,6 +15,17 @@ pub struct Name {
 }
 
 impl Name {
+    /// From its token.
+    pub(super) fn of(ident: &Ident) -> Self {
+        Self { text: ident.unraw().to_string(), span: ident.span() }
+    }
+
+    /// Whether Rust can write it as a name.
+    #[must_use]
+    pub fn is_usable(&self) -> bool {
+        !matches!(self.text.as_str(), "self" | "Self" | "super" | "crate" | "_")
+    }
+
     /// Where it stands.
     #[must_use]
     pub fn place(&self) -> Place {
@@ -74,16 +86,50 @@ pub enum Item {
     /// `scene statics: …;`
     Scene(Scene),
     /// An item that could not be read; what it would have named counts as declared.
-    Broken(Option<Broken>),
+    Broken(Broken),
 }
 
 /// What is known of an item that could not be read.
 #[derive(Clone, Debug)]
 pub struct Broken {
-    /// Its keyword.
-    pub keyword: Name,
+    /// Its keyword, if it begins with a word.
+    pub keyword: Option<Name>,
     /// What it would have named.
-    pub name: Name,
+    pub name: Option<Name>,
+    /// What stands behind these.
+    pub rest: TokenStream,
+}
+
+impl Broken {
+    /// Whether it begins with this word.
+    #[must_use]
+    pub fn is(&self, keyword: &str) -> bool {
+        self.keyword.as_ref().is_some_and(|word| word.text == keyword)
+    }
+
+    /// All words behind its name, those in brackets included.
+    #[must_use]
+    pub fn words(&self) -> Vec<Name> {
+        words(self.rest.clone())
+    }
+}
+
+/// All words of a stretch of tokens, in order.
+pub(super) fn words(tokens: TokenStream) -> Vec<Name> {
+    let mut found = Vec::new();
+    let mut open: Vec<TokenTree> = tokens.into_iter().collect();
+    open.reverse();
+    while let Some(token) = open.pop() {
+        match token {
+            TokenTree::Ident(ident) => found.push(Name::of(&ident)),
+            TokenTree::Group(group) => {
+                let inside: Vec<TokenTree> = group.stream().into_iter().collect();
+                open.extend(inside.into_iter().rev());
+            }
+            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+        }
+    }
+    found
 }
 
 /// A scalar expression.
@@ -178,6 +224,8 @@ pub enum PointPlace {
     Distances(Name, Box<Distances>),
     /// `P`, at the origin
     Origin(Name),
+    /// A place that could not be read: any of its words may be a point.
+    Unread(Vec<Name>),
 }
 
 /// By two distances.
@@ -299,9 +347,20 @@ pub struct Assemble {
     /// The joints in parentheses: one or two.
     pub joints: Vec<Name>,
     /// `smooth at …`
-    pub smooth: Option<Value>,
-    /// The keyword.
-    pub keyword: Span,
+    pub smooth: Option<Smooth>,
+    /// The side with its joints.
+    pub chosen: Place,
+    /// The whole.
+    pub place: Place,
+}
+
+/// `smooth at value`
+#[derive(Clone, Debug)]
+pub struct Smooth {
+    /// The angle.
+    pub at: Value,
+    /// The whole.
+    pub place: Place,
 }
 
 /// `unknown NAME: effort;`
@@ -309,6 +368,8 @@ pub struct Assemble {
 pub struct Unknown {
     /// Its name.
     pub name: Name,
+    /// Name and effort.
+    pub place: Place,
     /// What it is.
     pub effort: Effort,
 }
@@ -354,8 +415,8 @@ pub enum LoadKind {
     },
     /// `gravity`
     Gravity,
-    /// A kind that is not carried out yet, by its keyword.
-    Planned(Name),
+    /// A kind that is not carried out yet, by its keyword, and whether its value is known now.
+    Planned(Name, bool),
 }
 
 /// A scene.
@@ -378,6 +439,13 @@ pub enum ResultItem {
     Name(Name),
     /// A point of a link, or its angle.
     Point(Name, Name),
-    /// A form that is not carried out yet, by what it is called.
-    Planned(Place, &'static str),
+    /// A form that is not carried out yet.
+    Planned {
+        /// What it is about.
+        of: End,
+        /// The whole.
+        place: Place,
+        /// What it is called.
+        what: &'static str,
+    },
 }

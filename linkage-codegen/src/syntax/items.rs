@@ -1,37 +1,48 @@
-//! One parser per item, but for loads and scenes.
+//! One parser per item, but for loads and scenes. The `;` behind an item is not theirs.
 
 use syn::parse::ParseStream;
+use syn::parse::discouraged::Speculative;
 use syn::token::{Brace, Paren};
 use syn::{Error, Result, Token};
 
 use super::ast::{
-    Assemble, Distances, Drive, Effort, End, Item, Joint, Link, Mass, Name, Param, PointPlace, PointRef, Unknown,
+    Assemble, Distances, Drive, Effort, End, Item, Joint, Link, Mass, Name, Param, PointPlace, PointRef, Smooth,
+    Unknown, words,
 };
 use super::quantity::{at_pair, direction, value, vector};
-use super::tokens::{at_word, comma_list, eat_word, expect_word, name, peek_word, semicolon};
-use super::{ITEMS, at_group, loads, scenes};
-use crate::diagnostics::{Place, closest};
+use super::tokens::{at_word, between, comma_list, eat_word, expect_word, name, peek_word, place_of, take};
+use super::{ITEMS, header, loads, scenes};
+use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
-/// Reads an item.
-pub(super) fn item(input: ParseStream<'_>) -> Result<Item> {
+/// Reads an item. A word that was meant to be another one is a slip, and reading goes on as if it were that.
+pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let begin = input.fork();
-    let Some(word) = peek_word(input) else {
+    if peek_word(input).is_none() {
         return Err(input.error("expected an item, such as `link`, `revolute` or `load`"));
-    };
-    if word == "crate" {
-        return crate_path(input);
     }
-    let keyword = name(input)?;
-    match word.as_str() {
+    let mut keyword = name(input)?;
+    if !ITEMS.contains(&keyword.text.as_str()) {
+        let problem = format!("there is no item `{keyword}`");
+        let Some(meant) = closest(&keyword.text, ITEMS) else {
+            return Err(Error::new(
+                begin.span(),
+                format!("{problem}\nhelp: an item begins with one of {}", ITEMS.join(", ")),
+            ));
+        };
+        slips.report(Diagnostic::new(keyword.place(), problem).help(format!("did you mean `{meant}`?")));
+        meant.clone_into(&mut keyword.text);
+    }
+    match keyword.text.as_str() {
+        "crate" => crate_path(input),
         "units" => units(input),
-        "scalar" => Ok(Item::Scalar(closing_name(input)?)),
-        "arithmetic" => Ok(Item::Arithmetic(closing_name(input)?)),
-        "emit" => Ok(Item::Emit(closing_name(input)?)),
+        "scalar" => Ok(Item::Scalar(name(input)?)),
+        "arithmetic" => Ok(Item::Arithmetic(name(input)?)),
+        "emit" => Ok(Item::Emit(name(input)?)),
         "param" => param(input),
-        "ground" => link(input, &keyword, None),
+        "ground" => link(input, &keyword, None, slips),
         "link" => {
             let name = name(input)?;
-            link(input, &keyword, Some(name))
+            link(input, &keyword, Some(name), slips)
         }
         "mass" => mass(input),
         "revolute" | "prismatic" => joint(input, keyword),
@@ -39,67 +50,35 @@ pub(super) fn item(input: ParseStream<'_>) -> Result<Item> {
         "drive" => drive(input),
         "assemble" => assemble(input, &keyword),
         "start" => {
-            rest(input)?;
+            rest(input);
             Ok(Item::Start(keyword.place()))
         }
-        "unknown" => unknown(input),
-        "load" => loads::load(input),
-        "scene" => scenes::scene(input),
-        _ => {
-            let help = closest(&word, ITEMS).map_or_else(
-                || format!("an item begins with one of {}", ITEMS.join(", ")),
-                |near| format!("did you mean `{near}`?"),
-            );
-            Err(Error::new(begin.span(), format!("there is no item `{word}`\nhelp: {help}")))
-        }
+        "unknown" => unknown(input, slips),
+        "load" => loads::load(input, slips),
+        _ => scenes::scene(input, slips),
     }
 }
 
 /// Takes what is left of an item whose inside is not read.
-pub(super) fn rest(input: ParseStream<'_>) -> Result<()> {
+pub(super) fn rest(input: ParseStream<'_>) {
     while !input.is_empty() && !input.peek(Token![;]) {
         let braces = input.peek(Brace);
-        input.parse::<proc_macro2::TokenTree>()?;
+        take(input);
         if braces {
-            break;
+            return;
         }
     }
-    if input.peek(Token![;]) {
-        input.parse::<Token![;]>()?;
-    }
-    Ok(())
-}
-
-fn closing_name(input: ParseStream<'_>) -> Result<Name> {
-    let name = name(input)?;
-    semicolon(input)?;
-    Ok(name)
 }
 
 fn crate_path(input: ParseStream<'_>) -> Result<Item> {
-    input.parse::<Token![crate]>()?;
     input.parse::<Token![=]>()?;
-    let mut path = proc_macro2::TokenStream::new();
-    while !input.is_empty() && !input.peek(Token![;]) {
-        path.extend([input.parse::<proc_macro2::TokenTree>()?]);
-    }
-    if path.is_empty() {
-        return Err(input.error("expected a path, as in `crate = ::my_runtime;`"));
-    }
-    semicolon(input)?;
-    Ok(Item::Crate(path))
+    header::path(input).map(Item::Crate)
 }
 
 fn units(input: ParseStream<'_>) -> Result<Item> {
     let content;
     let _ = syn::braced!(content in input);
-    let names = comma_list(&content, name)?;
-    optional_semicolon(input)?;
-    Ok(Item::Units(names))
-}
-
-fn optional_semicolon(input: ParseStream<'_>) -> Result<()> {
-    if input.peek(Token![;]) { input.parse::<Token![;]>().map(drop) } else { Ok(()) }
+    Ok(Item::Units(comma_list(&content, name)?))
 }
 
 fn colon_name(input: ParseStream<'_>) -> Result<Name> {
@@ -117,16 +96,45 @@ fn param(input: ParseStream<'_>) -> Result<Item> {
     } else {
         None
     };
-    semicolon(input)?;
     Ok(Item::Param(Param { name: name_, dimension, default }))
 }
 
-fn link(input: ParseStream<'_>, keyword: &Name, name: Option<Name>) -> Result<Item> {
+fn link(input: ParseStream<'_>, keyword: &Name, name: Option<Name>, slips: &Sink) -> Result<Item> {
     let content;
     let _ = syn::braced!(content in input);
-    let places = comma_list(&content, point_place)?;
-    optional_semicolon(input)?;
+    let mut places = Vec::new();
+    while !content.is_empty() {
+        places.push(point_place_or_none(&content, slips));
+        if content.peek(Token![,]) {
+            take(&content);
+        }
+    }
     Ok(Item::Link(Link { name, keyword: keyword.span, places }))
+}
+
+/// A point with its place, up to the comma. One that cannot be read is reported, and does not spoil the others.
+fn point_place_or_none(content: ParseStream<'_>, slips: &Sink) -> PointPlace {
+    let ahead = content.fork();
+    let read = point_place(&ahead).and_then(|place| {
+        if ahead.is_empty() || ahead.peek(Token![,]) { Ok(place) } else { Err(ahead.error("expected `,`")) }
+    });
+    match read {
+        Ok(place) => {
+            content.advance_to(&ahead);
+            place
+        }
+        Err(error) => {
+            let error = Diagnostic::from(error);
+            let helped = error.message().contains("\nhelp:");
+            let help = "a point is written `A -> B: 100mm`, `C: (50mm, 20mm)` or `C: left(A -> B, 70mm, 80mm)`";
+            slips.report(if helped { error } else { error.help(help) });
+            let begin = content.fork();
+            while !content.is_empty() && !content.peek(Token![,]) {
+                take(content);
+            }
+            PointPlace::Unread(words(between(&begin, content).into_iter().collect()))
+        }
+    }
 }
 
 fn point_place(input: ParseStream<'_>) -> Result<PointPlace> {
@@ -137,8 +145,11 @@ fn point_place(input: ParseStream<'_>) -> Result<PointPlace> {
         input.parse::<Token![:]>()?;
         return Ok(PointPlace::Frame(point, to, value(input)?));
     }
-    if !input.peek(Token![:]) {
+    if input.is_empty() || input.peek(Token![,]) {
         return Ok(PointPlace::Origin(point));
+    }
+    if !input.peek(Token![:]) {
+        return Err(input.error("expected `:` or `->`"));
     }
     input.parse::<Token![:]>()?;
     let by_distances = (at_word(input, "left") || at_word(input, "right")) && input.peek2(Paren);
@@ -180,7 +191,6 @@ fn mass(input: ParseStream<'_>) -> Result<Item> {
         expect_word(input, "inertia")?;
         inertia = Some(value(input)?);
     }
-    semicolon(input)?;
     Ok(Item::Mass(Mass { link, mass, at, inertia }))
 }
 
@@ -208,7 +218,6 @@ fn joint(input: ParseStream<'_>, keyword: Name) -> Result<Item> {
         expect_word(input, "angle")?;
         angle = Some(value(input)?);
     }
-    semicolon(input)?;
     let slides = keyword.text == "prismatic";
     if slides && along.is_none() {
         return Err(Error::new(
@@ -231,7 +240,7 @@ fn planned_joint(input: ParseStream<'_>, keyword: Name) -> Result<Item> {
     let from = end(input)?;
     input.parse::<Token![->]>()?;
     let to = end(input)?;
-    rest(input)?;
+    rest(input);
     Ok(Item::Joint(Joint { name, keyword, from, to, along: None, angle: None }))
 }
 
@@ -244,15 +253,7 @@ fn drive(input: ParseStream<'_>) -> Result<Item> {
     } else {
         None
     };
-    let motion = if input.peek(Brace) {
-        let place = Place::at(input.span());
-        input.parse::<proc_macro2::TokenTree>()?;
-        optional_semicolon(input)?;
-        Some(place)
-    } else {
-        semicolon(input)?;
-        None
-    };
+    let motion = if input.peek(Brace) { take(input).and_then(|braces| place_of(&[braces])) } else { None };
     Ok(Item::Drive(Drive { name: name_, joint, coordinate, motion }))
 }
 
@@ -263,60 +264,78 @@ fn assemble(input: ParseStream<'_>, keyword: &Name) -> Result<Item> {
     if !input.peek(Paren) {
         return Err(input.error("expected the joints in parentheses, as in `left(A -> B0)` or `ahead(A)`"));
     }
-    let _ = syn::parenthesized!(content in input);
+    let parens = syn::parenthesized!(content in input);
+    let chosen = side.place().to(Place::at(parens.span.close()));
+    let mut place = keyword.place().to(chosen);
     let mut joints = vec![name(&content)?];
     if content.peek(Token![->]) {
         content.parse::<Token![->]>()?;
         joints.push(name(&content)?);
     }
     optional_comma(&content)?;
+    let begin = input.fork();
     let smooth = if eat_word(input, "smooth") {
         expect_word(input, "at")?;
-        Some(value(input)?)
+        let at = value(input)?;
+        let whole = place_of(&between(&begin, input)).unwrap_or(at.place);
+        place = place.to(whole);
+        Some(Smooth { at, place: whole })
     } else {
         None
     };
-    semicolon(input)?;
-    Ok(Item::Assemble(Assemble { joint, side, joints, smooth, keyword: keyword.span }))
+    Ok(Item::Assemble(Assemble { joint, side, joints, smooth, chosen, place }))
 }
 
-fn unknown(input: ParseStream<'_>) -> Result<Item> {
+fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
+    const EFFORTS: [&str; 3] = ["torque", "force", "thrust"];
+    let begin = input.fork();
     let name_ = colon_name(input)?;
-    let word = name(input)?;
-    if !at_group(input) {
-        return Err(input.error(format!("expected `({})`", "…")));
+    let mut word = name(input)?;
+    if !EFFORTS.contains(&word.text.as_str()) {
+        let problem = format!("there is no unknown `{word}`");
+        let help = "an unknown is a `torque`, a `force` or a `thrust`";
+        let Some(meant) = closest(&word.text, EFFORTS) else {
+            return Err(Error::new(word.span, format!("{problem}\nhelp: {help}")));
+        };
+        slips.report(Diagnostic::new(word.place(), problem).help(format!("did you mean `{meant}`?")));
+        meant.clone_into(&mut word.text);
     }
+    if !input.peek(Paren) {
+        return Err(input.error("expected parentheses, as in `torque(ground -> crank)`"));
+    }
+    let content;
+    let _ = syn::parenthesized!(content in input);
     let effort = match word.text.as_str() {
         "torque" => {
-            let content;
-            let _ = syn::parenthesized!(content in input);
             let from = name(&content)?;
-            content.parse::<Token![->]>().map_err(|e| {
-                Error::new(e.span(), "a torque acts between two links\nhelp: write `torque(ground -> crank)`: on the second, by the first")
-            })?;
+            if !content.peek(Token![->]) {
+                let problem = "a torque acts between two links";
+                let help = format!("write `torque(ground -> {from})`: on the second, by the first");
+                return Err(Error::new(from.span, format!("{problem}\nhelp: {help}")));
+            }
+            content.parse::<Token![->]>()?;
             let to = name(&content)?;
             optional_comma(&content)?;
             Effort::Torque(from, to)
         }
         "force" => {
-            let content;
-            let _ = syn::parenthesized!(content in input);
             let at = end(&content)?;
             optional_comma(&content)?;
+            if !at_word(input, "along") {
+                let help = "write it behind the point: `along 90deg`, or `along 0deg of crank`";
+                return Err(Error::new(
+                    at.link.span,
+                    format!("the line of the force `{name_}` is not said\nhelp: {help}"),
+                ));
+            }
             expect_word(input, "along")?;
             Effort::Force(at, direction(input)?)
         }
-        "thrust" => {
-            input.parse::<proc_macro2::TokenTree>()?;
+        _ => {
+            while take(&content).is_some() {}
             Effort::Thrust(word.place())
         }
-        other => {
-            return Err(Error::new(
-                word.span,
-                format!("there is no unknown `{other}`\nhelp: an unknown is a `torque`, a `force` or a `thrust`"),
-            ));
-        }
     };
-    semicolon(input)?;
-    Ok(Item::Unknown(Unknown { name: name_, effort }))
+    let place = place_of(&between(&begin, input)).unwrap_or(name_.place());
+    Ok(Item::Unknown(Unknown { name: name_, place, effort }))
 }

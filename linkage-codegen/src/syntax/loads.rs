@@ -1,21 +1,30 @@
 //! Loads.
 
+use proc_macro2::TokenTree;
 use syn::parse::ParseStream;
 use syn::token::Paren;
 use syn::{Error, Result, Token};
 
-use super::ast::{Item, Load, LoadKind};
+use super::ast::{Item, Load, LoadKind, words};
 use super::items::{end, rest};
 use super::quantity::magnitude;
-use super::tokens::{eat_word, name, semicolon};
-use crate::diagnostics::closest;
+use super::tokens::{between, eat_word, name};
+use crate::diagnostics::{Diagnostic, Sink, closest};
 
 const KINDS: [&str; 7] = ["force", "moment", "gravity", "thrust", "spring", "torsion", "inertia"];
 
-pub(super) fn load(input: ParseStream<'_>) -> Result<Item> {
+pub(super) fn load(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let name_ = name(input)?;
     input.parse::<Token![:]>()?;
-    let word = name(input)?;
+    let mut word = name(input)?;
+    if !KINDS.contains(&word.text.as_str()) {
+        let problem = format!("there is no load `{word}`");
+        let Some(meant) = closest(&word.text, KINDS) else {
+            return Err(Error::new(word.span, format!("{problem}\nhelp: a load is one of {}", KINDS.join(", "))));
+        };
+        slips.report(Diagnostic::new(word.place(), problem).help(format!("did you mean `{meant}`?")));
+        meant.clone_into(&mut word.text);
+    }
     let kind = match word.text.as_str() {
         "force" => {
             let at = in_parentheses(input, "force(coupler.C)", end)?;
@@ -24,16 +33,11 @@ pub(super) fn load(input: ParseStream<'_>) -> Result<Item> {
         }
         "moment" => in_parentheses(input, "moment(rocker)", moment)?,
         "gravity" => LoadKind::Gravity,
-        "thrust" | "spring" | "torsion" | "inertia" => {
-            rest(input)?;
-            return Ok(Item::Load(Load { name: name_, kind: LoadKind::Planned(word), magnitude: None }));
-        }
-        other => {
-            let help = closest(other, KINDS).map_or_else(
-                || format!("a load is one of {}", KINDS.join(", ")),
-                |near| format!("did you mean `{near}`?"),
-            );
-            return Err(Error::new(word.span, format!("there is no load `{other}`\nhelp: {help}")));
+        _ => {
+            let begin = input.fork();
+            rest(input);
+            let constant = is_constant(&word.text, &between(&begin, input));
+            return Ok(Item::Load(Load { name: name_, kind: LoadKind::Planned(word, constant), magnitude: None }));
         }
     };
     let magnitude = if input.peek(Token![=]) {
@@ -42,8 +46,19 @@ pub(super) fn load(input: ParseStream<'_>) -> Result<Item> {
     } else {
         None
     };
-    semicolon(input)?;
     Ok(Item::Load(Load { name: name_, kind, magnitude }))
+}
+
+/// Whether a load of this kind that is written so has its value already.
+pub(crate) fn is_constant(kind: &str, written: &[TokenTree]) -> bool {
+    match kind {
+        "inertia" => true,
+        "spring" | "torsion" => !written.iter().any(|token| match token {
+            TokenTree::Group(group) => words(group.stream()).iter().any(|word| word.text == "_"),
+            _ => false,
+        }),
+        _ => written.iter().any(|token| matches!(token, TokenTree::Punct(p) if p.as_char() == '=')),
+    }
 }
 
 fn moment(input: ParseStream<'_>) -> Result<LoadKind> {

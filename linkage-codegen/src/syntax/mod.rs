@@ -3,24 +3,30 @@
 //! An item that cannot be read is reported, and reading goes on behind it.
 
 pub mod ast;
+mod header;
 mod items;
 mod loads;
 mod quantity;
+mod recovery;
 mod scenes;
 mod tokens;
 
-use proc_macro2::TokenStream;
-use quote::quote;
+use proc_macro2::{TokenStream, TokenTree};
 use syn::Token;
+use syn::parse::discouraged::Speculative;
 use syn::parse::{ParseStream, Parser};
-use syn::token::{Brace, Bracket, Paren};
 
+pub(crate) use loads::is_constant;
 pub(crate) use scenes::{METHODS, PLANNED as PLANNED_METHODS};
 
 use ast::{Ast, Item};
-use tokens::{name, peek_word};
+use recovery::{at_item, pass_over, unread};
+use tokens::{between, place_of, take};
 
-use crate::diagnostics::{Diagnostic, Sink};
+use crate::diagnostics::{Diagnostic, Place, Sink};
+
+/// Brackets in brackets.
+const DEPTH: usize = 128;
 
 /// The words that begin an item.
 const ITEMS: [&str; 20] = [
@@ -48,6 +54,10 @@ const ITEMS: [&str; 20] = [
 
 /// Reads a declaration. `None` if even its header cannot be read.
 pub fn parse(input: TokenStream, sink: &Sink) -> Option<Ast> {
+    if let Some(place) = too_deep(&input) {
+        sink.report(Diagnostic::new(place, format!("brackets are nested more than {DEPTH} deep")));
+        return None;
+    }
     let read = |stream: ParseStream<'_>| Ok(declaration(stream, sink));
     match read.parse2(input) {
         Ok(ast) => ast,
@@ -58,108 +68,98 @@ pub fn parse(input: TokenStream, sink: &Sink) -> Option<Ast> {
     }
 }
 
-fn declaration(input: ParseStream<'_>, sink: &Sink) -> Option<Ast> {
-    let header = header(input);
-    let (attributes, visibility, name) = match header {
-        Ok(header) => header,
-        Err(error) => {
-            sink.report(
-                Diagnostic::from(error)
-                    .help("a declaration begins with the module that it becomes: `pub mod four_bar;`"),
-            );
-            skip_all(input);
-            return None;
+/// The first bracket that is nested too deeply.
+fn too_deep(input: &TokenStream) -> Option<Place> {
+    let mut open: Vec<(usize, TokenTree)> = input.clone().into_iter().map(|token| (0, token)).collect();
+    while let Some((depth, token)) = open.pop() {
+        let TokenTree::Group(group) = token else { continue };
+        if depth == DEPTH {
+            return Some(Place::at(group.span_open()));
         }
+        open.extend(group.stream().into_iter().map(|token| (depth + 1, token)));
+    }
+    None
+}
+
+fn declaration(input: ParseStream<'_>, sink: &Sink) -> Option<Ast> {
+    let Some((attributes, visibility, name)) = header::header(input, sink) else {
+        while take(input).is_some() {}
+        return None;
     };
     let mut items = Vec::new();
     while !input.is_empty() {
+        if let Some(place) = attributes_of_item(input) {
+            sink.report(
+                Diagnostic::new(place, "items have no attributes or documentation comments")
+                    .help("document the module above `mod`, and write plain comments `// …` beside items"),
+            );
+            continue;
+        }
         items.push(item(input, sink));
     }
     Some(Ast { attributes, visibility, name, items })
 }
 
-fn header(input: ParseStream<'_>) -> syn::Result<(TokenStream, TokenStream, ast::Name)> {
-    let mut attributes = TokenStream::new();
-    while input.peek(Token![#]) {
-        let pound: Token![#] = input.parse()?;
-        let body;
-        let _ = syn::bracketed!(body in input);
-        let body: TokenStream = body.parse()?;
-        attributes.extend(quote!(#pound [#body]));
+/// Passes over `#[…]`; documentation comments are such attributes.
+fn attributes_of_item(input: ParseStream<'_>) -> Option<Place> {
+    let begin = input.fork();
+    while input.peek(Token![#]) && input.peek2(syn::token::Bracket) {
+        take(input);
+        take(input);
     }
-    let mut visibility = TokenStream::new();
-    if input.peek(Token![pub]) {
-        let token: Token![pub] = input.parse()?;
-        visibility.extend(quote!(#token));
-        if input.peek(Paren) {
-            let scope;
-            let _ = syn::parenthesized!(scope in input);
-            let scope: TokenStream = scope.parse()?;
-            visibility.extend(quote!((#scope)));
-        }
-    }
-    input.parse::<Token![mod]>()?;
-    let name = name(input)?;
-    input.parse::<Token![;]>()?;
-    Ok((attributes, visibility, name))
+    place_of(&between(&begin, input))
 }
 
 /// One item. On an error, what was left of it is passed over.
 fn item(input: ParseStream<'_>, sink: &Sink) -> Item {
     let begin = input.fork();
-    match items::item(input) {
-        Ok(item) => item,
+    // What cannot be read leaves no traces in the stream itself.
+    let ahead = input.fork();
+    let slips = Sink::default();
+    let read = items::item(&ahead, &slips).and_then(|item| {
+        close(&ahead, &begin, &slips)?;
+        Ok(item)
+    });
+    let slips = slips.into_errors();
+    let keyword = begin.fork().call(tokens::name).ok();
+    match read {
+        Ok(item) => {
+            input.advance_to(&ahead);
+            slips.into_iter().for_each(|slip| sink.report(slip));
+            item
+        }
         Err(error) => {
-            sink.report(error);
-            pass_over(input, &begin);
-            let keyword = begin.call(name).ok();
-            let named = begin.call(name).ok();
-            Item::Broken(keyword.zip(named).map(|(keyword, name)| ast::Broken { keyword, name }))
-        }
-    }
-}
-
-/// Goes on behind the item that began at `begin`: behind its `;` or its braces, or before the word that begins the next.
-fn pass_over(input: ParseStream<'_>, begin: ParseStream<'_>) {
-    if input.cursor() == begin.cursor() {
-        skip_one(input);
-    }
-    while !input.is_empty() {
-        if input.peek(Token![;]) {
-            skip_one(input);
-            return;
-        }
-        if input.peek(Brace) {
-            skip_one(input);
-            if input.peek(Token![;]) {
-                skip_one(input);
+            pass_over(input);
+            let passed = between(&begin, input);
+            // A word that was corrected in vain is the error; what came of it is none.
+            if slips.is_empty() {
+                sink.report(unread(error, keyword.as_ref(), &passed, ahead.is_empty()));
             }
-            return;
+            slips.into_iter().for_each(|slip| sink.report(slip));
+            recovery::broken(keyword, passed)
         }
-        // `load F: force(coupler.C)  load G: …`: the second begins an item if what stands behind it could be its name.
-        let begins_item = peek_word(input).is_some_and(|word| ITEMS.contains(&word.as_str()));
-        if begins_item
-            && !input.peek2(Token![:])
-            && !input.peek2(Token![;])
-            && !input.peek2(Token![,])
-            && !input.peek2(Token![.])
-        {
-            return;
-        }
-        skip_one(input);
     }
 }
 
-fn skip_one(input: ParseStream<'_>) {
-    // Taking one token tree off a stream that has one cannot fail.
-    drop(input.parse::<proc_macro2::TokenTree>());
-}
-
-fn skip_all(input: ParseStream<'_>) {
-    drop(input.parse::<TokenStream>());
-}
-
-/// Whether the next token opens a bracket of any kind.
-fn at_group(input: ParseStream<'_>) -> bool {
-    input.peek(Paren) || input.peek(Brace) || input.peek(Bracket)
+/// The `;` behind an item; behind braces it may be left out.
+fn close(input: ParseStream<'_>, begin: ParseStream<'_>, slips: &Sink) -> syn::Result<()> {
+    if input.peek(Token![;]) {
+        take(input);
+        return Ok(());
+    }
+    let read = between(begin, input);
+    let last = read.last();
+    if matches!(last, Some(TokenTree::Group(group)) if group.delimiter() == proc_macro2::Delimiter::Brace) {
+        return Ok(());
+    }
+    if !input.is_empty() && !at_item(input) {
+        let found = input.fork().parse::<TokenTree>().map_or_else(|_| String::new(), |token| recovery::shown(&token));
+        return Err(input.error(format!("expected `;`, found {found}")));
+    }
+    let place = last.and_then(|last| place_of(core::slice::from_ref(last)));
+    slips.report(Diagnostic::new(
+        place.unwrap_or(Place::at(input.span())),
+        format!("expected `;` behind {}", last.map_or_else(|| "the item".to_owned(), recovery::shown)),
+    ));
+    Ok(())
 }

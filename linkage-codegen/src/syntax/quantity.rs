@@ -9,10 +9,13 @@ use super::ast::{Direction, DirectionKind, Magnitude, Value, ValueKind, VectorKi
 use super::tokens::{eat_word, name, peek_word};
 use crate::diagnostics::Place;
 
+/// Operators in a row.
+const LENGTH: usize = 256;
+
 /// `value := term ((+ | -) term)*`
 pub(super) fn value(input: ParseStream<'_>) -> Result<Value> {
     let mut left = term(input)?;
-    loop {
+    for _ in 0..LENGTH {
         let join = if input.peek(Token![+]) {
             input.parse::<Token![+]>()?;
             ValueKind::Sum
@@ -24,11 +27,16 @@ pub(super) fn value(input: ParseStream<'_>) -> Result<Value> {
         };
         left = joined(join, left, term(input)?);
     }
+    Err(too_long(input))
+}
+
+fn too_long(input: ParseStream<'_>) -> Error {
+    input.error(format!("more than {LENGTH} operators in a row"))
 }
 
 fn term(input: ParseStream<'_>) -> Result<Value> {
     let mut left = factor(input)?;
-    loop {
+    for _ in 0..LENGTH {
         let join = if input.peek(Token![*]) {
             input.parse::<Token![*]>()?;
             ValueKind::Product
@@ -40,6 +48,7 @@ fn term(input: ParseStream<'_>) -> Result<Value> {
         };
         left = joined(join, left, factor(input)?);
     }
+    Err(too_long(input))
 }
 
 fn joined(join: fn(Box<Value>, Box<Value>) -> ValueKind, left: Value, right: Value) -> Value {
@@ -48,12 +57,21 @@ fn joined(join: fn(Box<Value>, Box<Value>) -> ValueKind, left: Value, right: Val
 }
 
 fn factor(input: ParseStream<'_>) -> Result<Value> {
-    if input.peek(Token![-]) {
+    let mut signs = Vec::new();
+    while input.peek(Token![-]) && !input.peek(Token![->]) {
         let minus: Token![-] = input.parse()?;
-        let inner = factor(input)?;
-        let place = Place::at(minus.spans[0]).to(inner.place);
-        return Ok(Value { kind: ValueKind::Negative(Box::new(inner)), place });
+        signs.push(minus.spans[0]);
+        if signs.len() > LENGTH {
+            return Err(too_long(input));
+        }
     }
+    Ok(signs.into_iter().rev().fold(power(input)?, |inner, minus| {
+        let place = Place::at(minus).to(inner.place);
+        Value { kind: ValueKind::Negative(Box::new(inner)), place }
+    }))
+}
+
+fn power(input: ParseStream<'_>) -> Result<Value> {
     let base = atom(input)?;
     if !input.peek(Token![^]) {
         return Ok(base);

@@ -6,20 +6,28 @@ use syn::{Result, Token};
 
 use super::ast::{Item, ResultItem, Scene};
 use super::items::{end, rest};
-use super::tokens::{comma_list, eat_word, name, semicolon};
+use super::tokens::{between, comma_list, eat_word, name, place_of, take};
+use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
-/// The methods whose parentheses hold loads and whose results are named.
+/// The methods that are carried out.
 pub(crate) const METHODS: [&str; 5] = ["position", "equilibrium", "superposition", "virtual_work", "verify"];
 /// The methods that are not carried out yet.
 pub(crate) const PLANNED: [&str; 6] = ["velocity", "acceleration", "motion", "sweep", "derivative", "inverse"];
 
-pub(super) fn scene(input: ParseStream<'_>) -> Result<Item> {
+pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let name_ = name(input)?;
     input.parse::<Token![:]>()?;
-    let method = name(input)?;
-    if !METHODS.contains(&method.text.as_str()) {
+    let mut method = name(input)?;
+    if !METHODS.contains(&method.text.as_str()) && !PLANNED.contains(&method.text.as_str()) {
+        if let Some(meant) = closest(&method.text, METHODS) {
+            let problem = format!("there is no method `{method}`");
+            slips.report(Diagnostic::new(method.place(), problem).help(format!("did you mean `{meant}`?")));
+            meant.clone_into(&mut method.text);
+        }
+    }
+    if !METHODS.contains(&method.text.as_str()) && !matches!(method.text.as_str(), "velocity" | "acceleration") {
         // Whether planned or unknown, the model says what is wrong with it.
-        rest(input)?;
+        rest(input);
         return Ok(Item::Scene(Scene { name: name_, method, loads: None, results: None }));
     }
     let mut loads = None;
@@ -31,29 +39,55 @@ pub(super) fn scene(input: ParseStream<'_>) -> Result<Item> {
     let mut results = None;
     if input.peek(Token![->]) {
         input.parse::<Token![->]>()?;
-        if !input.peek(Paren) {
-            return Err(input.error("expected the results in parentheses, as in `-> (T12)`"));
-        }
+        results = Some(result_list(input, slips)?);
+    }
+    Ok(Item::Scene(Scene { name: name_, method, loads, results }))
+}
+
+/// `( … )`; without parentheses it is clear what is meant, too.
+fn result_list(input: ParseStream<'_>, slips: &Sink) -> Result<Vec<ResultItem>> {
+    if input.peek(Paren) {
         let content;
         let _ = syn::parenthesized!(content in input);
-        results = Some(comma_list(&content, result)?);
+        return comma_list(&content, result);
     }
-    semicolon(input)?;
-    Ok(Item::Scene(Scene { name: name_, method, loads, results }))
+    let begin = input.fork();
+    let mut results = vec![result(input)?];
+    while input.peek(Token![,]) {
+        take(input);
+        results.push(result(input)?);
+    }
+    let written = between(&begin, input);
+    let text: Vec<String> = results.iter().map(shown).collect();
+    let place = place_of(&written).unwrap_or(Place::at(begin.span()));
+    slips.report(
+        Diagnostic::new(place, "the results of a scene stand in parentheses")
+            .help(format!("write `-> ({})`", text.join(", "))),
+    );
+    Ok(results)
+}
+
+fn shown(result: &ResultItem) -> String {
+    match result {
+        ResultItem::Name(name) => name.text.clone(),
+        ResultItem::Point(link, point) => format!("{link}.{point}"),
+        ResultItem::Planned { .. } => "…".into(),
+    }
 }
 
 fn result(input: ParseStream<'_>) -> Result<ResultItem> {
     let item = end(input)?;
+    let planned = |place, what| ResultItem::Planned { of: item.clone(), place, what };
     if eat_word(input, "along") {
-        name(input)?;
-        return Ok(ResultItem::Planned(item.place(), "a reaction resolved along a link"));
+        let place = item.place().to(name(input)?.place());
+        return Ok(planned(place, "a reaction resolved along a link"));
     }
     if eat_word(input, "about") {
-        end(input)?;
-        return Ok(ResultItem::Planned(item.place(), "a couple about another point"));
+        let place = item.place().to(end(input)?.place());
+        return Ok(planned(place, "a couple about another point"));
     }
     if item.point.is_none() && item.link.text == "error_bound" {
-        return Ok(ResultItem::Planned(item.place(), "the bound of the error"));
+        return Ok(planned(item.place(), "the bound of the error"));
     }
     Ok(match item.point {
         None => ResultItem::Name(item.link),

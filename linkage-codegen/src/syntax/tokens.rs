@@ -6,8 +6,9 @@ use syn::parse::ParseStream;
 use syn::{Error, Result};
 
 use super::ast::Name;
+use crate::diagnostics::Place;
 
-/// A name. Rust's keywords serve, but for those that cannot be written as raw identifiers.
+/// A name. Rust's keywords serve; the few that cannot be written as raw identifiers are refused where they are declared.
 pub(super) fn name(input: ParseStream<'_>) -> Result<Name> {
     let begin = input.fork();
     let Ok(ident) = input.call(Ident::parse_any) else {
@@ -16,16 +17,12 @@ pub(super) fn name(input: ParseStream<'_>) -> Result<Name> {
                 literal.span(),
                 format!("expected a name, found `{literal}`\nhelp: names begin with a letter"),
             ),
-            Ok(TokenTree::Group(group)) => Error::new(group.span_open(), "expected a name, found a bracket"),
+            Ok(TokenTree::Group(group)) => Error::new(group.span_open(), "expected a name before the bracket"),
             Ok(other) => Error::new(other.span(), format!("expected a name, found `{other}`")),
             Err(_) => begin.error("expected a name"),
         });
     };
-    let text = ident.unraw().to_string();
-    if matches!(text.as_str(), "self" | "Self" | "super" | "crate" | "_") {
-        return Err(Error::new(ident.span(), format!("`{text}` cannot be a name in Rust")));
-    }
-    Ok(Name { text, span: ident.span() })
+    Ok(Name::of(&ident))
 }
 
 /// The next token, if it is a word.
@@ -64,11 +61,26 @@ pub(super) fn comma_list<T>(input: ParseStream<'_>, one: fn(ParseStream<'_>) -> 
     Ok(all)
 }
 
-/// The `;` behind an item.
-pub(super) fn semicolon(input: ParseStream<'_>) -> Result<()> {
-    if input.peek(syn::Token![;]) {
-        input.parse::<syn::Token![;]>().map(drop)
-    } else {
-        Err(input.error("expected `;`"))
+/// Takes a token tree. `None` at the end.
+pub(super) fn take(input: ParseStream<'_>) -> Option<TokenTree> {
+    input.parse::<TokenTree>().ok()
+}
+
+/// What was read between two states of a stream.
+pub(super) fn between(begin: ParseStream<'_>, end: ParseStream<'_>) -> Vec<TokenTree> {
+    let mut read = Vec::new();
+    let ahead = begin.fork();
+    while ahead.cursor() != end.cursor() {
+        let Some(token) = take(&ahead) else { break };
+        read.push(token);
     }
+    read
+}
+
+/// Where tokens stand.
+pub(super) fn place_of(tokens: &[TokenTree]) -> Option<Place> {
+    let (first, last) = (tokens.first()?, tokens.last()?);
+    let open = if let TokenTree::Group(group) = first { group.span_open() } else { first.span() };
+    let close = if let TokenTree::Group(group) = last { group.span_close() } else { last.span() };
+    Some(Place::at(open).to(Place::at(close)))
 }

@@ -23,8 +23,8 @@ pub(super) fn rows_of(model: &Model, joint: JointId) -> usize {
     joint_rows(model, &graph, &Free { model, graph: &graph }, joint).len()
 }
 
-/// Whether a group's constraints are independent at some pose.
-pub(super) fn is_regular(model: &Model, group: &Group) -> bool {
+/// How many of a group's constraints are independent at generic poses.
+pub(super) fn rank_of(model: &Model, group: &Group) -> usize {
     let graph = Graph::new(model.graph.scalar());
     let free = Free { model, graph: &graph };
     let mut rows: Vec<Row> =
@@ -35,13 +35,15 @@ pub(super) fn is_regular(model: &Model, group: &Group) -> bool {
             Input::Drive(drive) => drive_row(model, &graph, &free, *drive),
         });
     }
-    (0..POSES).any(|seed| {
+    let full = 3 * group.links.len();
+    let mut best = 0;
+    for seed in 0..POSES {
         let pose = Pose::random(model, seed);
         let value = |id| graph.evaluate(id, &|symbol| pose.value(symbol), &mut HashMap::new());
         let matrix: Vec<Vec<f64>> = rows
             .iter()
             .map(|row| {
-                let mut line = vec![0.0; 3 * group.links.len()];
+                let mut line = vec![0.0; full];
                 for exerted in &row.exerts {
                     if let Some(column) = group.links.iter().position(|l| *l == exerted.on) {
                         line[3 * column] += value(exerted.x);
@@ -52,8 +54,12 @@ pub(super) fn is_regular(model: &Model, group: &Group) -> bool {
                 line
             })
             .collect();
-        rank(matrix) == 3 * group.links.len()
-    })
+        best = best.max(rank(matrix));
+        if best == full {
+            break;
+        }
+    }
+    best
 }
 
 /// Dimensions that stand for any.

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use super::matching::Unbalanced;
-use super::{Input, generic};
+use super::{Constraint, Input, generic};
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::model::Model;
-use crate::model::ids::LinkId;
+use crate::model::ids::{GROUND, LinkId};
 
 /// Reports a linkage with more or fewer drives than it has freedoms.
 pub(super) fn check(model: &Model, sink: &Sink) -> bool {
@@ -18,56 +18,64 @@ pub(super) fn check(model: &Model, sink: &Sink) -> bool {
     }
     let mobility = i64::try_from(freedoms).unwrap_or(0) - i64::try_from(constraints).unwrap_or(0);
     let counts = format!(
-        "{} moving links with 3 freedoms each, less {} constraints of {} joints: mobility {mobility}; drives: {drives}",
-        model.links.len() - 1,
-        constraints,
-        model.joints.len(),
+        "3 freedoms for each of {}, less {} of {}: mobility {mobility}, and {}",
+        count(model.links.len() - 1, "moving link"),
+        count(constraints, "constraint"),
+        count(model.joints.len(), "joint"),
+        count(drives, "drive"),
     );
-    let place = model.drives.last().map_or(model.name.place(), |d| d.name.place());
+    let last = model.drives.last().map_or(model.name.place(), |d| d.name.place());
     let drives = i64::try_from(drives).unwrap_or(0);
-    let found = if mobility > drives {
+    let found = if mobility <= 0 {
+        Diagnostic::new(model.name.place(), "the linkage cannot move: its joints hold it fast")
+            .note(counts)
+            .note("should it move in spite of that, because of special dimensions such as parallel cranks of equal length, \
+                   then one of its joints is redundant, and the reactions have no single answer")
+            .help("release a joint: take one out, or let a link end in a slider instead of a pin")
+    } else if mobility < drives {
+        let surplus = drives - mobility;
+        Diagnostic::new(last, format!("the linkage is over-driven by {}", counted(surplus, "drive")))
+            .note(counts)
+            .help(format!("take {} out", if surplus == 1 { "a drive".into() } else { counted(surplus, "drive") }))
+    } else {
         let problem = match drives {
             0 => "nothing drives the linkage".to_owned(),
-            _ => format!(
-                "the linkage keeps {} freedom{} beside its drives",
-                mobility - drives,
-                plural(mobility - drives)
-            ),
+            _ => format!("the drives leave {} of the linkage loose", counted(mobility - drives, "freedom")),
         };
-        let undriven =
-            model.joints.iter().enumerate().find(|(index, _)| model.drives.iter().all(|d| d.joint.index() != *index));
-        let help = undriven.map_or_else(String::new, |(_, joint)| {
-            format!("drive another joint, as in `drive q: {};`, or add a joint", joint.name)
-        });
-        Diagnostic::new(place, problem).help(help)
-    } else if mobility <= 0 {
-        Diagnostic::new(place, "the linkage cannot move: its joints hold it fast")
-            .help("release a joint: take one out, or let a link end in a slider instead of a pin")
-            .note("should it move in spite of that, because of special dimensions such as parallel cranks of equal length, \
-                   then one of its joints is redundant and its reactions have no single answer")
-    } else {
-        Diagnostic::new(place, format!("{} too many: the linkage is over-driven", count(drives - mobility, "drive")))
-            .help("take a drive out")
+        let found = Diagnostic::new(last, problem).note(counts);
+        let undriven = model.joints.iter().enumerate().find(|(index, _)| !is_driven(model, *index));
+        match undriven {
+            Some((_, joint)) => found.help(format!(
+                "drive {} joint, as in `drive q: {};`, or hold the linkage by a further joint",
+                if drives == 0 { "a" } else { "another" },
+                joint.name
+            )),
+            None => found.help("hold the linkage by a further joint"),
+        }
     };
-    sink.report(found.note(counts));
+    sink.report(found);
     false
 }
 
-fn plural(n: i64) -> &'static str {
-    if n == 1 { "" } else { "s" }
+fn is_driven(model: &Model, joint: usize) -> bool {
+    model.drives.iter().any(|drive| drive.joint.index() == joint)
 }
 
-fn count(n: i64, noun: &str) -> String {
-    format!("{n} {noun}{}", plural(n))
+fn counted(n: i64, noun: &str) -> String {
+    count(usize::try_from(n).unwrap_or(0), noun)
+}
+
+fn count(n: usize, noun: &str) -> String {
+    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
 /// The count is right on the whole, but not everywhere.
-pub(super) fn unbalanced(model: &Model, inputs: &[Input], unbalanced: &Unbalanced) -> Diagnostic {
+pub(super) fn unbalanced(model: &Model, all: &[Constraint], inputs: &[Input], found: &Unbalanced) -> Diagnostic {
     let names = |links: &BTreeSet<LinkId>| {
         let names: Vec<&str> = links.iter().map(|l| model.link(*l).name.text.as_str()).collect();
         list(&names)
     };
-    let (tight, loose) = (names(&unbalanced.overdetermined), names(&unbalanced.loose));
+    let (tight, loose) = (names(&found.overdetermined), names(&found.loose));
     let unknown = inputs.iter().rev().find_map(|input| match input {
         Input::Unknown(unknown) => Some(model.unknown(*unknown)),
         Input::Drive(_) => None,
@@ -75,12 +83,44 @@ pub(super) fn unbalanced(model: &Model, inputs: &[Input], unbalanced: &Unbalance
     if let Some(unknown) = unknown {
         return Diagnostic::new(
             unknown.place,
-            format!("the unknowns cannot hold the linkage: {tight} would be held twice, and {loose} not at all"),
+            format!("the unknowns cannot hold the linkage: they would hold {tight} twice, and {loose} not at all"),
         )
         .help("let each unknown act on links that another drive moves");
     }
-    let place = unbalanced.overdetermined.iter().next().map_or(model.name.place(), |l| model.link(*l).name.place());
-    Diagnostic::new(place, format!("the count is right, but {tight} is over-constrained and {loose} is loose"))
-        .help("move a joint or a drive from the first to the second")
-        .note("each link needs three constraints of its own; those of the first part cannot hold the second")
+    // Inside the tight part, and on the loose one.
+    let inside = all.iter().filter(|c| c.links.iter().all(|link| found.overdetermined.contains(link))).count();
+    let on = all.iter().filter(|c| c.links.iter().any(|link| found.loose.contains(link))).count();
+    let freedoms = |links: &BTreeSet<LinkId>| count(3 * links.len(), "freedom");
+    let problem = format!(
+        "the count is right on the whole, but {tight} {} held twice, and {loose} {} loose",
+        are(&found.overdetermined),
+        are(&found.loose)
+    );
+    let drive = model.drives.iter().rev().find(|drive| {
+        let ends = model.joint(drive.joint).ends();
+        ends.iter().all(|end| end.link == GROUND || found.overdetermined.contains(&end.link))
+    });
+    let joint = model.joints.iter().enumerate().find(|(index, joint)| {
+        !is_driven(model, *index)
+            && joint.ends().iter().all(|end| end.link == GROUND || found.loose.contains(&end.link))
+    });
+    let first = found.overdetermined.iter().next().map_or(model.name.place(), |l| model.link(*l).name.place());
+    let place = drive.map_or(first, |drive| drive.name.place());
+    let help = match (drive, joint) {
+        (Some(drive), Some((_, joint))) => {
+            format!("drive a joint of the loose links instead, as in `drive {}: {};`", drive.name, joint.name)
+        }
+        _ => "move a joint or a drive from the first links to the second".to_owned(),
+    };
+    Diagnostic::new(place, problem)
+        .note(format!(
+            "constraints and drives: {inside} for the {} of the first, {on} for the {} of the second",
+            freedoms(&found.overdetermined),
+            freedoms(&found.loose)
+        ))
+        .help(help)
+}
+
+fn are(links: &BTreeSet<LinkId>) -> &'static str {
+    if links.len() == 1 { "is" } else { "are" }
 }

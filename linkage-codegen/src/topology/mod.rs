@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId, UnknownId};
-use crate::model::{JointKind, Model, UnknownKind};
+use crate::model::{JointKind, Model, Unknown, UnknownKind};
 
 /// What closes a decomposition beside the joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -138,7 +138,7 @@ fn decompose(model: &Model, inputs: &[Input], sink: &Sink) -> Option<Vec<Group>>
     let matched = match matching::assign(model.links.len(), &graph) {
         Ok(matched) => matched,
         Err(unbalanced) => {
-            sink.report(mobility::unbalanced(model, inputs, &unbalanced));
+            sink.report(mobility::unbalanced(model, &constraints, inputs, &unbalanced));
             return None;
         }
     };
@@ -146,9 +146,12 @@ fn decompose(model: &Model, inputs: &[Input], sink: &Sink) -> Option<Vec<Group>>
         .into_iter()
         .map(|links| group(model, &constraints, &matched, links))
         .collect();
-    let singular = groups.iter().find(|group| !generic::is_regular(model, group));
-    if let Some(group) = singular {
-        sink.report(report_singular(model, group));
+    let singular = groups.iter().find_map(|group| {
+        let rank = generic::rank_of(model, group);
+        (rank < 3 * group.links.len()).then_some((group, rank))
+    });
+    if let Some((group, rank)) = singular {
+        sink.report(singular_group(model, group, rank));
         return None;
     }
     Some(groups)
@@ -174,31 +177,63 @@ fn group(model: &Model, constraints: &[Constraint], matched: &[LinkId], links: V
 }
 
 /// The count is right, and yet the group's constraints are dependent at every pose.
-fn report_singular(model: &Model, group: &Group) -> Diagnostic {
+fn singular_group(model: &Model, group: &Group, rank: usize) -> Diagnostic {
     let names: Vec<&str> = group.links.iter().map(|l| model.link(*l).name.text.as_str()).collect();
-    let joints = group.outer.iter().chain(&group.inner).map(|j| model.joint(*j).name.text.as_str()).collect::<Vec<_>>();
     let unknown = group.inputs.iter().find_map(|input| match input {
         Input::Unknown(unknown) => Some(model.unknown(*unknown)),
         Input::Drive(_) => None,
     });
-    match unknown.filter(|u| !matches!(u.kind, UnknownKind::Drive(_))) {
-        Some(unknown) => Diagnostic::new(
-            unknown.place,
-            format!(
-                "the unknown `{}` cannot hold the linkage: at no pose does it work on the motion of {}",
-                unknown.name,
-                list(&names)
-            ),
-        )
-        .note("the linkage can move without moving its point of action, so no size of it balances a load")
-        .help("let it act on a coordinate that changes when the drive moves"),
-        None => {
-            let place = model.link(group.links[0]).name.place();
-            Diagnostic::new(
-                place,
-                format!("{} cannot be placed: the joints {} are singular together at every pose", list(&names), list(&joints)),
-            )
-            .note("there are as many constraints as freedoms, but some repeat each other: here the linkage is over-constrained, and it stays loose elsewhere")
-        }
+    if let Some(unknown) = unknown.filter(|u| !matches!(u.kind, UnknownKind::Drive(_))) {
+        return powerless(model, unknown, &names);
     }
+    let joints: Vec<JointId> = group.outer.iter().chain(&group.inner).copied().collect();
+    let joint_names: Vec<&str> = joints.iter().map(|j| model.joint(*j).name.text.as_str()).collect();
+    let freedoms = 3 * group.links.len();
+    let place = model.link(group.links[0]).name.place();
+    let problem = format!("the joints {} cannot place {} at any pose", list(&joint_names), list(&names));
+    let found = Diagnostic::new(place, problem).note(format!(
+        "{freedoms} constraints for {freedoms} freedoms, but only {rank} of them independent: the linkage is held twice here, and loose elsewhere"
+    ));
+    match pinned_twice(model, &joints) {
+        Some([first, second]) => {
+            let [a, b] = model.joint(first).ends().map(|end| &model.link(end.link).name);
+            let (first, second) = (&model.joint(first).name, &model.joint(second).name);
+            found.help(format!(
+                "the pins `{first}` and `{second}` make one rigid body of `{a}` and `{b}`: declare it as one link, or take one pin out"
+            ))
+        }
+        None => found.help("take out a joint that repeats another one, or turn a slider so that it guides another way"),
+    }
+}
+
+/// Two pins between the same two links.
+fn pinned_twice(model: &Model, joints: &[JointId]) -> Option<[JointId; 2]> {
+    let pinned = |joint: JointId| {
+        let joint = model.joint(joint);
+        let [a, b] = joint.ends().map(|end| end.link);
+        matches!(joint.kind, JointKind::Revolute).then_some([a.min(b), a.max(b)])
+    };
+    joints.iter().enumerate().find_map(|(index, first)| {
+        let links = pinned(*first)?;
+        let second = joints[index + 1..].iter().find(|second| pinned(**second) == Some(links))?;
+        Some([*first, *second])
+    })
+}
+
+/// An unknown that does no work at any pose.
+fn powerless(model: &Model, unknown: &Unknown, links: &[&str]) -> Diagnostic {
+    let name = &unknown.name;
+    let reason = match unknown.kind {
+        UnknownKind::Torque(from, to) => {
+            let (from, to) = (&model.link(from).name, &model.link(to).name);
+            format!("the linkage moves without turning `{to}` against `{from}`")
+        }
+        UnknownKind::Force { at, .. } => {
+            format!("the linkage moves without moving `{}` along its line", model.end_name(at))
+        }
+        UnknownKind::Drive(_) => "the linkage moves without it".to_owned(),
+    };
+    Diagnostic::new(unknown.place, format!("the unknown `{name}` cannot hold {} at any pose", list(links)))
+        .note(format!("{reason}: no size of it balances a load"))
+        .help("let it act on a coordinate that changes when the drive moves")
 }

@@ -26,10 +26,13 @@ pub struct General<T> {
 
 /// The unreduced equations of a linkage at the pose of its own solution.
 pub fn equations<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<General<T>, Fault> {
+    Ok(equations_at(linkage, arguments, &pose::<T>(linkage, arguments)?))
+}
+
+/// The unreduced equations of a linkage at a pose, from what it keeps.
+pub fn equations_at<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &HashMap<NodeId, T>) -> General<T> {
     let graph = &linkage.model.graph;
-    let kept = pose::<T>(linkage, arguments)?;
-    // Evaluation starts from what the pose keeps.
-    let mut placed: HashMap<NodeId, T> = kept;
+    let mut placed: HashMap<NodeId, T> = kept.clone();
     let known = |symbol: Symbol| T::exactly(arguments.of(symbol));
     let mut coordinates: HashMap<Symbol, T> = HashMap::new();
     for (index, link) in linkage.plan.links.iter().enumerate() {
@@ -63,7 +66,7 @@ pub fn equations<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<
     let residuals = residuals.map(|node| graph.evaluate(node, &known, &mut done)).collect();
     let matrix = (0..lines).map(|line| columns.iter().map(|column| column[line].clone()).collect()).collect();
     let sources = linkage.system.rows.iter().map(|row| row.source).collect();
-    Ok(General { matrix, cases, residuals, sources })
+    General { matrix, cases, residuals, sources }
 }
 
 impl<T: Number> General<T> {
@@ -80,9 +83,9 @@ impl<T: Number> General<T> {
         sum
     }
 
-    /// The unknowns by the paths that scenes use: `B.x`, `C.normal`, `C.couple`, `T12`.
-    pub fn named(&self, linkage: &Linkage, values: Vec<T>) -> HashMap<String, T> {
-        let names = self.sources.iter().map(|source| match source {
+    /// The unknowns' names, as the paths that scenes use: `B.x`, `C.normal`, `C.couple`, `T12`.
+    pub fn names(&self, linkage: &Linkage) -> Vec<String> {
+        let name = |source: &Source| match source {
             Source::Joint(joint, component) => {
                 let part = match component {
                     Component::X => "x",
@@ -94,8 +97,13 @@ impl<T: Number> General<T> {
             }
             Source::Unknown(unknown) => linkage.model.unknown(*unknown).name.clone(),
             Source::Drive(drive) => linkage.model.drive(*drive).name.text.clone(),
-        });
-        names.zip(values).collect()
+        };
+        self.sources.iter().map(name).collect()
+    }
+
+    /// Values of the unknowns by their names.
+    pub fn named(&self, linkage: &Linkage, values: Vec<T>) -> HashMap<String, T> {
+        self.names(linkage).into_iter().zip(values).collect()
     }
 }
 

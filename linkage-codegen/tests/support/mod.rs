@@ -1,8 +1,12 @@
 //! What the tests of the compiler share.
-#![allow(dead_code, reason = "each test uses its own part")]
+#![allow(dead_code, unreachable_pub, reason = "each test uses its own part")]
+#![allow(clippy::missing_panics_doc, clippy::must_use_candidate, reason = "tests panic where something is wrong")]
 
+pub mod examples;
+pub mod families;
 pub mod general;
 pub mod linkages;
+pub mod measures;
 pub mod numbers;
 
 use std::collections::HashMap;

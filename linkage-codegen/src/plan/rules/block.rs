@@ -484,13 +484,13 @@ fn known_ends<'m>(balance: &Balance<'m, '_>, parts: &Parts<'_, 'm>, member: &Mem
         // Along the slide the pin alone holds the loads; across it the guide does, and their moment about the runner.
         let near = Framed { components: Vector::new(-total.x, graph.zero()), axes };
         let held = Framed { components: Vector::new(graph.zero(), total.y), axes };
-        let moment = balance.moment(member.link, parts.place(member.far, member.link), graph.one());
+        let moment = balance.moment(member.link, parts.place(member.near, member.link), graph.one());
         let arm = parts.slide_arm(member);
         let guide = parts.other(member.far, member.link);
         let acts = vec![
             parts.passed_on(member.near, member.link, near),
             Act::Force(guide, parts.place(member.far, guide), held),
-            Act::Couple(guide, moment + arm.cross(near.components)),
+            Act::Couple(guide, moment + arm.x * total.y),
         ];
         return MemberEnds { near, loads, acts };
     }
@@ -524,7 +524,7 @@ fn put_member<'m>(
             balance.push(member.link, parts.place(member.near, member.link), near);
         }
         put_pin(balance, parts, member.near, member.link, near);
-        super::slide::guide(balance, member.far, member.link, across);
+        super::slide::guide(balance, member.far, member.link, across, parts.place(member.near, member.link));
     } else {
         let near = put_pin(balance, parts, member.near, member.link, near);
         let far = ends.loads.plus(&near, ground).opposite();

@@ -138,7 +138,8 @@ impl Rule for Rrp {
         // The pin puts its part on the slider, whose moments give the couple of the guide.
         let force = balance.pin(dyad.inner, dyad.rod, force);
         balance.pin(dyad.outer, dyad.rod, loads.plus(&force, ground).opposite());
-        super::slide::guide(balance, dyad.slide, dyad.slider, load.y - side);
+        let pin = balance.placement.point(dyad.end(dyad.inner, dyad.slider));
+        super::slide::guide(balance, dyad.slide, dyad.slider, load.y - side, pin);
         Ok(())
     }
 
@@ -199,17 +200,16 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], outer));
     };
     if !matches!(closure.side, Side::Ahead | Side::Behind) || closure.of != [dyad.outer] {
-        let problem = format!(
-            "`{inner}` closes {} along the slide `{}`, from the joint `{outer}`",
-            dyad.group_name(),
-            dyad.joint_name(dyad.slide)
-        );
-        return Err(Diagnostic::new(closure.place, problem).help(format!(
-            "say whether it lies ahead of that joint or behind it\nassemble {inner}: ahead({outer});\nassemble {inner}: behind({outer});"
-        )));
+        let slide = dyad.joint_name(dyad.slide);
+        let lies = format!("along the slide `{slide}`, `{inner}` lies ahead of `{outer}` or behind it");
+        let across = matches!(closure.side, Side::Left | Side::Right);
+        let problem =
+            if across { format!("`{}` is for dyads of three pins: {lies}", closure.side.word()) } else { lies };
+        return Err(Diagnostic::new(closure.side_place, problem)
+            .help(format!("choose one of\nassemble {inner}: ahead({outer});\nassemble {inner}: behind({outer});")));
     }
     if closure.smooth_at.is_some() {
-        return Err(Diagnostic::new(closure.place, "a dyad with a slider does not fold")
+        return Err(Diagnostic::new(closure.smooth_place, "a dyad with a slider does not fold")
             .help("`smooth` is for dyads of three pins: leave it out"));
     }
     let orientation = assembly.placement.along_slide(dyad.slide, dyad.slider);

@@ -8,8 +8,8 @@
 //! u₂ = [−(D² − r₁² + r₂²) d + K d⊥] / (2 r₂ D²)                      direction Q → B
 //! ```
 //!
-//! each followed by one step `u ← u (3 − u·u)/2` towards unit size. `sin μ = u₁ × u₂` is the pivot of velocities and forces, and the
-//! closure knows it better than the directions do.
+//! each followed by one step `u ← u (3 − u·u)/2` towards unit size. `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near
+//! its zeros the closure knows it better than the directions do.
 //!
 //! Forces, by the textbooks' resolution along and across the links: with `m₁`, `m₂` the moments of the loads about P and Q, the
 //! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`.
@@ -240,8 +240,8 @@ struct Closing<'m> {
     d2: Expr<'m>,
     /// `K = ±√(p q)`.
     k: Expr<'m>,
-    /// `sin μ = K/(2 r₁ r₂)`, zero where it is no larger than its rounding.
-    pivot: Expr<'m>,
+    /// What must exceed what for `sin μ` to be more than rounding.
+    significant: Vec<(Expr<'m>, Expr<'m>)>,
 }
 
 fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) -> RuleResult {
@@ -292,7 +292,18 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) 
     }
     assembly.placement.connect(dyad.inner);
     let [u1, u2] = dyad.legs.map(|leg| dyad.direction(&assembly.placement, leg));
-    let pivot = closing.pivot.held();
+    let sine = if ratio_is_at_most(8, r1, r2) {
+        closing.k / (2 * (r1 * r2))
+    } else {
+        // The direction of a much shorter link carries the rounding of the longer one, and forces balance along the directions as they
+        // are.
+        u1.cross(u2)
+    };
+    let [n1, n2] = dyad.legs.map(|leg| dyad.length_name(leg));
+    let sine = sine.named(dyad.pivot_name(), format!("sin μ at {name} = ±K_{name}/(2 {n1} {n2})"));
+    let pivot = closing.significant.iter().fold(sine, |pivot, (value, limit)| pivot.where_above(*value, *limit));
+    let pivot =
+        pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding").held();
     assembly.pivots.state(u1, u2, Some(pivot), None);
     assembly.dyads.push(DyadPivot { joint: dyad.inner, sine: pivot });
     Ok(())
@@ -305,14 +316,21 @@ fn check_closure(dyad: &PinnedDyad<'_>, closure: &Closure, of: &str) -> RuleResu
         return Ok(());
     }
     let joint = dyad.joint_name(dyad.inner);
-    let problem = format!("`{joint}` closes {} between the joints {}", dyad.group_name(), of.replace(" -> ", " and "));
-    Err(Diagnostic::new(closure.place, problem)
-        .help(format!("say on which side of the line between them it lies\nassemble {joint}: left({of});\nassemble {joint}: right({of});")))
+    let lies = format!("`{joint}` lies left or right of the line `{of}`");
+    let along = matches!(closure.side, Side::Ahead | Side::Behind);
+    let problem =
+        if along { format!("`{}` is for dyads with a slider: here {lies}", closure.side.word()) } else { lies };
+    let found = Diagnostic::new(closure.side_place, problem);
+    let same = (closure.of == [outer[1], outer[0]]).then(|| closure.side.opposite());
+    Err(match same {
+        Some(side) => found.help(format!("the same side is\nassemble {joint}: {}({of});", side.word())),
+        None => found.help(format!("choose one of\nassemble {joint}: left({of});\nassemble {joint}: right({of});")),
+    })
 }
 
 fn not_folding(dyad: &PinnedDyad<'_>, closure: &Closure, why: &str) -> Diagnostic {
     let joint = dyad.joint_name(dyad.inner);
-    Diagnostic::new(closure.place, format!("the dyad at `{joint}` does not fold: {why}"))
+    Diagnostic::new(closure.smooth_place, format!("the dyad at `{joint}` does not fold: {why}"))
         .help("without a fold there is nothing to go through smoothly: leave `smooth` out")
         .note("a dyad folds with its driver where the lengths of its links and of the two arms satisfy r₁ + r₂ = a + b or |r₁ − r₂| = |a − b|, exactly")
 }
@@ -350,6 +368,34 @@ fn fold_margins<'m>(arms: &HalfAngle<'m>, r1: Expr<'m>, r2: Expr<'m>) -> (Expr<'
     ((s - sum) * (s + sum), (difference - m) * (difference + m))
 }
 
+/// `p` or `q`: how far the outer pins are from one of the distances at which the dyad is stretched or folded.
+#[derive(Clone, Copy)]
+struct Margin<'m> {
+    value: Expr<'m>,
+    /// What rounding could have made of a margin of zero.
+    rounding: Expr<'m>,
+    /// Whether it is `4ab cos²(ψ/2)` or `4ab sin²(ψ/2)` alone: then the dyad folds with its driver.
+    folds: bool,
+}
+
+impl<'m> Margin<'m> {
+    /// `k + 4ab cos²(ψ/2)` or `k + 4ab sin²(ψ/2)`: a positive constant keeps it from zero, of a negative one the rounding counts.
+    fn by_half(k: Expr<'m>, square: Expr<'m>) -> Self {
+        let graph = k.graph();
+        let rounding = if k.sign() == Some(-1) { graph.epsilons(4) * k.abs() } else { graph.zero() };
+        Self { value: k + square, rounding, folds: k.is_zero() }
+    }
+
+    fn named(self, name: String, equation: String) -> Self {
+        Self { value: self.value.named(name, equation), ..self }
+    }
+
+    /// Checked: below its rounding the dyad cannot be assembled.
+    fn assembled(self, dyad: &PinnedDyad<'m>, far: bool, d2: Expr<'m>) -> Self {
+        Self { value: self.value.require_at_least(self.value, -self.rounding, gap(dyad, self.value, far, d2)), ..self }
+    }
+}
+
 fn by_half_angle<'m>(
     dyad: &PinnedDyad<'m>,
     closure: &Closure,
@@ -364,14 +410,12 @@ fn by_half_angle<'m>(
     let span = 4 * (arms.a * arms.b);
     let (sum, difference) = (dyad.sum_name(), dyad.difference_name());
     let spread = (span * arms.sine_squared()).named(format!("spread_{joint}"), "4ab sin²(ψ/2), a and b the arms of ψ");
-    let p = (kp + span * c.squared()).named(format!("p_{joint}"), format!("{sum}² − D2_{joint}, as k + 4ab cos²(ψ/2)"));
-    let q = (kq + spread).named(format!("q_{joint}"), format!("D2_{joint} − {difference}², as k + spread_{joint}"));
     let d = arms.separation();
     let d = if swapped { -d } else { d }.named(&format!("d_{joint}"), &dyad.separation_meaning());
     // ψ itself is rounded: at half a turn, cos(ψ/2) of the rounded angle is not zero.
     let theta = graph.symbol(crate::graph::Symbol::Drive(arms.drive)).abs();
     let fixed = graph.constant(&arms.phase.abs().add(&Number::one()));
-    let rounding = graph.epsilons(2) * (theta + fixed);
+    let angle_rounding = graph.epsilons(2) * (theta + fixed);
     let apart = arms.b - arms.a;
     let d2 = (apart.squared() + spread).named(format!("D2_{joint}"), format!("d·d = (b − a)² + spread_{joint}"));
     let d2 = if apart.sign().is_some_and(|s| s != 0) || (r1 - r2).sign().is_some_and(|s| s != 0) {
@@ -379,71 +423,54 @@ fn by_half_angle<'m>(
         d2.known_positive()
     } else {
         let failure = Failure::CoincidentPivots { group: dyad.group_name(), joint: joint.into() };
-        d2.require_above(d2, (rounding * (arms.a + arms.b)).squared(), failure)
+        d2.require_above(d2, (angle_rounding * (arms.a + arms.b)).squared(), failure)
     };
-    // Where k is exactly zero, the root of p or q is that of its only term, and in a smooth motion keeps its sign through the fold.
+    // With arms much longer than the dyad, cos² would bring the rounding of their lengths into p; D² does not.
+    let rounding = graph.epsilons(4) * (r1 + r2).squared();
+    let p = if (4 * kp + (r1 + r2).squared()).sign() == Some(1) {
+        let p = Margin::by_half(kp, span * c.squared());
+        p.named(format!("p_{joint}"), format!("{sum}² − D2_{joint}, as k + 4ab cos²(ψ/2)"))
+    } else {
+        let p = Margin { value: (r1 + r2).squared() - d2, rounding, folds: false };
+        p.named(format!("p_{joint}"), format!("{sum}² − D2_{joint}"))
+    };
+    let q = if kq.value().is_some() {
+        let q = Margin::by_half(kq, spread);
+        q.named(format!("q_{joint}"), format!("D2_{joint} − {difference}², as k + spread_{joint}"))
+    } else {
+        let q = Margin { value: d2 - (r1 - r2).squared(), rounding, folds: false };
+        q.named(format!("q_{joint}"), format!("D2_{joint} − {difference}²"))
+    };
     let smooth = closure.smooth_at.is_some();
-    let folds = [kp.is_zero(), kq.is_zero()];
-    if smooth && folds == [false, false] {
+    if smooth && !p.folds && !q.folds {
         return Err(not_folding(dyad, closure, "its lengths leave a gap"));
     }
-    let (p, q) = (assembled(dyad, p, kp, true, d2), assembled(dyad, q, kq, false, d2));
-    let signed = |part: Expr<'m>| {
-        if smooth { part } else { part.abs() }
+    let (p, q) = (p.assembled(dyad, true, d2), q.assembled(dyad, false, d2));
+    // Where a margin is a square alone, its root is that of its only term, and in a smooth motion keeps its sign through the fold.
+    let root_of = |margin: Margin<'m>, half: Expr<'m>| match (margin.folds, smooth) {
+        (true, true) => (half, span),
+        (true, false) => (half.abs(), span),
+        (false, _) => (margin.value.non_negative(), graph.one()),
     };
-    let root_span = span.sqrt();
-    let root = match folds {
-        [true, true] => signed(c) * signed(s),
-        [true, false] => signed(c) * q.non_negative().sqrt(),
-        [false, true] => signed(s) * p.non_negative().sqrt(),
-        [false, false] => (p.non_negative() * q.non_negative()).sqrt(),
+    let ((from_p, p_factor), (from_q, q_factor)) = (root_of(p, c), root_of(q, s));
+    let root = match (p.folds, q.folds) {
+        (true, true) => from_p * from_q,
+        (true, false) => from_p * from_q.sqrt(),
+        (false, true) => from_q * from_p.sqrt(),
+        (false, false) => (from_p * from_q).sqrt(),
     };
-    // A factor of p or q that is a square has been taken out of its root.
-    let factor = match folds {
-        [true, true] => span,
-        [false, false] => graph.one(),
-        _ => root_span,
-    };
+    let factor = (p_factor * q_factor).sqrt();
     let root = root.named(format!("root_{joint}"), format!("√(p_{joint} q_{joint}) but for constant factors"));
-    let sign = side_sign(dyad, closure, arms, folds)?;
+    let sign = side_sign(dyad, closure, arms, [p.folds, q.folds])?;
     let k = sign * (factor * root).named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
-    let sine = sine_of(dyad, factor * root, sign);
-    let mut pivot = sine;
-    for (part, fold, value, k) in [(c, folds[0], p, kp), (s, folds[1], q, kq)] {
-        pivot = if fold {
-            pivot.where_above(part.abs().named(format!("fold_{joint}"), "distance from the fold"), rounding)
+    let significant = [(p, c), (q, s)].map(|(margin, half)| {
+        if margin.folds {
+            (half.abs().named(format!("fold_{joint}"), "distance from the fold"), angle_rounding)
         } else {
-            pivot.where_above(value, fold_rounding(dyad, k))
-        };
-    }
-    let pivot = pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding");
-    Ok(Closing { d, d2, k, pivot })
-}
-
-/// `sin μ = ±K/(2 r₁ r₂)`.
-fn sine_of<'m>(dyad: &PinnedDyad<'m>, k: Expr<'m>, sign: i64) -> Expr<'m> {
-    let [r1, r2] = dyad.legs.map(|leg| dyad.length(leg));
-    let [n1, n2] = dyad.legs.map(|leg| dyad.length_name(leg));
-    let joint = dyad.joint_name(dyad.inner);
-    sign * (k / (2 * (r1 * r2))).named(dyad.pivot_name(), format!("sin μ at {joint} = K_{joint}/(2 {n1} {n2})"))
-}
-
-/// The rounding of `p` or `q` in the half-angle form: that of its constant, of which a positive one has none that matters.
-fn fold_rounding<'m>(dyad: &PinnedDyad<'m>, k: Expr<'m>) -> Expr<'m> {
-    let graph = k.graph();
-    match k.sign() {
-        Some(1) => graph.zero(),
-        Some(_) => graph.epsilons(4) * k.abs(),
-        None => {
-            let [r1, r2] = dyad.legs.map(|leg| dyad.length(leg));
-            graph.epsilons(4) * (r1 + r2).squared()
+            (margin.value, margin.rounding)
         }
-    }
-}
-
-/// `p` or `q`, checked: below its rounding the dyad cannot be assembled.
-fn assembled<'m>(dyad: &PinnedDyad<'m>, value: Expr<'m>, k: Expr<'m>, far: bool, d2: Expr<'m>) -> Expr<'m> {
-    value.require_at_least(value, -fold_rounding(dyad, k), gap(dyad, value, far, d2))
+    });
+    Ok(Closing { d, d2, k, significant: significant.to_vec() })
 }
 
 /// The failure to assemble, with the gap: how much too far apart (`p < 0`) or too close together (`q < 0`) the outer pins are.
@@ -464,13 +491,19 @@ fn side_sign(
     let side = if closure.side == Side::Left { 1 } else { -1 };
     let Some(at) = closure.smooth_at else { return Ok(side) };
     let Some(at) = dyad.model.graph.constant_value(at) else {
-        return Err(Diagnostic::new(closure.place, "the angle at which a smooth closure starts must be a constant"));
+        return Err(Diagnostic::new(
+            closure.smooth_place,
+            "the angle at which a smooth motion starts must be a constant",
+        ));
     };
     let (cosine, sine) = arms.half_at(&at);
     let sign = |part: &Number, counts: bool| if counts { i64::from(part.signum()) } else { 1 };
     match sign(&cosine, folds[0]) * sign(&sine, folds[1]) {
-        0 => Err(Diagnostic::new(closure.place, "at this angle the linkage is folded: it has no side there")
-            .help("state the side at an angle away from the folds")),
+        0 => Err(Diagnostic::new(
+            closure.smooth_place,
+            format!("at this angle the dyad is folded: `{}` is on neither side", dyad.joint_name(dyad.inner)),
+        )
+        .help("state the side at an angle away from the folds")),
         sign => Ok(side * sign),
     }
 }
@@ -514,10 +547,7 @@ fn by_distance<'m>(dyad: &PinnedDyad<'m>, closure: &Closure, way: &Way<'m>) -> C
     let root =
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
     let k = side * root;
-    let sine = sine_of(dyad, root, side);
-    let pivot = sine.where_above(p, p_rounding).where_above(q, q_rounding);
-    let pivot = pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding");
-    Closing { d, d2, k, pivot }
+    Closing { d, d2, k, significant: vec![(p, p_rounding), (q, q_rounding)] }
 }
 
 /// The least and the largest distance that constant parts of a way can make up.
@@ -549,11 +579,21 @@ fn normalised<'m>(rough: Vector<'m>, own: Expr<'m>, other: Expr<'m>, link: &str)
     }
 }
 
-/// Whether the ratio of two constant lengths is at most `0.8/√ε`.
+/// Whether the ratio of two lengths is at most `0.8/√ε`, as far as constants tell.
 fn lengths_are_alike(scalar: Scalar, a: Expr<'_>, b: Expr<'_>) -> bool {
-    let (Some(a), Some(b)) = (a.value(), b.value()) else { return false };
-    let (larger, smaller) = if a.compare(&b).is_gt() { (a, b) } else { (b, a) };
+    let Some((larger, smaller)) = constant_lengths(a, b) else { return false };
     // ratio² ε ≤ 0.64
     let limit = Number::ratio(64, 100).mul(&smaller).mul(&smaller);
     larger.mul(&larger).mul(&scalar.epsilon()).compare(&limit).is_le()
+}
+
+/// Whether the ratio of two lengths is at most this, or is not known.
+fn ratio_is_at_most(limit: i64, a: Expr<'_>, b: Expr<'_>) -> bool {
+    constant_lengths(a, b).is_none_or(|(larger, smaller)| larger.compare(&smaller.mul(&Number::integer(limit))).is_le())
+}
+
+/// Two constants, the larger first.
+fn constant_lengths(a: Expr<'_>, b: Expr<'_>) -> Option<(Number, Number)> {
+    let (a, b) = (a.value()?, b.value()?);
+    Some(if a.compare(&b).is_gt() { (a, b) } else { (b, a) })
 }

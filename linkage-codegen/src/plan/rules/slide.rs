@@ -75,7 +75,8 @@ impl Rule for Slide {
                 total.y + force.along(direction).y
             }
         };
-        guide(balance, slide, link, across);
+        let own = balance.placement.point(balance.end(slide, link));
+        guide(balance, slide, link, across, own);
         Ok(())
     }
 
@@ -117,12 +118,21 @@ impl Rule for Slide {
     }
 }
 
-/// The reaction of a slide: its normal force holds the force `across` that acts on the link, its couple the moments on it.
-pub(super) fn guide<'m>(balance: &mut Balance<'m, '_>, slide: JointId, link: LinkId, across: Expr<'m>) {
+/// The reaction of a slide: its normal force holds the force `across` that acts on the link, its couple the moments on it. These are
+/// taken about a place near the forces, and carried over to the runner, which may be far away along the slide.
+pub(super) fn guide<'m>(
+    balance: &mut Balance<'m, '_>,
+    slide: JointId,
+    link: LinkId,
+    across: Expr<'m>,
+    about: Vector<'m>,
+) {
     let model = balance.model();
     let (joint, name) = (&model.joint(slide).name, &model.link(link).name);
+    let runner = balance.placement.slide_point(slide, link);
+    let arm = (about - runner).dot(balance.placement.slide_along(slide));
     let one = balance.graph().one();
-    let moment = balance.moment(link, balance.placement.slide_point(slide, link), one);
+    let moment = balance.moment(link, about, one) + arm * across;
     let second = model.joint(slide).to.link == link;
     let (normal, couple) = if second { (-across, -moment) } else { (across, moment) };
     let normal = normal.named(

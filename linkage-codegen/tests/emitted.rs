@@ -1,0 +1,201 @@
+//! Emitted and compiled code against the interpreter: the same bits on every example, from every function.
+
+mod support;
+
+use std::fmt::Debug;
+
+use linkage_codegen::Linkage;
+use linkage_codegen::program::Fault;
+use linkage_runtime::{Error, Vector2, polar};
+use support::examples::declaration;
+use support::measures::values_from_kept;
+use support::numbers::Double;
+use support::{Arguments, direct, pose};
+
+#[path = "../../examples/four_bar.rs"]
+#[allow(dead_code, unused_imports, missing_docs, reason = "only its declaration is used here")]
+mod four_bar_example;
+#[path = "../../examples/six_bar.rs"]
+#[allow(dead_code, unused_imports, missing_docs, reason = "only its declaration is used here")]
+mod six_bar_example;
+#[path = "../../examples/slider_crank.rs"]
+#[allow(dead_code, unused_imports, missing_docs, reason = "only its declaration is used here")]
+mod slider_crank_example;
+#[path = "../../examples/three_loads.rs"]
+#[allow(dead_code, unused_imports, missing_docs, reason = "only its declaration is used here")]
+mod three_loads_example;
+
+use four_bar_example::four_bar;
+use six_bar_example::six_bar;
+use slider_crank_example::engine;
+use three_loads_example::three_loads;
+
+/// All numbers of a result, in the order of its fields.
+fn numbers<T: Debug>(result: &Result<T, Error>) -> Option<Vec<u64>> {
+    let text = format!("{:?}", result.as_ref().ok()?);
+    let parts = text.split(|c: char| "[]{}(),: ".contains(c));
+    Some(parts.filter_map(|part| part.parse::<f64>().ok()).map(f64::to_bits).collect())
+}
+
+/// The same by the interpreter, from the drives and from a pose.
+struct Interpreted {
+    linkage: Linkage,
+}
+
+impl Interpreted {
+    fn of(example: &str) -> Self {
+        let linkage = linkage_codegen::analyse(declaration(example));
+        Self { linkage: linkage.unwrap_or_else(|refusal| panic!("{:?}", refusal.errors)) }
+    }
+
+    fn bits(values: Result<Vec<Double>, Fault>) -> Option<Vec<u64>> {
+        values.ok().map(|values| values.into_iter().map(|value| value.0.to_bits()).collect())
+    }
+
+    fn check<A: Debug, B: Debug>(
+        &self,
+        scene: &str,
+        arguments: &Arguments,
+        straight: &Result<A, Error>,
+        from_pose: &Result<B, Error>,
+    ) {
+        let index = self.linkage.model.scenes.iter().position(|s| s.name.text == scene).expect("a scene of this name");
+        let functions = &self.linkage.functions.scenes[index];
+        let expected = Self::bits(direct(&self.linkage, &functions.direct, arguments));
+        assert_eq!(numbers(straight), expected, "{scene}_at at {arguments:?}");
+        let kept = pose::<Double>(&self.linkage, arguments);
+        let expected = kept.and_then(|kept| values_from_kept(&self.linkage, scene, &kept, arguments).map(|all| all.1));
+        assert_eq!(numbers(from_pose), Self::bits(expected), "{scene} at {arguments:?}");
+    }
+}
+
+/// Angles all round, the axes and the change point among them.
+fn angles() -> impl Iterator<Item = f64> {
+    (-720..=720)
+        .map(|half_degrees| (f64::from(half_degrees) * 0.5).to_radians())
+        .chain([1e-9, 3.0, 1e3, -4e5, 1e6, 1e22])
+}
+
+#[test]
+fn four_bar() {
+    let interpreted = Interpreted::of("four_bar");
+    let force: Vector2<f64> = polar(50.0, 230f64.to_radians());
+    let loads = four_bar::Loads { F13: force };
+    for theta in angles() {
+        let arguments =
+            Arguments { drives: vec![theta], loads: vec![[force.x, force.y], [0.0; 2]], params: Vec::new() };
+        let pose = four_bar::Pose::at(theta);
+        let from = |scene: fn(&four_bar::Pose, &four_bar::Loads) -> Result<four_bar::Statics, Error>| {
+            pose.and_then(|pose| scene(&pose, &loads))
+        };
+        interpreted.check("statics", &arguments, &four_bar::statics_at(theta, &loads), &from(four_bar::Pose::statics));
+        interpreted.check(
+            "parts",
+            &arguments,
+            &four_bar::parts_at(theta, &loads),
+            &pose.and_then(|pose| pose.parts(&loads)),
+        );
+        interpreted.check(
+            "torque",
+            &arguments,
+            &four_bar::torque_at(theta, &loads),
+            &pose.and_then(|pose| pose.torque(&loads)),
+        );
+        interpreted.check("bearing", &arguments, &four_bar::bearing_at(theta), &pose.and_then(|pose| pose.bearing()));
+        interpreted.check(
+            "terms",
+            &arguments,
+            &four_bar::terms_at(theta, &loads),
+            &pose.and_then(|pose| pose.terms(&loads)),
+        );
+        interpreted.check("places", &arguments, &four_bar::places_at(theta), &pose.and_then(|pose| pose.places()));
+    }
+}
+
+#[test]
+fn slider_crank() {
+    let interpreted = Interpreted::of("slider_crank");
+    let loads = engine::Loads { gas: Vector2::new(12.5, -4000.0) };
+    for theta in angles() {
+        let arguments = Arguments { drives: vec![theta], loads: vec![[12.5, -4000.0], [0.0; 2]], params: Vec::new() };
+        let pose = engine::Pose::at(theta);
+        interpreted.check(
+            "hold",
+            &arguments,
+            &engine::hold_at(theta, &loads),
+            &pose.and_then(|pose| pose.hold(&loads)),
+        );
+        interpreted.check("weights", &arguments, &engine::weights_at(theta), &pose.and_then(|pose| pose.weights()));
+        interpreted.check(
+            "torque",
+            &arguments,
+            &engine::torque_at(theta, &loads),
+            &pose.and_then(|pose| pose.torque(&loads)),
+        );
+    }
+}
+
+#[test]
+fn six_bar() {
+    let interpreted = Interpreted::of("six_bar");
+    let loads = six_bar::Loads { F: Vector2::new(-180.0, 60.0) };
+    for theta in angles() {
+        let given = vec![[0.0; 2], [-180.0, 60.0], [0.0; 2]];
+        let arguments = Arguments { drives: vec![theta], loads: given, params: Vec::new() };
+        let pose = six_bar::Pose::at(theta);
+        interpreted.check(
+            "statics",
+            &arguments,
+            &six_bar::statics_at(theta, &loads),
+            &pose.and_then(|pose| pose.statics(&loads)),
+        );
+        interpreted.check(
+            "parts",
+            &arguments,
+            &six_bar::parts_at(theta, &loads),
+            &pose.and_then(|pose| pose.parts(&loads)),
+        );
+        interpreted.check(
+            "torque",
+            &arguments,
+            &six_bar::torque_at(theta, &loads),
+            &pose.and_then(|pose| pose.torque(&loads)),
+        );
+        interpreted.check(
+            "second",
+            &arguments,
+            &six_bar::second_at(theta, &loads),
+            &pose.and_then(|pose| pose.second(&loads)),
+        );
+    }
+}
+
+#[test]
+fn three_loads() {
+    let interpreted = Interpreted::of("three_loads");
+    let given = [[3.0, -20.0], [-30.0, 40.0], [-90.0, -30.0]];
+    let [f12, f13, f14] = given.map(Vector2::from);
+    let loads = three_loads::Loads { F12: f12, F13: f13, F14: f14 };
+    for theta in angles() {
+        let arguments = Arguments { drives: vec![theta], loads: given.to_vec(), params: Vec::new() };
+        let pose = three_loads::Pose::at(theta);
+        interpreted.check(
+            "parts",
+            &arguments,
+            &three_loads::parts_at(theta, &loads),
+            &pose.and_then(|pose| pose.parts(&loads)),
+        );
+        interpreted.check(
+            "whole",
+            &arguments,
+            &three_loads::whole_at(theta, &loads),
+            &pose.and_then(|pose| pose.whole(&loads)),
+        );
+        interpreted.check(
+            "torque",
+            &arguments,
+            &three_loads::torque_at(theta, &loads),
+            &pose.and_then(|pose| pose.torque(&loads)),
+        );
+    }
+}

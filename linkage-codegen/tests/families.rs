@@ -1,0 +1,366 @@
+//! The families of poses that break weak implementations.
+
+mod support;
+
+use std::collections::HashMap;
+use std::fmt::Write;
+
+use linkage_codegen::graph::Failure;
+use linkage_codegen::graph::real::Real;
+use linkage_codegen::program::Fault;
+use support::families::{Family, SCENES, check, four_bar, length, loads, slider_crank};
+use support::linkages::Random;
+use support::numbers::{Double, Extended};
+use support::{Arguments, Number, compile, pose, scene};
+
+/// Angles of the crank at which a four-bar has `sin μ = ±distance`, near its stretched and its folded position.
+fn near_toggle([g, a, b, c]: [f64; 4], distance: f64) -> Vec<f64> {
+    let mut angles = Vec::new();
+    for stretched in [1.0, -1.0] {
+        // D² = b² + c² + 2bc cos μ', with cos μ' = ±√(1 − distance²)
+        let d2 = b * b + c * c + stretched * 2.0 * b * c * (1.0 - distance * distance).sqrt();
+        let cosine = (g * g + a * a - d2) / (2.0 * g * a);
+        if cosine.abs() < 1.0 {
+            angles.extend([cosine.acos(), -cosine.acos()]);
+        }
+    }
+    angles
+}
+
+#[test]
+fn toggles_inner_and_outer() {
+    let mut random = Random(11);
+    let families = (0..120).map(|index| {
+        let lengths = [0; 4].map(|_| length(&mut random, 0.3, 2.0));
+        let text = four_bar_along_x(lengths);
+        let drives = near_toggle(lengths, 10f64.powi(-(index % 7) - 1));
+        Family { text, longest: lengths.into_iter().fold(0.0, f64::max), drives, loads: loads(&mut random) }
+    });
+    assert!(check(families, "toggles") > 50);
+}
+
+/// A four-bar with its ground line along x.
+fn four_bar_along_x([g, a, b, c]: [f64; 4]) -> String {
+    format!(
+        "pub mod sample; ground {{ A0: (0, 0), B0: ({g:?}m, 0) }} link crank {{ A0 -> A: {a:?}m }}
+         link coupler {{ A -> B: {b:?}m, C: (0.25m, 0.125m) }} link rocker {{ B0 -> B: {c:?}m, D: (0.5m, -0.25m) }}
+         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+         drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0);
+         load F: force(coupler.C); load H: force(rocker.D); {SCENES}"
+    )
+}
+
+#[test]
+fn folding_linkages_near_their_folds() {
+    // Parallelogram, kites, change points: g, a, b, c.
+    let folding = [
+        [1.0, 0.5, 1.0, 0.5],
+        [0.5, 1.0, 0.5, 1.0],
+        [1.0, 1.0, 1.0, 1.0],
+        [1.0, 1.0, 0.5, 0.5],
+        [0.5, 1.0, 1.0, 0.5],
+        [1.75, 1.0, 1.25, 1.5],
+        [1.5, 0.5, 1.25, 0.75],
+    ];
+    let mut random = Random(12);
+    for lengths in folding {
+        let text = four_bar_along_x(lengths);
+        let linkage = compile(&text);
+        let values = loads(&mut random);
+        for exponent in 0..=7 {
+            let distance = 10f64.powi(-exponent);
+            for drive in [distance, -distance, core::f64::consts::PI - distance, distance - core::f64::consts::PI] {
+                let arguments = Arguments { drives: vec![drive], loads: values.clone(), params: Vec::new() };
+                let Ok(found) = scene::<Double>(&linkage, "all", &arguments) else { continue };
+                let exact = scene::<Extended>(&linkage, "all", &arguments).expect("regular");
+                let size = exact.values().fold(0.0f64, |m, x| m.max(x.to_f64().abs()));
+                for (path, value) in &exact {
+                    let error = Extended::exactly(found[path].0).sub(value).to_f64().abs() / size;
+                    assert!(error < 3e-15, "{lengths:?} at {drive:e}: {path} is off by {error:e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn links_of_very_different_lengths() {
+    let mut random = Random(13);
+    let mut families = Vec::new();
+    for exponent in 2..=8 {
+        let small = 10f64.powi(-exponent);
+        for [b, c] in [[small, 1.0], [1.0, small]] {
+            // The ground and the crank bring the outer pins to a distance near the longer leg.
+            let lengths = [1.0, small / 2.0, b, c];
+            let drives = (0..20).map(|_| random.range(-3.0, 3.0)).collect();
+            families.push(Family { text: four_bar_along_x(lengths), longest: 1.0, drives, loads: loads(&mut random) });
+        }
+    }
+    let mut singles = families.into_iter();
+    // In doubles all ratios; single precision tells lengths apart up to about 10⁴.
+    let (near, far): (Vec<_>, Vec<_>) = singles.by_ref().enumerate().partition(|(index, _)| *index < 6);
+    assert!(check(near.into_iter().map(|(_, family)| family), "ratios up to 10⁴") > 20);
+    for (_, family) in far {
+        let (worst, _) = support::families::worst::<Double>(&family, "f64", f64::EPSILON);
+        worst.assert_within(&support::families::BARS, "ratios up to 10⁸");
+    }
+}
+
+#[test]
+fn poses_along_the_axes_are_regular() {
+    let quarter = core::f64::consts::FRAC_PI_2;
+    let mut random = Random(14);
+    let drives: Vec<f64> = (-4..=4).map(|k| f64::from(k) * quarter).collect();
+    let families = [
+        // Crank-rockers and double cranks whose crank lies along the axes, and so do other links.
+        Family {
+            text: four_bar_along_x([2.0, 0.5, 1.75, 1.0]),
+            longest: 2.0,
+            drives: drives.clone(),
+            loads: loads(&mut random),
+        },
+        Family {
+            text: four_bar_along_x([0.5, 1.0, 1.25, 1.0]),
+            longest: 1.25,
+            drives: drives.clone(),
+            loads: loads(&mut random),
+        },
+        // Unit square: all links along the axes.
+        Family {
+            text: four_bar_along_x([1.0, 1.0, 1.0, 1.0]),
+            longest: 1.0,
+            drives: vec![quarter, -quarter],
+            loads: loads(&mut random),
+        },
+        Family {
+            text: slider_crank([0.5, 1.5, 0.0], &mut random),
+            longest: 1.5,
+            drives: drives.clone(),
+            loads: loads(&mut random),
+        },
+        Family { text: slider_crank([0.5, 1.0, 0.5], &mut random), longest: 1.0, drives, loads: loads(&mut random) },
+    ];
+    assert!(check(families.into_iter(), "along the axes") > 25);
+}
+
+/// In-line slider-cranks and collinear pins: aligned, and regular all the same.
+#[test]
+fn aligned_poses_are_regular() {
+    let in_line = "pub mod sample; ground { O: (0, 0), G: (0, 0) } link crank { O -> A: 0.5m } link rod { A -> B: 1.5m } link piston { B, G: (0, 0) }
+        revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> piston; prismatic G: ground -> piston along 0deg;
+        drive q: O; unknown T: torque(ground -> crank); assemble B: ahead(A); load F: force(piston.B); scene all: equilibrium; scene work: virtual_work;";
+    let linkage = compile(in_line);
+    let arguments = Arguments { drives: vec![0.0], loads: vec![[-100.0, 7.0]], params: Vec::new() };
+    let all = scene::<Double>(&linkage, "all", &arguments).unwrap();
+    // At the dead centre of the piston the crank carries no torque, and that is a right answer.
+    assert_eq!(all["T"].0, 0.0);
+    assert_eq!((all["A.x"].0, all["B.x"].0, all["G.normal"].0), (100.0, 100.0, -7.0));
+    // Three pins on one line of the coupler.
+    let collinear = four_bar_along_x([2.0, 0.5, 1.75, 1.0]).replace("C: (0.25m, 0.125m)", "C: (0.875m, 0)");
+    let family = Family {
+        text: collinear,
+        longest: 2.0,
+        drives: (0..40).map(|k| f64::from(k) * 0.157).collect(),
+        loads: vec![[3.0, -5.0], [1.0, 2.0]],
+    };
+    assert_eq!(check([family].into_iter(), "three collinear pins"), 40);
+}
+
+/// The same linkage elsewhere has the same directions and forces, bit for bit.
+#[test]
+fn far_from_the_origin_nothing_changes() {
+    let mut random = Random(15);
+    for offset in ["1000", "123456", "100000000"] {
+        for index in 0..20 {
+            let text = if index % 2 == 0 {
+                four_bar_along_x([0; 4].map(|_| length(&mut random, 0.5, 2.0)))
+            } else {
+                slider_crank([0.5, length(&mut random, 0.75, 2.0), 0.25], &mut random)
+            };
+            // Every point of the ground is shifted in its declaration, exactly.
+            let moved = shifted(&text, offset);
+            let (near, far) = (compile(&text), compile(&moved));
+            let arguments =
+                Arguments { drives: vec![random.range(-3.0, 3.0)], loads: loads(&mut random), params: Vec::new() };
+            let forces = |linkage| scene::<Double>(linkage, "all", &arguments).map(bits);
+            assert_eq!(forces(&near), forces(&far), "{text}\n{moved}");
+            let kept = |linkage: &linkage_codegen::Linkage| {
+                let kept = pose::<Double>(linkage, &arguments);
+                kept.map(|kept| {
+                    linkage.plan.pose.iter().map(|k| (k.name.clone(), kept[&k.node].0.to_bits())).collect::<Vec<_>>()
+                })
+            };
+            assert_eq!(kept(&near), kept(&far), "{moved}");
+        }
+    }
+}
+
+fn bits(values: HashMap<String, Double>) -> Vec<(String, u64)> {
+    let mut all: Vec<(String, u64)> = values.into_iter().map(|(path, value)| (path, value.0.to_bits())).collect();
+    all.sort();
+    all
+}
+
+/// The declaration with all points of the ground moved by the same amount.
+fn shifted(text: &str, offset: &str) -> String {
+    let start = text.find("ground {").expect("a ground") + "ground {".len();
+    let end = start + text[start..].find('}').expect("its end");
+    let mut places = String::new();
+    for place in text[start..end].split(", ").fold(Vec::<String>::new(), |mut all, part| {
+        // `A0: (0, 0)` was split at its own comma.
+        if part.contains(": ") {
+            all.push(part.to_owned())
+        } else if let Some(last) = all.last_mut() {
+            let _ = write!(last, ", {part}");
+        }
+        all
+    }) {
+        let (name, at) = place.trim().split_once(": ").expect("a point");
+        let (x, y) = match at.split_once(" @ ") {
+            Some((size, angle)) => (format!("({size})*cos({angle})"), format!("({size})*sin({angle})")),
+            None => {
+                let (x, y) = at.trim_matches(['(', ')']).split_once(", ").expect("two coordinates");
+                (x.to_owned(), y.to_owned())
+            }
+        };
+        let _ = write!(places, "{name}: ({x} + {offset}m, {y} - {offset}m), ");
+    }
+    format!("{}{places}{}", &text[..start], &text[end..])
+}
+
+/// Units that differ by a power of two give results that differ by it, bit for bit.
+#[test]
+fn powers_of_two_in_the_units_keep_all_bits() {
+    for exponent in [-40, -8, 8, 40] {
+        let factor = 2f64.powi(exponent);
+        let plain = four_bar_along_x([1.5, 0.5, 1.25, 1.0]);
+        // The same with a unit of length that is smaller by the factor, which stands in the declaration exactly.
+        let power = 2f64.powi(exponent.abs());
+        let unit = if exponent < 0 { format!("m/{power:?}") } else { format!("m*{power:?}") };
+        let scaled = ["1.5m", "0.5m", "1.25m", "1.0m", "0.25m", "0.125m", "-0.25m"].iter().fold(
+            plain.clone(),
+            |text, length| {
+                text.replace(&format!(" {length}"), &format!(" {}*{unit}", length.trim_end_matches('m')))
+                    .replace(&format!("({length}"), &format!("({}*{unit}", length.trim_end_matches('m')))
+            },
+        );
+        let (plain, scaled) = (compile(&plain), compile(&scaled));
+        for drive in [0.3, 1.0, 2.5, -2.0] {
+            let arguments = Arguments { drives: vec![drive], loads: vec![[3.0, -5.0], [1.0, 2.0]], params: Vec::new() };
+            let (a, b) = (
+                scene::<Double>(&plain, "all", &arguments).unwrap(),
+                scene::<Double>(&scaled, "all", &arguments).unwrap(),
+            );
+            for (path, value) in a {
+                let expected = if path == "T" { value.0 * factor } else { value.0 };
+                assert_eq!(b[&path].0.to_bits(), expected.to_bits(), "{path} with 2^{exponent}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_ground_line_may_have_any_angle() {
+    let mut random = Random(16);
+    // A change-point linkage whose fold lies at half a turn from an inclined ground line.
+    for degrees in [30.0f64, 90.0, 123.456, 180.0, -77.5] {
+        let text =
+            four_bar_along_x([1.75, 1.0, 1.25, 1.5]).replace("B0: (1.75m, 0)", &format!("B0: 1.75m @ {degrees:?}deg"));
+        let linkage = compile(&format!("{text} scene parts: superposition;"));
+        let values = loads(&mut random);
+        for exponent in 1..=7 {
+            let drive = degrees.to_radians() + core::f64::consts::PI - 10f64.powi(-exponent);
+            let arguments = Arguments { drives: vec![drive], loads: values.clone(), params: Vec::new() };
+            let found = scene::<Double>(&linkage, "all", &arguments).unwrap();
+            let exact = scene::<Extended>(&linkage, "all", &arguments).unwrap();
+            // Near the fold the loads' own forces are large, and may cancel.
+            let parts = scene::<Extended>(&linkage, "parts", &arguments).unwrap();
+            let size = parts.values().fold(0.0f64, |m, x| m.max(x.to_f64().abs()));
+            for (path, value) in &exact {
+                let error = Extended::exactly(found[path].0).sub(value).to_f64().abs() / size;
+                assert!(error < 2e-15, "{degrees}°, {path} is off by {error:e}, 1e-{exponent} from the fold");
+            }
+        }
+    }
+}
+
+/// `(x + ulp, x − ulp)`
+fn neighbours(x: f64) -> [f64; 2] {
+    [x.next_up(), x.next_down()]
+}
+
+#[test]
+fn what_cannot_be_assembled_is_a_typed_error() {
+    // A driven slider brings the pins of a dyad of lengths 1 and 2 to any distance.
+    let text = "pub mod sample; ground { S: (0, 0), B0: (0, 0) } link slide { S } link a { S -> B: 1m } link b { B0 -> B: 2m }
+        prismatic S: ground -> slide along 0deg; revolute A: slide.S -> a.S; revolute B: a -> b; revolute B0: ground -> b;
+        drive x: S; assemble B: left(A -> B0); load F: force(a.B); load H: force(b.B); scene all: equilibrium; scene parts: superposition;
+        scene work: virtual_work; scene where: position;";
+    let linkage = compile(text);
+    let run = |name: &str, x: f64, load: f64| {
+        let arguments = Arguments { drives: vec![x], loads: vec![[load, 1.0], [2.0, -1.0]], params: Vec::new() };
+        scene::<Double>(&linkage, name, &arguments)
+    };
+    for far in [3.03, 30.0, 1e10, 1e200, -3.03] {
+        for name in ["all", "parts", "work", "where"] {
+            let fault = run(name, far, 1.0).unwrap_err();
+            assert!(matches!(fault, Fault::Failed(Failure::CannotAssemble { .. })), "{name} at {far}: {fault:?}");
+        }
+    }
+    for close in [0.99, -0.5, 1e-3, 0.0, -0.0] {
+        let fault = run("where", close, 1.0).unwrap_err();
+        assert!(matches!(fault, Fault::Failed(Failure::CannotAssemble { .. })), "at {close}: {fault:?}");
+    }
+    // Stretched and folded exactly, and by one ulp: a place, but no forces whatever the loads.
+    for limit in [3.0, 1.0, -3.0, -1.0] {
+        for x in neighbours(limit).into_iter().chain([limit]) {
+            run("where", x, 1.0).unwrap();
+            for load in [0.0, 1.0] {
+                for name in ["all", "parts", "work"] {
+                    let fault = run(name, x, load).unwrap_err();
+                    assert!(matches!(fault, Fault::Failed(Failure::DeadCentre { .. })), "{name} at {x}: {fault:?}");
+                }
+            }
+        }
+    }
+    // Legs of one length with the pins together: the place of B is open.
+    let equal = compile(&text.replace("B0 -> B: 2m", "B0 -> B: 1m"));
+    for x in [0.0, -0.0] {
+        let arguments = Arguments { drives: vec![x], loads: vec![[0.0; 2]; 2], params: Vec::new() };
+        let fault = scene::<Double>(&equal, "where", &arguments).unwrap_err();
+        assert!(matches!(fault, Fault::Failed(Failure::CoincidentPivots { .. })), "at {x}: {fault:?}");
+    }
+}
+
+/// NaN and infinity in every argument of every function: a typed error, never a number.
+#[test]
+fn what_is_not_finite_is_a_typed_error() {
+    let mut random = Random(17);
+    for text in [four_bar([1.5, 0.5, 1.25, 1.0], &mut random), slider_crank([0.5, 1.5, 0.25], &mut random)] {
+        let linkage = compile(&format!("{text} scene parts: superposition; scene whole: position;"));
+        let good = Arguments { drives: vec![1.0], loads: vec![[3.0, -5.0], [1.0, 2.0]], params: Vec::new() };
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for name in ["all", "parts", "work", "whole"] {
+                let mut arguments = good.clone();
+                arguments.drives[0] = bad;
+                assert_eq!(scene::<Double>(&linkage, name, &arguments).unwrap_err(), Fault::NotFinite, "{name}");
+                for (load, part) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    let mut arguments = good.clone();
+                    arguments.loads[load][part] = bad;
+                    let result = scene::<Double>(&linkage, name, &arguments);
+                    // Places do not depend on loads: they pass untouched.
+                    assert!(result.is_err() == (name != "whole"), "{name} with {bad} in load {load}");
+                }
+            }
+        }
+        // Loads that are finite, and results that are not.
+        let mut huge = good.clone();
+        huge.loads = vec![[1e308, 1e308], [-1e308, 1e308]];
+        for name in ["all", "parts", "work"] {
+            match scene::<Double>(&linkage, name, &huge) {
+                Err(fault) => assert_eq!(fault, Fault::NotFinite),
+                Ok(values) => assert!(values.values().all(|value| value.0.is_finite())),
+            }
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Every pass keeps the results of every program.
+
+mod support;
+
+use std::collections::HashMap;
+
+use linkage_codegen::Linkage;
+use linkage_codegen::graph::real::Real;
+use linkage_codegen::program::passes::PASSES;
+use linkage_codegen::program::{Extract, Form, Input, Program, Run};
+use support::linkages::{Kind, sample};
+use support::numbers::{Double, Extended};
+use support::{Arguments, Number, compile, pose};
+
+fn results<T: Number>(linkage: &Linkage, program: &Program, arguments: &Arguments) -> Vec<T> {
+    let kept: HashMap<_, T> = pose(linkage, arguments).expect("a pose");
+    let run = Run { program, graph: &linkage.model.graph };
+    run.with(&|input| match input {
+        Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
+        Input::Kept(node) => kept[&node].clone(),
+        Input::Prepared(_) => T::exactly(f64::NAN),
+    })
+    .expect("results")
+}
+
+#[test]
+fn passes_keep_the_results() {
+    for seed in 0..40 {
+        let kind = Kind {
+            dyads: 1 + usize::try_from(seed % 3).unwrap(),
+            sliders: true,
+            unknown_anywhere: false,
+            params: false,
+            scalar: "f64",
+        };
+        let sample = sample(seed, kind);
+        let linkage = compile(&sample.text);
+        let graph = &linkage.model.graph;
+        for output in &linkage.plan.scenes {
+            for form in [Form::Direct, Form::FromPose] {
+                let mut program = Extract { graph, form }.program(&output.leaves(), &output.sums());
+                let exact = results::<Extended>(&linkage, &program, &sample.arguments);
+                let size = exact.iter().fold(1.0f64, |m, x| m.max(x.to_f64().abs()));
+                let mut before = program.counts();
+                for (name, pass) in PASSES {
+                    program = pass(program, graph);
+                    let after = results::<Extended>(&linkage, &program, &sample.arguments);
+                    for ((path, _), (a, b)) in program.outputs.iter().zip(exact.iter().zip(&after)) {
+                        let error = a.sub(b).to_f64().abs() / size;
+                        assert!(error < 1e-50, "{name} changes {path} by {error:e}\n{}", sample.text);
+                    }
+                    // A pass may trade a quotient for products; it never adds quotients, roots or kernels.
+                    let counts = program.counts();
+                    assert!(
+                        counts.div <= before.div && counts.sqrt <= before.sqrt && counts.sin_cos <= before.sin_cos,
+                        "{name}"
+                    );
+                    before = counts;
+                }
+                let double = results::<Double>(&linkage, &program, &sample.arguments);
+                assert!(double.iter().all(|x| x.0.is_finite()));
+            }
+        }
+    }
+}
+
+/// A function that starts from a pose computes nothing that the pose holds: no trigonometry, and the same bits.
+#[test]
+fn a_scene_from_a_pose_goes_on_where_the_pose_ends() {
+    for seed in 0..40 {
+        let kind = Kind { dyads: 2, sliders: true, unknown_anywhere: false, params: false, scalar: "f64" };
+        let sample = sample(seed, kind);
+        let linkage = compile(&sample.text);
+        for (index, functions) in linkage.functions.scenes.iter().enumerate() {
+            let counts = functions.from_pose.counts();
+            assert_eq!((counts.sin_cos, counts.sqrt), (0, 0), "scene {index}\n{}", sample.text);
+            let drives = functions
+                .from_pose
+                .inputs()
+                .filter(|(_, input)| matches!(input, Input::Symbol(linkage_codegen::graph::Symbol::Drive(_))));
+            // Only the angle of a driven link, or the travel of a driven slide, is the drive's own value.
+            let named = drives.count();
+            assert!(named <= 1, "{}", sample.text);
+        }
+    }
+}

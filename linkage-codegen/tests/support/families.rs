@@ -1,0 +1,100 @@
+//! Families of poses and the bars that they are held to.
+
+use super::linkages::Random;
+use super::measures::{Measures, measure};
+use super::numbers::{Double, Single};
+use super::{Arguments, Number, compile};
+
+/// The bars, in epsilons of the scalar.
+pub const BARS: Measures = Measures { unit: 3.0, closure: 4.0, backward: 1.0, free_body: 3.0, torque: 8.0 };
+
+/// A family of poses of a linkage: declaration without its scalar, the length of its longest link, drives and loads.
+pub struct Family {
+    pub text: String,
+    pub longest: f64,
+    pub drives: Vec<f64>,
+    pub loads: Vec<[f64; 2]>,
+}
+
+pub const SCENES: &str = "scene all: equilibrium; scene work: virtual_work;";
+
+/// A four-bar with forces on coupler and rocker.
+pub fn four_bar(lengths: [f64; 4], random: &mut Random) -> String {
+    let [g, a, b, c] = lengths;
+    let angle = random.range(0.0, 360.0);
+    let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
+    let side = random.pick(&["left", "right"]);
+    format!(
+        "pub mod sample; ground {{ A0: (0, 0), B0: {g:?}m @ {angle:?}deg }} link crank {{ A0 -> A: {a:?}m }}
+         link coupler {{ A -> B: {b:?}m, C: ({x:?}m, {y:?}m) }} link rocker {{ B0 -> B: {c:?}m, D: ({y:?}m, {x:?}m) }}
+         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+         drive theta: A0; unknown T: torque(ground -> crank); assemble B: {side}(A -> B0);
+         load F: force(coupler.C); load H: force(rocker.D); {SCENES}"
+    )
+}
+
+/// A slider-crank with forces on rod and piston; the guide lies anywhere and does not go through the crank's pivot.
+pub fn slider_crank([crank, rod, offset]: [f64; 3], random: &mut Random) -> String {
+    let angle = random.range(0.0, 360.0);
+    let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
+    let side = random.pick(&["ahead", "behind"]);
+    let carrier = random.pick(&["ground", "piston"]);
+    format!(
+        "pub mod sample; ground {{ A0: (0, 0), C: {offset:?}m @ {angle:?}deg + 90deg }} link crank {{ A0 -> A: {crank:?}m }}
+         link coupler {{ A -> B: {rod:?}m, P: ({x:?}m, {y:?}m) }} link piston {{ B: (0, 0), C: ({x:?}m, 0), D: ({y:?}m, {x:?}m) }}
+         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> piston;
+         prismatic C: ground -> piston along {angle:?}deg of {carrier};
+         drive theta: A0; unknown T: torque(ground -> crank); assemble B: {side}(A);
+         load F: force(coupler.P); load H: force(piston.D); {SCENES}"
+    )
+}
+
+/// The worst measures of a family, over the poses that assemble and are no dead centres; and how many those are.
+pub fn worst<T: Number>(family: &Family, scalar: &str, epsilon: f64) -> (Measures, usize) {
+    let linkage = compile(&family.text.replacen(';', &format!("; scalar {scalar};"), 1));
+    let mut worst = Measures::default();
+    let mut count = 0;
+    for drive in &family.drives {
+        let arguments = Arguments { drives: vec![*drive], loads: family.loads.clone(), params: Vec::new() };
+        if let Ok(measures) = measure::<T>(&linkage, &arguments, family.longest, epsilon) {
+            worst = worst.worst(measures);
+            count += 1;
+        }
+    }
+    (worst, count)
+}
+
+/// Holds all families to the bars, in both scalars; how many poses they had.
+pub fn check(families: impl Iterator<Item = Family>, what: &str) -> usize {
+    let mut all = [Measures::default(); 2];
+    let mut count = 0;
+    for family in families {
+        let (double, poses) = worst::<Double>(&family, "f64", f64::EPSILON);
+        let (single, _) = worst::<Single>(&rounded(&family), "f32", f64::from(f32::EPSILON));
+        all = [all[0].worst(double), all[1].worst(single)];
+        count += poses;
+    }
+    println!("{what}, {count} poses\n  f64 {:?}\n  f32 {:?}", all[0], all[1]);
+    all[0].assert_within(&BARS, &format!("{what}, f64"));
+    all[1].assert_within(&BARS, &format!("{what}, f32"));
+    count
+}
+
+/// The same with single-precision arguments.
+#[allow(clippy::cast_possible_truncation, reason = "that is the point")]
+fn rounded(family: &Family) -> Family {
+    let round = |x: &f64| f64::from(*x as f32);
+    let drives = family.drives.iter().map(round).collect();
+    let loads = family.loads.iter().map(|load| [round(&load[0]), round(&load[1])]).collect();
+    Family { text: family.text.clone(), longest: family.longest, drives, loads }
+}
+
+/// A length that single precision holds too.
+#[allow(clippy::cast_possible_truncation, reason = "that is the point")]
+pub fn length(random: &mut Random, low: f64, high: f64) -> f64 {
+    f64::from(random.range(low, high) as f32)
+}
+
+pub fn loads(random: &mut Random) -> Vec<[f64; 2]> {
+    (0..2).map(|_| [random.range(-50.0, 50.0), random.range(-50.0, 50.0)]).collect()
+}
