@@ -105,6 +105,10 @@ impl<'a> Body<'a> {
         if let Some(label) = &self.program.value(value).label {
             return label.name.clone();
         }
+        let result = self.program.outputs.iter().find(|(path, output)| *output == value && !path.is_empty());
+        if let Some((path, _)) = result {
+            return path.replace('.', "_");
+        }
         if let Some(Op::Kernel { kernel, part, args }) = self.program.op(value) {
             let of = args
                 .first()
@@ -117,10 +121,6 @@ impl<'a> Body<'a> {
                 (Kernel::Unit, part) => format!("unit_{of}_{}", if *part == 0 { "x" } else { "y" }),
                 (Kernel::Solve2 | Kernel::Solve3, part) => format!("solved_{}", part + 1),
             };
-        }
-        if let Some((path, _)) = self.program.outputs.iter().find(|(path, output)| *output == value && !path.is_empty())
-        {
-            return path.replace('.', "_");
         }
         let mut reader = value;
         // The first named value that is computed from this one.
@@ -145,7 +145,7 @@ impl<'a> Body<'a> {
             let Step::Let(of) = step else { continue };
             let Some(name) = names(*of) else { continue };
             let value = self.program.value(*of);
-            if value.section != section {
+            if !value.section.is_empty() && value.section != section {
                 section = &value.section;
                 lines.push(format!("{section}:"));
             }
@@ -339,31 +339,14 @@ impl<'a> Body<'a> {
         quote!(if !(#condition) { return Err(#failure); })
     }
 
-    /// Infinity and NaN do not give zero when they are subtracted from themselves.
+    /// What is added up elsewhere is to be finite as a sum.
     fn finite_results(&self, groups: &[Vec<ValueId>]) -> TokenStream {
-        let mut totals = TokenStream::new();
-        let mut sum: Option<TokenStream> = None;
-        for (index, group) in groups.iter().enumerate() {
-            let single = group.as_slice();
-            let name = match single {
-                [one] => self.code(*one).within(Binding::Product),
-                several => {
-                    let name = ident(&format!("total_{}", index + 1));
-                    let parts = several.iter().map(|value| self.code(*value).within(Binding::Product));
-                    let parts = parts.reduce(|sum, part| quote!(#sum + #part)).unwrap_or_else(|| quote!(0.0));
-                    totals.extend(quote!(let #name = #parts;));
-                    quote!(#name)
-                }
-            };
-            let difference = quote!((#name - #name));
-            sum = Some(match sum {
-                None => difference,
-                Some(sum) => quote!(#sum + #difference),
-            });
-        }
-        let sum = sum.unwrap_or_else(|| quote!(0.0));
+        let sums = groups.iter().map(|group| {
+            let parts = group.iter().map(|value| self.code(*value).within(Binding::Product));
+            parts.reduce(|sum, part| quote!(#sum + #part)).unwrap_or_else(|| quote!(0.0))
+        });
         let what = if self.program.reads_loads() { "a load or a result" } else { "a result" };
-        quote!(#totals if !(#sum == 0.0) { return Err(Error::NotFinite { what: #what }); })
+        quote!(if !math::all_finite([#(#sums),*]) { return Err(Error::NotFinite { what: #what }); })
     }
 }
 

@@ -143,7 +143,8 @@ fn errors(program: &Program) -> Vec<String> {
             },
             Step::FiniteInput(_) => add("* [`Error::NotFinite`]: a drive is not a finite number.".into()),
             Step::FiniteResults(_) => {
-                add("* [`Error::NotFinite`]: a load is not a finite number, or a result is too large for one.".into())
+                let load = if program.reads_loads() { "a load is not a finite number, or " } else { "" };
+                add(format!("* [`Error::NotFinite`]: {load}a result is too large for one."));
             }
             Step::Let(_) => {}
         }

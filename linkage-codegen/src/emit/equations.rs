@@ -34,7 +34,8 @@ fn mobility(linkage: &Linkage) -> String {
     let constraints = linkage.system.rows.iter().filter(|row| matches!(row.source, Source::Joint(..))).count();
     format!(
         "{} links, {moving} of them moving; {} joints with {constraints} constraints: mobility 3·{moving} − {constraints} = {}\n\
-         lengths in {}, forces in {}; the link that a reaction acts on stands behind the arrow\n\n",
+         lengths in {}, forces in {}; the link that a reaction acts on stands behind the arrow\n\
+         sin(link), cos(link): of the angle of the x axis of the link's own frame\n\n",
         model.links.len(),
         model.joints.len(),
         3 * moving - constraints,

@@ -79,7 +79,8 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
         #attributes
         #docs
         #[allow(
-            dead_code, non_snake_case, non_camel_case_types, unused_imports, unused_variables, unused_parens,
+            dead_code, non_snake_case, non_camel_case_types, unused_imports, unused_variables, unused_doc_comments,
+                unused_parens,
             clippy::all, clippy::pedantic,
             reason = "generated code keeps the names and the formulas of its declaration"
         )]
@@ -90,7 +91,8 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
 
             /// The derivation: free bodies, equilibrium equations, reduction, closed forms.
             pub const EQUATIONS: &str = #equations;
-            /// The operations of every function.
+            /// The operations of every function: sums and differences, products, quotients, roots and functions; changes of sign and
+            /// absolute values; checks.
             pub const OPERATIONS: &str = #operations;
             #source
 

@@ -272,27 +272,36 @@ impl<'m> Forces<'_, 'm> {
     /// The term of a load; of gravity one for each link.
     fn terms(&self, motion: &Motion<'m, '_>, load: LoadId) -> Output {
         let cases = cases_of(self.model, load);
+        let load_name = &self.model.load(load).name;
         match self.model.load(load).kind {
             LoadKind::Gravity { .. } => {
                 let each = cases.iter().filter_map(|(case, actions)| {
                     let link = &self.model.link(case.link?).name;
                     let doc = format!("Term of the weight of `{link}`.");
-                    Some(Field { name: link.text.clone(), doc, value: term(motion, actions) })
+                    Some(Field {
+                        name: link.text.clone(),
+                        doc,
+                        value: term(motion, &format!("{}{load_name}_{link}", motion.prefix), actions),
+                    })
                 });
                 Output::Record(each.collect())
             }
-            _ => cases.first().map_or_else(|| Output::Record(Vec::new()), |(_, actions)| term(motion, actions)),
+            _ => cases.first().map_or_else(
+                || Output::Record(Vec::new()),
+                |(_, actions)| term(motion, &format!("{}{load_name}", motion.prefix), actions),
+            ),
         }
     }
 }
 
 /// Velocity along the load, and the work: `v = v·F/|F|`, `F v`; of a moment the relative rate, `M ω`.
-fn term(motion: &Motion<'_, '_>, actions: &[Action]) -> Output {
+fn term(motion: &Motion<'_, '_>, name: &str, actions: &[Action]) -> Output {
     let graph = motion.graph();
     match actions {
         [Action::Force { link, at, force, frame }] => {
             let velocity = motion.of_place(*link, motion.placement.carried(*link, at.vector(graph)));
             let velocity = velocity.along(motion.placement.direction(*frame));
+            let velocity = velocity.named(&format!("v_{name}"), "velocity of its point, at unit rate");
             let force = motion.placement.carried(*frame, force.vector(graph));
             let along = velocity.dot(graph.unit(force));
             Output::Term { velocity: along.id(), work: velocity.dot(force).id(), meaning: Meaning::ForceTerm }
