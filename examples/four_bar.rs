@@ -35,8 +35,6 @@ linkage! {
     scene terms:   virtual_work -> (F13, F14);
     scene places:  position;
     scene check:   verify;
-
-    emit source;
 }
 
 /// Components, and size ∠ angle in degrees.
@@ -63,7 +61,7 @@ fn main() -> Result<(), Error> {
     println!("\n{}", free_bodies());
 
     let all = pose.statics(&loads)?;
-    println!("Joint forces                     x         y  (N)  size ∠ angle");
+    println!("\nJoint forces                     x         y  (N)  size ∠ angle");
     let forces = [
         ("ground on crank, A0", all.A0),
         ("crank on coupler, A", all.A),

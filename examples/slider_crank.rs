@@ -2,6 +2,8 @@
 //!
 //! `cargo run --example slider_crank` prints, over half a turn from the upper dead centre, the piston's place, the torque, the forces in
 //! the bearings and the side force on the cylinder wall.
+//!
+//! `tests/pinned.rs` holds the emitted code, its equations, its operations and its numbers against snapshots.
 
 use linkage_runtime::{Error, Vector2, linkage};
 
@@ -35,6 +37,8 @@ linkage! {
     scene hold:    equilibrium;
     scene weights: superposition(W) -> (T);
     scene torque:  virtual_work -> (T);
+
+    emit source;
 }
 
 fn main() -> Result<(), Error> {
