@@ -10,12 +10,16 @@ use dashu_float::{Context, FBig, Repr};
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
+use super::Scalar;
+
 /// Binary digits of a number that is not rational.
 const PRECISION: usize = 256;
 /// A difference of two such numbers that cancels this many bits is zero: the exact values were equal.
 const CANCELLED: isize = 200;
 /// A rational number that needs more bits than this goes on as a 256-bit one.
 const RATIONAL_BITS: usize = 8192;
+/// No constant that is written down has an exponent beyond this: twice that of a double's square.
+const EXPONENT: isize = 4096;
 
 type Float = FBig<HalfEven, 2>;
 
@@ -305,6 +309,32 @@ impl Number {
             _ => context().atan2(y.float().repr(), x.float().repr(), None),
         };
         quarter_turns.map_or_else(|_| Self::zero(), |r| Self::real(r.value()))
+    }
+
+    /// Whether the nearest number of a scalar is finite, and zero only for zero.
+    #[must_use]
+    pub fn fits(&self, scalar: Scalar) -> bool {
+        let nearest = match scalar {
+            Scalar::F64 => self.to_f64(),
+            Scalar::F32 => f64::from(self.to_f32()),
+        };
+        nearest.is_finite() && (nearest != 0.0 || self.is_zero())
+    }
+
+    /// Whether it is so large or so small that its exponent alone would be a burden.
+    #[must_use]
+    pub fn is_excessive(&self) -> bool {
+        !self.is_zero() && self.binary_exponent().abs() > EXPONENT
+    }
+
+    /// The place of the leading bit, give or take one; of π's multiples that of the factor.
+    fn binary_exponent(&self) -> isize {
+        match self {
+            Self::Rational(q) | Self::Pi(q) => {
+                bit_length(q.numerator()).cast_signed() - bit_length(q.denominator().as_ibig()).cast_signed()
+            }
+            Self::Real(x) => magnitude(x),
+        }
     }
 
     /// Nearest double, ties to even; infinite beyond the range.

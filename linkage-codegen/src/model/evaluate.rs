@@ -35,7 +35,9 @@ impl<'m> Scope<'m> {
         let units = &self.model.units;
         let Some(dimension) = found.dimension else { return Ok(found.expr) };
         if let Some(factor) = kind.factor_from(dimension, units) {
-            return Ok(self.model.graph.constant(&factor) * found.expr);
+            let converted = self.model.graph.constant(&factor) * found.expr;
+            let fits = converted.value().is_none_or(|number| number.fits(self.model.graph.scalar()));
+            return if fits { Ok(converted) } else { Err(self.beyond_range(place)) };
         }
         let help = if dimension == Dimension::NUMBER {
             format!("write the unit: `{}`", kind.example(units))
@@ -111,7 +113,21 @@ impl<'m> Scope<'m> {
             .suggest(&name.text, body.points.iter().map(|p| p.name.text.as_str())))
     }
 
+    /// An expression. A constant far beyond any scalar is refused at once: to go on with it could take any time.
     fn quantity(&self, value: &Value) -> Evaluated<Quantity<'m>> {
+        let found = self.operation(value)?;
+        match found.expr.value() {
+            Some(number) if number.is_excessive() => Err(self.beyond_range(value.place)),
+            _ => Ok(found),
+        }
+    }
+
+    fn beyond_range(&self, place: Place) -> Diagnostic {
+        let scalar = self.model.graph.scalar().name();
+        Diagnostic::new(place, format!("this number is beyond the range of an `{scalar}`"))
+    }
+
+    fn operation(&self, value: &Value) -> Evaluated<Quantity<'m>> {
         let place = value.place;
         match &value.kind {
             ValueKind::Number(digits, suffix) => self.number(digits, suffix.as_deref(), place),
@@ -145,9 +161,7 @@ impl<'m> Scope<'m> {
 
     fn number(&self, digits: &str, suffix: Option<&str>, place: Place) -> Evaluated<Quantity<'m>> {
         let graph = &self.model.graph;
-        let Some(value) = Number::decimal(digits) else {
-            return Err(Diagnostic::new(place, "this number is beyond what a double can hold"));
-        };
+        let Some(value) = Number::decimal(digits) else { return Err(self.beyond_range(place)) };
         let Some(suffix) = suffix else {
             let dimension = (!value.is_zero()).then_some(Dimension::NUMBER);
             return Ok(Quantity { expr: graph.constant(&value), dimension });

@@ -88,11 +88,14 @@ fn without_point(model: &Model, link: LinkId, end: &ast::End, joint: &Name) -> D
 
 fn kind(scope: Scope<'_>, given: &ast::Joint, ends: [Option<End>; 2]) -> Result<JointKind, Diagnostic> {
     let place = given.keyword.place().to(given.to.place());
-    let planned = |what: &str| Err(Diagnostic::new(place, format!("{what} are not supported yet")));
+    let planned = |what: &str| Diagnostic::new(place, format!("{what} are not supported yet"));
+    let (from, to) = (&given.from.link, &given.to.link);
     match given.keyword.text.as_str() {
-        "slot" => planned("pins in slots"),
-        "weld" => planned("welds"),
-        "gear" => planned("gear pairs"),
+        "slot" => Err(planned("pins in slots").help(
+            "put a link between, as in `link block { S }`: `revolute` to the pin's link, and `prismatic` in the slot's",
+        )),
+        "weld" => Err(planned("welds").help(format!("declare `{from}` and `{to}` as one link"))),
+        "gear" => Err(planned("gear pairs")),
         "prismatic" => prismatic(scope, given, ends),
         _ => Ok(JointKind::Revolute),
     }

@@ -145,8 +145,10 @@ fn vector<'m>(scope: Scope<'m>, given: &ast::Load, id: LoadId, kind: Kind) -> Re
             Ok(Vector::new(part(0), part(1)))
         }
         Some(Magnitude::Vector(vector)) => scope.vector(vector, kind),
-        Some(Magnitude::Scalar(value)) => Err(Diagnostic::new(value.place, format!("{} has a direction", kind.name()))
-            .help(format!("write `{} @ 90deg` or `(x, y)`", kind.example(&scope.model.units)))),
+        Some(Magnitude::Scalar(value)) => {
+            Err(Diagnostic::new(value.place, format!("{} has a direction, and none is given", kind.name()))
+                .help(format!("write `{} @ 90deg` or `(x, y)`", kind.example(&scope.model.units))))
+        }
     }
 }
 

@@ -276,17 +276,6 @@ impl Side {
             Self::Behind => "behind",
         }
     }
-
-    /// The other side.
-    #[must_use]
-    pub fn opposite(self) -> Self {
-        match self {
-            Self::Left => Self::Right,
-            Self::Right => Self::Left,
-            Self::Ahead => Self::Behind,
-            Self::Behind => Self::Ahead,
-        }
-    }
 }
 
 /// A load.

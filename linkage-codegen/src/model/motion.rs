@@ -93,9 +93,10 @@ pub(super) fn unknowns(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink)
     if found != wanted && wanted > 0 && !unsure {
         let last = given.last().map_or(ast.name.place(), |u| u.place);
         let problem = format!(
-            "{} hold{} as many freedoms, and the drives leave {wanted} to hold",
-            count(found, "unknown"),
-            if found == 1 { "s" } else { "" }
+            "{} {} needed to hold the linkage, and {found} {} declared",
+            count(wanted, "unknown"),
+            are(wanted),
+            are(found)
         );
         let help = if found > wanted {
             format!("take {} out, or drive as many joints more", count(found - wanted, "unknown"))
@@ -107,10 +108,14 @@ pub(super) fn unknowns(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink)
         };
         sink.report(
             Diagnostic::new(last, problem)
-                .note("each drive fixes one freedom, in which one effort, wherever it acts, holds the linkage against its loads")
+                .note("one for each drive: a drive fixes one freedom, in which one effort, wherever it acts, holds the linkage against its loads")
                 .help(help),
         );
     }
+}
+
+fn are(n: usize) -> &'static str {
+    if n == 1 { "is" } else { "are" }
 }
 
 fn count(n: usize, noun: &str) -> String {

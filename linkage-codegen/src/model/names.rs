@@ -115,7 +115,7 @@ pub(super) fn distinct(ast: &Ast, sink: &Sink) -> Ast {
             });
             if let Some(first) = first {
                 sink.report(
-                    Diagnostic::new(Place::at(second.keyword), "there is one ground")
+                    Diagnostic::new(Place::at(second.keyword), "the linkage has a ground already")
                         .help("put all its points into one `ground { … }`"),
                 );
                 first.places.extend(second.places.clone());
@@ -131,6 +131,16 @@ fn taken(name: &Name, by: Entry) -> Diagnostic {
     let problem = format!("the name `{name}` is taken: it is {} already", by.role.describe());
     Diagnostic::new(name.place(), problem)
         .help("parameters, links, joints, drives, unknowns, loads and scenes share their names: choose another one")
+}
+
+/// What a name means wherever a value is written.
+fn meaning_in_values(name: &str) -> Option<&'static str> {
+    match name {
+        "pi" => Some("a number"),
+        _ if FUNCTIONS.contains(&name) => Some("a function"),
+        _ if unit_names().any(|unit| unit == name) => Some("a unit"),
+        _ => None,
+    }
 }
 
 /// Names of functions in expressions.
@@ -161,12 +171,10 @@ impl Names {
             let problem = format!("`{name}` cannot be a name: Rust keeps the word for itself");
             sink.report(Diagnostic::new(name.place(), problem).help("choose another name"));
         }
-        if entry.role == Role::Param
-            && (name.text == "pi" || FUNCTIONS.contains(&name.text.as_str()) || unit_names().any(|u| u == name.text))
-        {
+        if let Some(other) = meaning_in_values(&name.text).filter(|_| entry.role == Role::Param) {
             sink.report(
-                Diagnostic::new(name.place(), format!("`{name}` means something else where values are written"))
-                    .help("units and functions keep their names: call the parameter differently"),
+                Diagnostic::new(name.place(), format!("`{name}` is {other}, and cannot be the name of a parameter"))
+                    .help("choose another name"),
             );
         }
         match self.entries.get(&name.text) {

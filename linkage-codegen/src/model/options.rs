@@ -26,7 +26,9 @@ pub(super) fn options(ast: &Ast, sink: &Sink) -> Options {
             },
             Item::Arithmetic(name) => match name.text.as_str() {
                 "plain" => {}
-                "fused" => sink.report(Diagnostic::new(name.place(), "fused arithmetic is not supported yet")),
+                "fused" => sink.report(
+                    Diagnostic::new(name.place(), "fused arithmetic is not supported yet").help("leave it out"),
+                ),
                 _ => sink.report(Diagnostic::new(name.place(), "the arithmetic is `plain` or `fused`")),
             },
             Item::Crate(path) => options.runtime = Some(path.clone()),

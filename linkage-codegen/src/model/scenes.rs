@@ -20,8 +20,8 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         let Item::Scene(given) = item else { continue };
         // A scene that is refused still brings its names.
         let method = sink.absorb(method(given)).unwrap_or_else(|| likely_method(&given.method.text));
-        let (results, refused) = results(model, given, method, names, sink);
         let loads = loads(model, given, method, names, sink);
+        let (results, refused) = results(model, given, method, &loads, names, sink);
         if unloaded && method != Method::Position && !told {
             told = true;
             sink.report(
@@ -124,11 +124,15 @@ fn loads(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink:
 type Refused = Vec<(String, Option<Wanted>)>;
 
 /// The results of a scene, and those that it names in vain.
-fn results(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink: &Sink) -> (Vec<Wanted>, Refused) {
-    let Some(listed) = &given.results else {
-        let loads = loads(model, given, method, names, &Sink::default());
-        return (all_results(model, method, &loads), Vec::new());
-    };
+fn results(
+    model: &Model,
+    given: &ast::Scene,
+    method: Method,
+    loads: &[LoadId],
+    names: &Names,
+    sink: &Sink,
+) -> (Vec<Wanted>, Refused) {
+    let Some(listed) = &given.results else { return (all_results(model, method, loads), Vec::new()) };
     if method == Method::Verify {
         let place = given.method.place();
         if cfg!(feature = "reference") {
@@ -234,7 +238,7 @@ fn result(
             let Some(id) = names.find(Role::Link, link)?.map(LinkId::new) else { return Ok(None) };
             if method != Method::Position {
                 let what = if point.text == "angle" { "the angle of a link" } else { "the place of a point" };
-                return Err(cannot(given, place, &format!("{link}.{point}"), what).note("`position` gives it"));
+                return Err(cannot(given, place, &format!("{link}.{point}"), what).help("`position` gives it"));
             }
             if point.text == "angle" {
                 return Ok(Some(Wanted::Angle(id)));
@@ -275,7 +279,7 @@ fn named_result(
         return match method {
             Method::Position => {
                 Err(cannot(given, name.place(), &name.text, "an effort")
-                    .note("`equilibrium` and `virtual_work` give it"))
+                    .help("`equilibrium` and `virtual_work` give it"))
             }
             _ => Ok(Some(Wanted::Unknown(UnknownId::new(index)))),
         };
@@ -292,7 +296,7 @@ fn named_result(
             let load = LoadId::new(index);
             if method != Method::VirtualWork {
                 return Err(
-                    cannot(given, name.place(), &name.text, "the term of a load").note("`virtual_work` gives it")
+                    cannot(given, name.place(), &name.text, "the term of a load").help("`virtual_work` gives it")
                 );
             }
             let listed = given.loads.as_ref().is_none_or(|l| l.iter().any(|n| n.text == name.text));

@@ -162,9 +162,9 @@ fn unsupported(model: &Model, group: &Group, what: &str) -> Diagnostic {
     let letters = group.letters(model);
     let joints = group.outer.iter().chain(&group.inner).map(|j| model.joint(*j).name.text.as_str());
     let joints = joints.collect::<Vec<_>>();
-    let (it, depend) = if links.len() == 1 { ("this link", "it hangs") } else { ("these links together", "they hang") };
-    Diagnostic::new(place, format!("to {what} {it} is not supported yet: {}", list(&links)))
-        .note(format!("{depend} on the joints {} ({letters})", list(&joints)))
+    let class = "its class is not supported yet";
+    Diagnostic::new(place, format!("there is no rule to {what} the group of {}: {class}", list(&links)))
+        .note(format!("its joints are {} ({letters})", list(&joints)))
         .help("supported are links on one pin or one slide, and RRR and RRP dyads: another drive or unknown may split the linkage so")
 }
 

@@ -8,11 +8,13 @@ mod extract;
 mod functions;
 mod interpret;
 pub mod passes;
+mod range;
 
 pub use counts::Counts;
 pub use extract::{Extract, Form};
 pub use functions::{Functions, SceneFunctions};
 pub use interpret::{Fault, Run};
+pub use range::check_range;
 
 use crate::graph::{Guard, Label, NodeId, Op, Symbol};
 

@@ -139,6 +139,40 @@ pub struct Value {
     pub kind: ValueKind,
     /// Where it stands.
     pub place: Place,
+    /// How large it is.
+    pub(super) extent: Extent,
+}
+
+/// How large an expression is. It bounds the recursion and the work of all that is made of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Extent {
+    /// Operations within operations.
+    pub(super) depth: usize,
+    /// All operations, each as often as powers repeat it.
+    pub(super) operations: usize,
+}
+
+impl Value {
+    pub(super) fn new(kind: ValueKind, place: Place) -> Self {
+        let extent = kind.extent();
+        Self { kind, place, extent }
+    }
+}
+
+impl ValueKind {
+    fn extent(&self) -> Extent {
+        let above = |inner: &[&Value], times: usize| Extent {
+            depth: 1 + inner.iter().map(|value| value.extent.depth).max().unwrap_or(0),
+            operations: times.saturating_mul(1 + inner.iter().map(|value| value.extent.operations).sum::<usize>()),
+        };
+        match self {
+            Self::Number(..) | Self::Name(_) => Extent::default(),
+            Self::Negative(a) => above(&[a], 1),
+            Self::Sum(a, b) | Self::Difference(a, b) | Self::Product(a, b) | Self::Quotient(a, b) => above(&[a, b], 1),
+            Self::Power(base, exponent) => above(&[base], usize::try_from(*exponent).unwrap_or(usize::MAX).max(1)),
+            Self::Call(_, args) => above(&args.iter().collect::<Vec<_>>(), 1),
+        }
+    }
 }
 
 /// The kinds of scalar expressions.

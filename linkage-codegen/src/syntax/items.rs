@@ -262,7 +262,9 @@ fn assemble(input: ParseStream<'_>, keyword: &Name) -> Result<Item> {
     let side = name(input)?;
     let content;
     if !input.peek(Paren) {
-        return Err(input.error("expected the joints in parentheses, as in `left(A -> B0)` or `ahead(A)`"));
+        return Err(
+            input.error("expected `(`\nhelp: the joints stand in parentheses, as in `left(A -> B0)` or `ahead(A)`")
+        );
     }
     let parens = syn::parenthesized!(content in input);
     let chosen = side.place().to(Place::at(parens.span.close()));
@@ -292,7 +294,7 @@ fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let name_ = colon_name(input)?;
     let mut word = name(input)?;
     if !EFFORTS.contains(&word.text.as_str()) {
-        let problem = format!("there is no unknown `{word}`");
+        let problem = format!("there is no kind of unknown `{word}`");
         let help = "an unknown is a `torque`, a `force` or a `thrust`";
         let Some(meant) = closest(&word.text, EFFORTS) else {
             return Err(Error::new(word.span, format!("{problem}\nhelp: {help}")));
@@ -301,7 +303,9 @@ fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         meant.clone_into(&mut word.text);
     }
     if !input.peek(Paren) {
-        return Err(input.error("expected parentheses, as in `torque(ground -> crank)`"));
+        return Err(
+            input.error("expected `(`\nhelp: as in `torque(ground -> crank)` or `force(piston.B) along 180deg`")
+        );
     }
     let content;
     let _ = syn::parenthesized!(content in input);
@@ -309,9 +313,7 @@ fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         "torque" => {
             let from = name(&content)?;
             if !content.peek(Token![->]) {
-                let problem = "a torque acts between two links";
-                let help = format!("write `torque(ground -> {from})`: on the second, by the first");
-                return Err(Error::new(from.span, format!("{problem}\nhelp: {help}")));
+                return Err(one_sided_torque(&from, &content));
             }
             content.parse::<Token![->]>()?;
             let to = name(&content)?;
@@ -338,4 +340,16 @@ fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     };
     let place = place_of(&between(&begin, input)).unwrap_or(name_.place());
     Ok(Item::Unknown(Unknown { name: name_, place, effort }))
+}
+
+/// A torque without an arrow; what stands behind its first link may be the second.
+fn one_sided_torque(from: &Name, content: ParseStream<'_>) -> Error {
+    take(content);
+    let example = match name(content) {
+        Ok(to) => format!("{from} -> {to}"),
+        Err(_) if from.text == "ground" => "ground -> crank".to_owned(),
+        Err(_) => format!("ground -> {from}"),
+    };
+    let help = format!("write `torque({example})`: on the second, by the first");
+    Error::new(from.span, format!("a torque acts between two links\nhelp: {help}"))
 }

@@ -18,7 +18,7 @@ pub(super) fn load(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     input.parse::<Token![:]>()?;
     let mut word = name(input)?;
     if !KINDS.contains(&word.text.as_str()) {
-        let problem = format!("there is no load `{word}`");
+        let problem = format!("there is no kind of load `{word}`");
         let Some(meant) = closest(&word.text, KINDS) else {
             return Err(Error::new(word.span, format!("{problem}\nhelp: a load is one of {}", KINDS.join(", "))));
         };
@@ -72,7 +72,7 @@ fn moment(input: ParseStream<'_>) -> Result<LoadKind> {
 
 fn in_parentheses<T>(input: ParseStream<'_>, example: &str, inside: fn(ParseStream<'_>) -> Result<T>) -> Result<T> {
     if !input.peek(Paren) {
-        return Err(input.error(format!("expected parentheses, as in `{example}`")));
+        return Err(input.error(format!("expected `(`\nhelp: as in `{example}`")));
     }
     let content;
     let _ = syn::parenthesized!(content in input);

@@ -27,6 +27,8 @@ use crate::diagnostics::{Diagnostic, Place, Sink};
 
 /// Brackets in brackets.
 const DEPTH: usize = 128;
+/// Characters of a number. A double written out has up to 1,075 digits.
+const LENGTH: usize = 4096;
 
 /// The words that begin an item.
 const ITEMS: [&str; 20] = [
@@ -54,8 +56,8 @@ const ITEMS: [&str; 20] = [
 
 /// Reads a declaration. `None` if even its header cannot be read.
 pub fn parse(input: TokenStream, sink: &Sink) -> Option<Ast> {
-    if let Some(place) = too_deep(&input) {
-        sink.report(Diagnostic::new(place, format!("brackets are nested more than {DEPTH} deep")));
+    if let Some(excess) = excess(&input) {
+        sink.report(excess);
         return None;
     }
     let read = |stream: ParseStream<'_>| Ok(declaration(stream, sink));
@@ -68,15 +70,25 @@ pub fn parse(input: TokenStream, sink: &Sink) -> Option<Ast> {
     }
 }
 
-/// The first bracket that is nested too deeply.
-fn too_deep(input: &TokenStream) -> Option<Place> {
+/// A bracket that is nested too deeply, or a number that is too long: reading them would take too much stack or time.
+fn excess(input: &TokenStream) -> Option<Diagnostic> {
     let mut open: Vec<(usize, TokenTree)> = input.clone().into_iter().map(|token| (0, token)).collect();
     while let Some((depth, token)) = open.pop() {
-        let TokenTree::Group(group) = token else { continue };
-        if depth == DEPTH {
-            return Some(Place::at(group.span_open()));
+        match token {
+            TokenTree::Group(group) if depth == DEPTH => {
+                let problem = format!("brackets are nested more than {DEPTH} deep");
+                return Some(Diagnostic::new(Place::at(group.span_open()), problem));
+            }
+            TokenTree::Group(group) => open.extend(group.stream().into_iter().map(|token| (depth + 1, token))),
+            TokenTree::Literal(literal) => {
+                let text = literal.to_string();
+                if text.len() > LENGTH && text.starts_with(|first: char| first.is_ascii_digit()) {
+                    let problem = format!("this number has more than {LENGTH} characters");
+                    return Some(Diagnostic::new(Place::at(literal.span()), problem));
+                }
+            }
+            TokenTree::Ident(_) | TokenTree::Punct(_) => {}
         }
-        open.extend(group.stream().into_iter().map(|token| (depth + 1, token)));
     }
     None
 }

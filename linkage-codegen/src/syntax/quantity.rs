@@ -9,13 +9,27 @@ use super::ast::{Direction, DirectionKind, Magnitude, Value, ValueKind, VectorKi
 use super::tokens::{eat_word, name, peek_word};
 use crate::diagnostics::Place;
 
-/// Operators in a row.
-const LENGTH: usize = 256;
+/// Operations within operations, those in a row included.
+const DEPTH: usize = 256;
+/// Operations of an expression, each as often as powers repeat it.
+const OPERATIONS: usize = 4096;
+
+/// An expression; one that is too large is refused.
+fn built(kind: ValueKind, place: Place) -> Result<Value> {
+    let value = Value::new(kind, place);
+    if value.extent.depth <= DEPTH && value.extent.operations <= OPERATIONS {
+        return Ok(value);
+    }
+    let problem = format!(
+        "this expression is too long: at most {DEPTH} operations depend on each other, and at most {OPERATIONS} make up the whole"
+    );
+    Err(Error::new(place.start(), format!("{problem}\nhelp: work a part of it out, and write the number")))
+}
 
 /// `value := term ((+ | -) term)*`
 pub(super) fn value(input: ParseStream<'_>) -> Result<Value> {
     let mut left = term(input)?;
-    for _ in 0..LENGTH {
+    loop {
         let join = if input.peek(Token![+]) {
             input.parse::<Token![+]>()?;
             ValueKind::Sum
@@ -25,18 +39,13 @@ pub(super) fn value(input: ParseStream<'_>) -> Result<Value> {
         } else {
             return Ok(left);
         };
-        left = joined(join, left, term(input)?);
+        left = joined(join, left, term(input)?)?;
     }
-    Err(too_long(input))
-}
-
-fn too_long(input: ParseStream<'_>) -> Error {
-    input.error(format!("more than {LENGTH} operators in a row"))
 }
 
 fn term(input: ParseStream<'_>) -> Result<Value> {
     let mut left = factor(input)?;
-    for _ in 0..LENGTH {
+    loop {
         let join = if input.peek(Token![*]) {
             input.parse::<Token![*]>()?;
             ValueKind::Product
@@ -46,14 +55,13 @@ fn term(input: ParseStream<'_>) -> Result<Value> {
         } else {
             return Ok(left);
         };
-        left = joined(join, left, factor(input)?);
+        left = joined(join, left, factor(input)?)?;
     }
-    Err(too_long(input))
 }
 
-fn joined(join: fn(Box<Value>, Box<Value>) -> ValueKind, left: Value, right: Value) -> Value {
+fn joined(join: fn(Box<Value>, Box<Value>) -> ValueKind, left: Value, right: Value) -> Result<Value> {
     let place = left.place.to(right.place);
-    Value { kind: join(Box::new(left), Box::new(right)), place }
+    built(join(Box::new(left), Box::new(right)), place)
 }
 
 fn factor(input: ParseStream<'_>) -> Result<Value> {
@@ -61,14 +69,11 @@ fn factor(input: ParseStream<'_>) -> Result<Value> {
     while input.peek(Token![-]) && !input.peek(Token![->]) {
         let minus: Token![-] = input.parse()?;
         signs.push(minus.spans[0]);
-        if signs.len() > LENGTH {
-            return Err(too_long(input));
-        }
     }
-    Ok(signs.into_iter().rev().fold(power(input)?, |inner, minus| {
+    signs.into_iter().rev().try_fold(power(input)?, |inner, minus| {
         let place = Place::at(minus).to(inner.place);
-        Value { kind: ValueKind::Negative(Box::new(inner)), place }
-    }))
+        built(ValueKind::Negative(Box::new(inner)), place)
+    })
 }
 
 fn power(input: ParseStream<'_>) -> Result<Value> {
@@ -82,9 +87,7 @@ fn power(input: ParseStream<'_>) -> Result<Value> {
     drop(input.parse::<TokenTree>());
     let place = base.place.to(Place::at(exponent.span()));
     match exponent.base10_parse::<u32>() {
-        Ok(power @ 0..=16) if exponent.suffix().is_empty() => {
-            Ok(Value { kind: ValueKind::Power(Box::new(base), power), place })
-        }
+        Ok(power @ 0..=16) if exponent.suffix().is_empty() => built(ValueKind::Power(Box::new(base), power), place),
         _ => Err(Error::new(exponent.span(), "an exponent is a whole number from 0 to 16, without a unit")),
     }
 }
@@ -110,9 +113,10 @@ fn atom(input: ParseStream<'_>) -> Result<Value> {
             let parens = syn::parenthesized!(content in input);
             let place = word.place().to(Place::at(parens.span.close()));
             let args = super::tokens::comma_list(&content, value)?;
-            return Ok(Value { kind: ValueKind::Call(word, args), place });
+            return built(ValueKind::Call(word, args), place);
         }
-        return Ok(Value { place: word.place(), kind: ValueKind::Name(word.text) });
+        let place = word.place();
+        return built(ValueKind::Name(word.text), place);
     }
     Err(input.error("expected a value, such as `80mm`"))
 }
@@ -130,7 +134,7 @@ fn number(input: ParseStream<'_>) -> Result<Value> {
         _ => return Err(Error::new(literal.span(), "expected a number, such as `80mm`")),
     };
     let unit = (!suffix.is_empty()).then(|| suffix.to_owned());
-    Ok(Value { kind: ValueKind::Number(digits, unit), place })
+    built(ValueKind::Number(digits, unit), place)
 }
 
 /// The literal as its token prints.

@@ -6,7 +6,7 @@ use super::matching::Unbalanced;
 use super::{Constraint, Input, generic};
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::model::Model;
-use crate::model::ids::{GROUND, LinkId};
+use crate::model::ids::{GROUND, JointId, LinkId};
 
 /// Reports a linkage with more or fewer drives than it has freedoms.
 pub(super) fn check(model: &Model, sink: &Sink) -> bool {
@@ -24,6 +24,8 @@ pub(super) fn check(model: &Model, sink: &Sink) -> bool {
         count(model.joints.len(), "joint"),
         count(drives, "drive"),
     );
+    let joints: Vec<JointId> = model.joint_ids().collect();
+    let pinned_twice = super::pinned_twice(model, &joints);
     let last = model.drives.last().map_or(model.name.place(), |d| d.name.place());
     let drives = i64::try_from(drives).unwrap_or(0);
     let found = if mobility <= 0 {
@@ -31,12 +33,16 @@ pub(super) fn check(model: &Model, sink: &Sink) -> bool {
             .note(counts)
             .note("should it move in spite of that, because of special dimensions such as parallel cranks of equal length, \
                    then one of its joints is redundant, and the reactions have no single answer")
-            .help("release a joint: take one out, or let a link end in a slider instead of a pin")
+            .help(pinned_twice.unwrap_or_else(|| {
+                "release a joint: take one out, or let a link end in a slider instead of a pin".to_owned()
+            }))
     } else if mobility < drives {
         let surplus = drives - mobility;
-        Diagnostic::new(last, format!("the linkage is over-driven by {}", counted(surplus, "drive")))
-            .note(counts)
-            .help(format!("take {} out", if surplus == 1 { "a drive".into() } else { counted(surplus, "drive") }))
+        Diagnostic::new(last, format!("the linkage is over-driven by {}", counted(surplus, "drive"))).note(counts).help(
+            pinned_twice.unwrap_or_else(|| {
+                format!("take {} out", if surplus == 1 { "a drive".into() } else { counted(surplus, "drive") })
+            }),
+        )
     } else {
         let problem = match drives {
             0 => "nothing drives the linkage".to_owned(),

@@ -194,30 +194,27 @@ fn singular_group(model: &Model, group: &Group, rank: usize) -> Diagnostic {
     let found = Diagnostic::new(place, problem).note(format!(
         "{freedoms} constraints for {freedoms} freedoms, but only {rank} of them independent: the linkage is held twice here, and loose elsewhere"
     ));
-    match pinned_twice(model, &joints) {
-        Some([first, second]) => {
-            let [a, b] = model.joint(first).ends().map(|end| &model.link(end.link).name);
-            let (first, second) = (&model.joint(first).name, &model.joint(second).name);
-            found.help(format!(
-                "the pins `{first}` and `{second}` make one rigid body of `{a}` and `{b}`: declare it as one link, or take one pin out"
-            ))
-        }
-        None => found.help("take out a joint that repeats another one, or turn a slider so that it guides another way"),
-    }
+    found.help(pinned_twice(model, &joints).unwrap_or_else(|| {
+        "take out a joint that repeats another one, or turn a slider so that it guides another way".to_owned()
+    }))
 }
 
-/// Two pins between the same two links.
-fn pinned_twice(model: &Model, joints: &[JointId]) -> Option<[JointId; 2]> {
+/// What to do about two pins between the same two links, if there are such.
+fn pinned_twice(model: &Model, joints: &[JointId]) -> Option<String> {
     let pinned = |joint: JointId| {
         let joint = model.joint(joint);
         let [a, b] = joint.ends().map(|end| end.link);
         matches!(joint.kind, JointKind::Revolute).then_some([a.min(b), a.max(b)])
     };
-    joints.iter().enumerate().find_map(|(index, first)| {
+    let (links, first, second) = joints.iter().enumerate().find_map(|(index, first)| {
         let links = pinned(*first)?;
         let second = joints[index + 1..].iter().find(|second| pinned(**second) == Some(links))?;
-        Some([*first, *second])
-    })
+        Some((links, &model.joint(*first).name, &model.joint(*second).name))
+    })?;
+    let [a, b] = links.map(|link| &model.link(link).name);
+    Some(format!(
+        "the pins `{first}` and `{second}` make one rigid body of `{a}` and `{b}`: declare it as one link, or take one pin out"
+    ))
 }
 
 /// An unknown that does no work at any pose.

@@ -320,12 +320,8 @@ fn check_closure(dyad: &PinnedDyad<'_>, closure: &Closure, of: &str) -> RuleResu
     let along = matches!(closure.side, Side::Ahead | Side::Behind);
     let problem =
         if along { format!("`{}` is for dyads with a slider: here {lies}", closure.side.word()) } else { lies };
-    let found = Diagnostic::new(closure.side_place, problem);
-    let same = (closure.of == [outer[1], outer[0]]).then(|| closure.side.opposite());
-    Err(match same {
-        Some(side) => found.help(format!("the same side is\nassemble {joint}: {}({of});", side.word())),
-        None => found.help(format!("choose one of\nassemble {joint}: left({of});\nassemble {joint}: right({of});")),
-    })
+    Err(Diagnostic::new(closure.side_place, problem)
+        .help(format!("choose one of\nassemble {joint}: left({of});\nassemble {joint}: right({of});")))
 }
 
 fn not_folding(dyad: &PinnedDyad<'_>, closure: &Closure, why: &str) -> Diagnostic {
