@@ -46,7 +46,7 @@ pub struct Refusal {
     /// All that was found, each with its place.
     pub errors: Vec<Diagnostic>,
     /// What was understood of it, if anything: names above all.
-    pub model: Option<Model>,
+    pub model: Option<Box<Model>>,
 }
 
 /// Takes a declaration through all stages.
@@ -62,7 +62,7 @@ pub fn analyse(declaration: TokenStream) -> Result<Linkage, Refusal> {
         (Some((topology, system, plan, functions)), Some(model)) if sink.is_clean() => {
             Ok(Linkage { model, topology, system, plan, functions })
         }
-        (_, model) => Err(Refusal { errors: sink.into_errors(), model }),
+        (_, model) => Err(Refusal { errors: sink.into_errors(), model: model.map(Box::new) }),
     }
 }
 
@@ -82,7 +82,7 @@ pub fn expand(declaration: TokenStream) -> TokenStream {
         Ok(linkage) => emit::module(&linkage),
         Err(Refusal { errors, model }) => {
             let mut tokens = diagnostics::to_tokens(&errors);
-            tokens.extend(model.map(emit::fallback));
+            tokens.extend(model.map(|model| emit::fallback(*model)));
             tokens
         }
     }

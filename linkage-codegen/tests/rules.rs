@@ -2,6 +2,7 @@
 
 mod support;
 
+use linkage_codegen::graph::real::Real;
 use linkage_codegen::plan::rules::RULES;
 use support::general::{equations, solve_extended};
 use support::numbers::Extended;
@@ -111,12 +112,10 @@ fn check(linkage: &linkage_codegen::Linkage, arguments: &Arguments, text: &str) 
     for (name, value) in general.named(linkage, solution) {
         let error = (all[&name].to_f64() - value.to_f64()).abs();
         assert!(error <= 1e-13 * value.to_f64().abs().max(1.0), "{name}\n{text}");
-        use linkage_codegen::graph::real::Real;
         assert!(all[&name].sub(&value).to_f64().abs() < 1e-50, "{name}: equilibrium\n{text}");
     }
     let work = scene::<Extended>(linkage, "work", arguments).unwrap();
     for unknown in &linkage.model.unknowns {
-        use linkage_codegen::graph::real::Real;
         let difference = all[&unknown.name].sub(&work[&unknown.name]).to_f64();
         assert!(difference.abs() < 1e-50, "{}: virtual work {difference:e}\n{text}", unknown.name);
     }

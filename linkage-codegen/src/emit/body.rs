@@ -250,10 +250,10 @@ impl<'a> Body<'a> {
     pub(super) fn statements(mut self) -> (TokenStream, Self) {
         let mut calls: Calls = BTreeMap::new();
         for step in &self.program.steps {
-            if let Step::Let(value) = step {
-                if let Some(Op::Kernel { kernel, args, part }) = self.program.op(*value) {
-                    calls.entry((*kernel, args.clone())).or_default().push((*part, *value));
-                }
+            if let Step::Let(value) = step
+                && let Some(Op::Kernel { kernel, args, part }) = self.program.op(*value)
+            {
+                calls.entry((*kernel, args.clone())).or_default().push((*part, *value));
             }
         }
         let mut statements = TokenStream::new();

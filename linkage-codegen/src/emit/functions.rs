@@ -99,7 +99,7 @@ fn bindings(linkage: &Linkage, program: &Program) -> TokenStream {
 /// A member of a struct expression, in short where name and value are the same.
 fn member(name: &str, value: &TokenStream) -> TokenStream {
     let name = ident(name);
-    if value.to_string() == name.to_string() { quote!(#name) } else { quote!(#name: #value) }
+    if name == value.to_string() { quote!(#name) } else { quote!(#name: #value) }
 }
 
 /// The expression of a result.

@@ -28,7 +28,7 @@ pub fn module(linkage: &Linkage) -> TokenStream {
         return plain;
     }
     // The source that the module holds is its own, but for that constant.
-    let source = literals::text(&source(plain));
+    let source = literals::text(&source(&plain));
     let constant = quote! {
         /// The source of this module, formatted.
         pub const SOURCE: &str = #source;
@@ -37,7 +37,7 @@ pub fn module(linkage: &Linkage) -> TokenStream {
 }
 
 /// Tokens as formatted source; unformatted if that is not built in.
-fn source(tokens: TokenStream) -> String {
+fn source(tokens: &TokenStream) -> String {
     #[cfg(feature = "source")]
     if let Ok(source) = crate::formatted(tokens.clone()) {
         return source;

@@ -12,14 +12,12 @@ impl Graph {
     pub fn derivative<'g>(&'g self, of: Expr<'g>, link: LinkId, by: Coordinate) -> Expr<'g> {
         let d = |id: NodeId| self.derivative(self.expr(id), link, by);
         match of.op() {
-            Op::Constant(_) => self.zero(),
             Op::Symbol(Symbol::Coordinate(owner, coordinate)) if owner == link => match (coordinate, by) {
                 (a, b) if a == b => self.one(),
                 (Coordinate::Cos, Coordinate::Angle) => -self.symbol(Symbol::Coordinate(link, Coordinate::Sin)),
                 (Coordinate::Sin, Coordinate::Angle) => self.symbol(Symbol::Coordinate(link, Coordinate::Cos)),
                 _ => self.zero(),
             },
-            Op::Symbol(_) => self.zero(),
             Op::Neg(a) => -d(a),
             Op::Add(a, b) => d(a) + d(b),
             Op::Sub(a, b) => d(a) - d(b),
@@ -38,8 +36,9 @@ impl Graph {
                 let (y, x) = (self.expr(args[0]), self.expr(args[1]));
                 (x * d(args[0]) - y * d(args[1])) / (x * x + y * y)
             }
+            Op::Constant(_) | Op::Symbol(_)
             // Constraints are smooth: they hold none of these.
-            Op::Abs(_)
+            | Op::Abs(_)
             | Op::NonNegative(_)
             | Op::Where { .. }
             | Op::Kernel { kernel: Kernel::Unit | Kernel::Solve2 | Kernel::Solve3, .. } => self.zero(),

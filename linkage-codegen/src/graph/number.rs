@@ -5,6 +5,7 @@
 
 use core::cmp::Ordering;
 
+use dashu_float::round::Rounded;
 use dashu_float::round::mode::HalfEven;
 use dashu_float::{Context, FBig, Repr};
 use dashu_int::{IBig, UBig};
@@ -114,7 +115,7 @@ impl Number {
     /// A value to 256 bits; one that agrees with a whole number in all but its last bits is that number.
     fn real(value: Float) -> Self {
         let nearest = value.round();
-        let error = context().sub(value.repr(), nearest.repr()).map_or(Float::ZERO, |r| r.value());
+        let error = context().sub(value.repr(), nearest.repr()).map_or(Float::ZERO, Rounded::value);
         if magnitude(&value).abs() < 64 && magnitude(&error) < magnitude(&value) - CANCELLED {
             return Self::Rational(RBig::from(nearest.to_int().value()));
         }
@@ -126,13 +127,13 @@ impl Number {
         let quotient = |q: &RBig| {
             let n = Repr::<2>::new(q.numerator().clone(), 0);
             let d = Repr::<2>::new(q.denominator().as_ibig().clone(), 0);
-            context().div(&n, &d).map_or(Float::ZERO, |r| r.value())
+            context().div(&n, &d).map_or(Float::ZERO, Rounded::value)
         };
         match self {
             Self::Rational(q) => quotient(q),
             Self::Pi(q) => {
                 let pi = context().pi::<2>(None).value();
-                context().mul(pi.repr(), quotient(q).repr()).map_or(Float::ZERO, |r| r.value())
+                context().mul(pi.repr(), quotient(q).repr()).map_or(Float::ZERO, Rounded::value)
             }
             Self::Real(x) => x.clone(),
         }
@@ -187,7 +188,7 @@ impl Number {
             (Self::Pi(a), Self::Pi(b)) => Self::pi_times(a + b),
             _ => {
                 let (a, b) = (self.float(), other.float());
-                let sum = context().add(a.repr(), b.repr()).map_or(Float::ZERO, |r| r.value());
+                let sum = context().add(a.repr(), b.repr()).map_or(Float::ZERO, Rounded::value);
                 let size = magnitude(&a).max(magnitude(&b));
                 if magnitude(&sum) < size.saturating_sub(CANCELLED) { Self::zero() } else { Self::real(sum) }
             }
@@ -208,7 +209,7 @@ impl Number {
             (Self::Rational(a), Self::Rational(b)) => Self::rational(a * b),
             (Self::Pi(a), Self::Rational(b)) | (Self::Rational(a), Self::Pi(b)) => Self::pi_times(a * b),
             _ => {
-                Self::real(context().mul(self.float().repr(), other.float().repr()).map_or(Float::ZERO, |r| r.value()))
+                Self::real(context().mul(self.float().repr(), other.float().repr()).map_or(Float::ZERO, Rounded::value))
             }
         }
     }
@@ -227,7 +228,7 @@ impl Number {
             (Self::Rational(a), Self::Rational(b)) | (Self::Pi(a), Self::Pi(b)) => Self::rational(a / b),
             (Self::Pi(a), Self::Rational(b)) => Self::pi_times(a / b),
             _ => {
-                Self::real(context().div(self.float().repr(), other.float().repr()).map_or(Float::ZERO, |r| r.value()))
+                Self::real(context().div(self.float().repr(), other.float().repr()).map_or(Float::ZERO, Rounded::value))
             }
         })
     }
@@ -282,15 +283,15 @@ impl Number {
                 let x = Self::Rational(q.clone()).float();
                 let (s, c) = context().sin_cos_pi(x.repr(), None);
                 (
-                    Self::real(s.map_or_else(|_| zero(), |r| r.value())),
-                    Self::real(c.map_or_else(|_| zero(), |r| r.value())),
+                    Self::real(s.map_or_else(|_| zero(), Rounded::value)),
+                    Self::real(c.map_or_else(|_| zero(), Rounded::value)),
                 )
             }
             _ => {
                 let (s, c) = context().sin_cos(self.float().repr(), None);
                 (
-                    Self::real(s.map_or_else(|_| zero(), |r| r.value())),
-                    Self::real(c.map_or_else(|_| zero(), |r| r.value())),
+                    Self::real(s.map_or_else(|_| zero(), Rounded::value)),
+                    Self::real(c.map_or_else(|_| zero(), Rounded::value)),
                 )
             }
         }

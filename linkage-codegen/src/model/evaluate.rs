@@ -28,10 +28,10 @@ impl<'m> Scope<'m> {
     /// A value that must be of a kind.
     pub(super) fn scalar(&self, value: &Value, kind: Kind) -> Evaluated<Expr<'m>> {
         let found = self.quantity(value)?;
-        self.converted(found, kind, value.place)
+        self.converted(&found, kind, value.place)
     }
 
-    fn converted(&self, found: Quantity<'m>, kind: Kind, place: Place) -> Evaluated<Expr<'m>> {
+    fn converted(&self, found: &Quantity<'m>, kind: Kind, place: Place) -> Evaluated<Expr<'m>> {
         let units = &self.model.units;
         let Some(dimension) = found.dimension else { return Ok(found.expr) };
         if let Some(factor) = kind.factor_from(dimension, units) {
@@ -67,11 +67,11 @@ impl<'m> Scope<'m> {
                     VectorKind::Polar(_, angle) => self.scalar(angle, Kind::Angle)?.direction(),
                     VectorKind::Cartesian(x, y) => {
                         let (x, y) = (self.quantity(x)?, self.quantity(y)?);
-                        if let (Some(a), Some(b)) = (x.dimension, y.dimension) {
-                            if a != b {
-                                let problem = format!("the components of a direction are of one kind, not {a} and {b}");
-                                return Err(Diagnostic::new(vector.place, problem));
-                            }
+                        if let (Some(a), Some(b)) = (x.dimension, y.dimension)
+                            && a != b
+                        {
+                            let problem = format!("the components of a direction are of one kind, not {a} and {b}");
+                            return Err(Diagnostic::new(vector.place, problem));
                         }
                         Vector::new(x.expr, y.expr)
                     }
@@ -213,11 +213,11 @@ impl<'m> Scope<'m> {
 
     fn joined(&self, a: &Value, b: &Value, join: fn(Expr<'m>, Expr<'m>) -> Expr<'m>) -> Evaluated<Quantity<'m>> {
         let (left, right) = (self.quantity(a)?, self.quantity(b)?);
-        if let (Some(wanted), Some(found)) = (left.dimension, right.dimension) {
-            if wanted != found {
-                let problem = format!("{wanted} and {found} cannot be added or subtracted");
-                return Err(Diagnostic::new(a.place.to(b.place), problem));
-            }
+        if let (Some(wanted), Some(found)) = (left.dimension, right.dimension)
+            && wanted != found
+        {
+            let problem = format!("{wanted} and {found} cannot be added or subtracted");
+            return Err(Diagnostic::new(a.place.to(b.place), problem));
         }
         Ok(Quantity { expr: join(left.expr, right.expr), dimension: left.dimension.or(right.dimension) })
     }
@@ -265,10 +265,10 @@ impl<'m> Scope<'m> {
             }
             "atan2" => {
                 let (y, x) = (self.quantity(&args[0])?, self.quantity(&args[1])?);
-                if let (Some(a), Some(b)) = (y.dimension, x.dimension) {
-                    if a != b {
-                        return Err(Diagnostic::new(place, format!("`atan2` compares {a} with {b}")));
-                    }
+                if let (Some(a), Some(b)) = (y.dimension, x.dimension)
+                    && a != b
+                {
+                    return Err(Diagnostic::new(place, format!("`atan2` compares {a} with {b}")));
                 }
                 Ok(angle(graph.atan2(y.expr, x.expr)))
             }

@@ -25,14 +25,14 @@ pub(super) fn joints(model: &mut Model, ast: &Ast, names: &mut Names, sink: &Sin
         if matches!(given.keyword.text.as_str(), "slot" | "weld" | "gear") {
             names.distrust(&given.name);
         }
-        if let [Some(from), Some(to)] = ends {
-            if from.link == to.link {
-                let problem = format!("the joint `{}` joins `{}` to itself", given.name, given.from.link);
-                sink.report(
-                    Diagnostic::new(given.from.place().to(given.to.place()), problem)
-                        .help("a joint stands between two links: name the other one"),
-                );
-            }
+        if let [Some(from), Some(to)] = ends
+            && from.link == to.link
+        {
+            let problem = format!("the joint `{}` joins `{}` to itself", given.name, given.from.link);
+            sink.report(
+                Diagnostic::new(given.from.place().to(given.to.place()), problem)
+                    .help("a joint stands between two links: name the other one"),
+            );
         }
         let [from, to] = ends.map(|end| end.unwrap_or(NOWHERE));
         model.joints.push(Joint { name: given.name.clone(), from, to, kind });

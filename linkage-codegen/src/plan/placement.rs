@@ -204,7 +204,7 @@ impl<'m> Placement<'m> {
                 let ground = self.direction(GROUND);
                 let start = Segment { direction: ground, along: self.model.local(start), size: self.graph().zero() };
                 let mut segments = vec![start];
-                way.segments.drain(..).for_each(|segment| self.push(&mut segments, segment));
+                way.segments.drain(..).for_each(|segment| push_segment(&mut segments, segment));
                 Way { segments, ..way }.vector()
             }
             _ => self.model.local(end),
@@ -242,15 +242,15 @@ impl<'m> Placement<'m> {
         for joint in self.route(from.link, to.link) {
             let joint_data = self.model.joint(joint);
             let (Some(near), Some(far)) = (joint_data.end_on(at.link), joint_data.end_off(at.link)) else { continue };
-            self.push(&mut segments, self.within(at, near));
+            push_segment(&mut segments, self.within(at, near));
             if let JointKind::Prismatic { .. } = joint_data.kind {
                 let travel = self.travel(joint);
                 let signed = if joint_data.from == near { travel } else { -travel };
-                self.push(&mut segments, self.slid(joint, signed));
+                push_segment(&mut segments, self.slid(joint, signed));
             }
             at = far;
         }
-        self.push(&mut segments, self.within(at, to));
+        push_segment(&mut segments, self.within(at, to));
         segments.retain(|s| !s.along.is_zero());
         Way { segments, graph: self.graph() }
     }
@@ -278,20 +278,6 @@ impl<'m> Placement<'m> {
         Segment { direction: self.direction(carrier), along, size: travel.abs() }
     }
 
-    /// Adds a segment; what turns together is added up in its own axes.
-    fn push(&self, segments: &mut Vec<Segment<'m>>, segment: Segment<'m>) {
-        match segments.iter_mut().find(|s| s.direction == segment.direction) {
-            Some(same) if same.along.is_zero() => *same = segment,
-            Some(_) if segment.along.is_zero() => {}
-            Some(same) => {
-                same.along = same.along + segment.along;
-                let constant = same.along.x.value().is_some() && same.along.y.value().is_some();
-                same.size = if constant { same.along.size() } else { same.size + segment.size };
-            }
-            None => segments.push(segment),
-        }
-    }
-
     /// The joints on the shortest route between two placed links.
     fn route(&self, from: LinkId, to: LinkId) -> Vec<JointId> {
         let mut reached: BTreeMap<LinkId, Option<(LinkId, JointId)>> = BTreeMap::from([(from, None)]);
@@ -316,5 +302,19 @@ impl<'m> Placement<'m> {
         }
         route.reverse();
         route
+    }
+}
+
+/// Adds a segment; what turns together is added up in its own axes.
+fn push_segment<'m>(segments: &mut Vec<Segment<'m>>, segment: Segment<'m>) {
+    match segments.iter_mut().find(|s| s.direction == segment.direction) {
+        Some(same) if same.along.is_zero() => *same = segment,
+        Some(_) if segment.along.is_zero() => {}
+        Some(same) => {
+            same.along = same.along + segment.along;
+            let constant = same.along.x.value().is_some() && same.along.y.value().is_some();
+            same.size = if constant { same.along.size() } else { same.size + segment.size };
+        }
+        None => segments.push(segment),
     }
 }

@@ -83,10 +83,10 @@ impl Extract<'_> {
     /// The input that a node is for this function, if it is one.
     fn input(self, node: NodeId) -> Option<Input> {
         let op = self.graph.op(node);
-        if let Op::Symbol(symbol) = op {
-            if !matches!(symbol, Symbol::Parameter(_)) || self.form == Form::Prepare {
-                return Some(Input::Symbol(symbol));
-            }
+        if let Op::Symbol(symbol) = op
+            && (!matches!(symbol, Symbol::Parameter(_)) || self.form == Form::Prepare)
+        {
+            return Some(Input::Symbol(symbol));
         }
         if matches!(op, Op::Held(_)) && self.form == Form::FromPose {
             return Some(Input::Kept(node));

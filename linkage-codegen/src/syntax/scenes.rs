@@ -18,12 +18,13 @@ pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let name_ = name(input)?;
     input.parse::<Token![:]>()?;
     let mut method = name(input)?;
-    if !METHODS.contains(&method.text.as_str()) && !PLANNED.contains(&method.text.as_str()) {
-        if let Some(meant) = closest(&method.text, METHODS) {
-            let problem = format!("there is no method `{method}`");
-            slips.report(Diagnostic::new(method.place(), problem).help(format!("did you mean `{meant}`?")));
-            meant.clone_into(&mut method.text);
-        }
+    if !METHODS.contains(&method.text.as_str())
+        && !PLANNED.contains(&method.text.as_str())
+        && let Some(meant) = closest(&method.text, METHODS)
+    {
+        let problem = format!("there is no method `{method}`");
+        slips.report(Diagnostic::new(method.place(), problem).help(format!("did you mean `{meant}`?")));
+        meant.clone_into(&mut method.text);
     }
     if !METHODS.contains(&method.text.as_str()) && !matches!(method.text.as_str(), "velocity" | "acceleration") {
         // Whether planned or unknown, the model says what is wrong with it.

@@ -117,7 +117,7 @@ impl Pose {
             frames.push(frame);
         }
         let mut pose = Self { values };
-        let places = pose.places(model, &mut random);
+        let places = places(model, &mut random);
         for (end, place) in &places {
             let [x, y, cos, sin] = frames[end.link.index()];
             let (dx, dy) = (place[0] - x, place[1] - y);
@@ -138,37 +138,6 @@ impl Pose {
             pose.values.insert(slide_symbol(joint, 1), (cos * dy - sin * dx) / size);
         }
         pose
-    }
-
-    /// A random place for every point that joints or unknowns use; points that a pin joins share theirs.
-    fn places(&self, model: &Model, random: &mut Random) -> Vec<(End, [f64; 2])> {
-        let mut classes: Vec<Vec<End>> = Vec::new();
-        let mut join = |ends: &[End]| {
-            let (mut together, rest): (Vec<_>, Vec<_>) =
-                classes.drain(..).partition(|class: &Vec<End>| ends.iter().any(|e| class.contains(e)));
-            let mut class: Vec<End> = together.drain(..).flatten().collect();
-            class.extend(ends.iter().filter(|e| !class.contains(e)).copied().collect::<Vec<_>>());
-            classes = rest;
-            classes.push(class);
-        };
-        for joint in &model.joints {
-            match joint.kind {
-                JointKind::Revolute => join(&joint.ends()),
-                JointKind::Prismatic { .. } => joint.ends().iter().for_each(|end| join(&[*end])),
-            }
-        }
-        for unknown in &model.unknowns {
-            if let UnknownKind::Force { at, .. } = unknown.kind {
-                join(&[at]);
-            }
-        }
-        classes
-            .into_iter()
-            .flat_map(|class| {
-                let place = [random.next(), random.next()];
-                class.into_iter().map(move |end| (end, place))
-            })
-            .collect()
     }
 
     fn value(&self, symbol: Symbol) -> f64 {
@@ -215,4 +184,35 @@ fn rank(mut matrix: Vec<Vec<f64>>) -> usize {
         }
     }
     matrix.len().min(columns)
+}
+
+/// A random place for every point that joints or unknowns use; points that a pin joins share theirs.
+fn places(model: &Model, random: &mut Random) -> Vec<(End, [f64; 2])> {
+    let mut classes: Vec<Vec<End>> = Vec::new();
+    let mut join = |ends: &[End]| {
+        let (mut together, rest): (Vec<_>, Vec<_>) =
+            classes.drain(..).partition(|class: &Vec<End>| ends.iter().any(|e| class.contains(e)));
+        let mut class: Vec<End> = together.drain(..).flatten().collect();
+        class.extend(ends.iter().filter(|e| !class.contains(e)).copied().collect::<Vec<_>>());
+        classes = rest;
+        classes.push(class);
+    };
+    for joint in &model.joints {
+        match joint.kind {
+            JointKind::Revolute => join(&joint.ends()),
+            JointKind::Prismatic { .. } => joint.ends().iter().for_each(|end| join(&[*end])),
+        }
+    }
+    for unknown in &model.unknowns {
+        if let UnknownKind::Force { at, .. } = unknown.kind {
+            join(&[at]);
+        }
+    }
+    classes
+        .into_iter()
+        .flat_map(|class| {
+            let place = [random.next(), random.next()];
+            class.into_iter().map(move |end| (end, place))
+        })
+        .collect()
 }

@@ -84,10 +84,10 @@ fn reachable_from_links(from: &[LinkId], constraints: &[Vec<LinkId>], owner: &[O
     let mut open: Vec<LinkId> = from.to_vec();
     while let Some(link) = open.pop() {
         for (constraint, touched) in constraints.iter().enumerate() {
-            if let (true, Some(holder)) = (touched.contains(&link), owner[constraint]) {
-                if links.insert(holder) {
-                    open.push(holder);
-                }
+            if let (true, Some(holder)) = (touched.contains(&link), owner[constraint])
+                && links.insert(holder)
+            {
+                open.push(holder);
             }
         }
     }

@@ -388,7 +388,7 @@ impl Builder {
         arguments
     }
 
-    fn finish(self, drive: (String, f64), loads: Vec<[f64; 2]>, kind: Kind) -> Sample {
+    fn finish(self, (drive, at): (String, f64), loads: Vec<[f64; 2]>, kind: Kind) -> Sample {
         let mut text = format!("pub mod sample;\nscalar {};\n", kind.scalar);
         let mut params = Vec::new();
         let mut length = |value: f64, text: &mut String| {
@@ -423,11 +423,11 @@ impl Builder {
             text.push_str(body.mass.as_deref().unwrap_or(""));
         }
         text.push_str(&self.items);
-        let _ = writeln!(text, "drive q: {};", drive.0);
+        let _ = writeln!(text, "drive q: {drive};");
         text.push_str(
             "scene all: equilibrium;\nscene parts: superposition;\nscene work: virtual_work;\nscene whole: position;\n",
         );
-        let arguments = Arguments { drives: vec![drive.1], loads, params };
+        let arguments = Arguments { drives: vec![at], loads, params };
         Sample { text, arguments, places: self.places }
     }
 }

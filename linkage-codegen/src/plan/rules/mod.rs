@@ -62,7 +62,7 @@ pub fn force_rule(model: &Model, group: &Group) -> Option<&'static dyn Rule> {
 }
 
 /// The distance of two pins of a link; of one that depends on parameters it is checked when they are given.
-fn length_between<'m>(model: &'m Model, link: LinkId, pins: [JointId; 2]) -> Expr<'m> {
+fn length_between(model: &Model, link: LinkId, pins: [JointId; 2]) -> Expr<'_> {
     let [a, b] = pins.map(|pin| model.joint(pin).end_on(link).unwrap_or(model.joint(pin).from));
     let length = model.distance(link, a.point, b.point);
     let [first, second] = pins.map(|pin| &model.joint(pin).name);

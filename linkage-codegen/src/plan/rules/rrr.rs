@@ -245,7 +245,6 @@ struct Closing<'m> {
 }
 
 fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) -> RuleResult {
-    let _model = dyad.model;
     let [first, second] = dyad.legs;
     dyad.check_lengths()?;
     let outer_names = [first, second].map(|leg| dyad.joint_name(leg.outer));

@@ -88,12 +88,12 @@ impl Merging<'_> {
                 Some(Op::Sub(a, b)) => Some((a, b, true)),
                 _ => None,
             };
-            if let Some((a, b, minus)) = terms {
-                if let (Some(a), Some(b)) = (self.rescaled(value, k, a), self.rescaled(value, k, b)) {
-                    let op = if minus { Op::Sub(a, b) } else { Op::Add(a, b) };
-                    self.program.values[value.index()].definition = Definition::Computed(op);
-                    return;
-                }
+            if let Some((a, b, minus)) = terms
+                && let (Some(a), Some(b)) = (self.rescaled(value, k, a), self.rescaled(value, k, b))
+            {
+                let op = if minus { Op::Sub(a, b) } else { Op::Add(a, b) };
+                self.program.values[value.index()].definition = Definition::Computed(op);
+                return;
             }
         }
         let k = self.number(value, k);

@@ -9,10 +9,10 @@ use crate::program::{Definition, Program, Step, Value, ValueId};
 pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
     let mut divisors: BTreeMap<ValueId, usize> = BTreeMap::new();
     for step in &program.steps {
-        if let Step::Let(value) = step {
-            if let Some(Op::Div(_, divisor)) = program.op(*value) {
-                *divisors.entry(*divisor).or_default() += 1;
-            }
+        if let Step::Let(value) = step
+            && let Some(Op::Div(_, divisor)) = program.op(*value)
+        {
+            *divisors.entry(*divisor).or_default() += 1;
         }
     }
     let shared: BTreeSet<ValueId> =
@@ -20,17 +20,16 @@ pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
     let mut reciprocals: BTreeMap<ValueId, ValueId> = BTreeMap::new();
     let mut steps = Vec::new();
     for step in core::mem::take(&mut program.steps) {
-        if let Step::Let(value) = step {
-            if let Some(Op::Div(dividend, divisor)) = program.op(value).cloned() {
-                if shared.contains(&divisor) {
-                    let reciprocal = *reciprocals.entry(divisor).or_insert_with(|| {
-                        let reciprocal = reciprocal_of(&mut program, graph, divisor, value);
-                        steps.push(Step::Let(reciprocal));
-                        reciprocal
-                    });
-                    program.values[value.index()].definition = Definition::Computed(Op::Mul(dividend, reciprocal));
-                }
-            }
+        if let Step::Let(value) = step
+            && let Some(Op::Div(dividend, divisor)) = program.op(value).cloned()
+            && shared.contains(&divisor)
+        {
+            let reciprocal = *reciprocals.entry(divisor).or_insert_with(|| {
+                let reciprocal = reciprocal_of(&mut program, graph, divisor, value);
+                steps.push(Step::Let(reciprocal));
+                reciprocal
+            });
+            program.values[value.index()].definition = Definition::Computed(Op::Mul(dividend, reciprocal));
         }
         steps.push(step);
     }

@@ -25,13 +25,13 @@ fn negative(program: &mut Program, graph: &Graph, value: ValueId, uses: &[usize]
         Op::Sub(a, b) => Some(Op::Sub(b, a)),
         Op::Neg(a) => Some(program.op(a).cloned()?),
         Op::Mul(k, x) => {
-            if let Some(Op::Constant(number)) = program.op(k).cloned() {
-                if let Op::Constant(negated) = graph.constant(&graph.number(number).neg()).op() {
-                    let section = program.value(value).section.clone();
-                    let constant = Definition::Computed(Op::Constant(negated));
-                    program.values.push(crate::program::Value { definition: constant, label: None, section });
-                    return Some(Op::Mul(ValueId::new(program.values.len() - 1), x));
-                }
+            if let Some(Op::Constant(number)) = program.op(k).cloned()
+                && let Op::Constant(negated) = graph.constant(&graph.number(number).neg()).op()
+            {
+                let section = program.value(value).section.clone();
+                let constant = Definition::Computed(Op::Constant(negated));
+                program.values.push(crate::program::Value { definition: constant, label: None, section });
+                return Some(Op::Mul(ValueId::new(program.values.len() - 1), x));
             }
             // The sign passes on to a factor that nothing else reads.
             for factor in [k, x] {
