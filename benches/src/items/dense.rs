@@ -1,0 +1,78 @@
+//! The equations of the free bodies as a matrix, solved by nalgebra.
+//!
+//! Moments are about the points that the textbook takes: of each link the pin nearest to the driver, or on the ground.
+
+use nalgebra::{DMatrix, DVector, SMatrix};
+
+/// Where a joint is, seen from the point of moments of the first and the second link that it joins; the first may be the
+/// ground.
+pub(super) struct Pin {
+    pub(super) first: Option<(usize, [f64; 2])>,
+    pub(super) second: (usize, [f64; 2]),
+}
+
+/// The matrix of a linkage whose joints are pins, with the torque on link 0 as the last unknown.
+#[inline]
+pub(super) fn matrix<const N: usize>(pins: &[Pin]) -> SMatrix<f64, N, N> {
+    let mut matrix = SMatrix::zeros();
+    for (k, Pin { first, second: (link, [x, y]) }) in pins.iter().enumerate() {
+        matrix[(3 * link, 2 * k)] = 1.0;
+        matrix[(3 * link + 1, 2 * k + 1)] = 1.0;
+        matrix[(3 * link + 2, 2 * k)] = -y;
+        matrix[(3 * link + 2, 2 * k + 1)] = *x;
+        if let Some((link, [x, y])) = first {
+            matrix[(3 * link, 2 * k)] = -1.0;
+            matrix[(3 * link + 1, 2 * k + 1)] = -1.0;
+            matrix[(3 * link + 2, 2 * k)] = *y;
+            matrix[(3 * link + 2, 2 * k + 1)] = -x;
+        }
+    }
+    matrix[(2, N - 1)] = 1.0;
+    matrix
+}
+
+/// What a force at a place, seen from the point of moments, puts on the right of its link's equations.
+#[inline]
+pub(super) fn load<const N: usize, const M: usize>(
+    right: &mut SMatrix<f64, N, M>,
+    column: usize,
+    link: usize,
+    [x, y]: [f64; 2],
+    [fx, fy]: [f64; 2],
+) {
+    right[(3 * link, column)] -= fx;
+    right[(3 * link + 1, column)] -= fy;
+    right[(3 * link + 2, column)] -= x * fy - y * fx;
+}
+
+/// LU with exchange of rows, sizes known at compile time.
+#[inline]
+pub(super) fn partial<const N: usize, const M: usize>(
+    matrix: SMatrix<f64, N, N>,
+    right: &SMatrix<f64, N, M>,
+) -> Option<SMatrix<f64, N, M>>
+where
+    nalgebra::Const<N>: nalgebra::DimMin<nalgebra::Const<N>, Output = nalgebra::Const<N>>,
+{
+    matrix.lu().solve(right)
+}
+
+/// LU with exchange of rows and columns, sizes known at compile time.
+#[inline]
+pub(super) fn full<const N: usize>(matrix: SMatrix<f64, N, N>, right: &SMatrix<f64, N, 1>) -> Option<SMatrix<f64, N, 1>>
+where
+    nalgebra::Const<N>: nalgebra::DimMin<nalgebra::Const<N>, Output = nalgebra::Const<N>>,
+{
+    matrix.full_piv_lu().solve(right)
+}
+
+/// LU with exchange of rows, sizes known at run time.
+#[inline]
+pub(super) fn dynamic<const N: usize>(
+    matrix: SMatrix<f64, N, N>,
+    right: &SMatrix<f64, N, 1>,
+) -> Option<SMatrix<f64, N, 1>> {
+    let matrix = DMatrix::from_column_slice(N, N, matrix.as_slice());
+    let right = DVector::from_column_slice(right.as_slice());
+    matrix.lu().solve(&right).map(|solution| SMatrix::from_column_slice(solution.as_slice()))
+}

@@ -1,0 +1,349 @@
+//! P1: the four-bar of METU Example 6.3.
+
+use linkage_runtime::{Vector2, polar};
+use nalgebra::{SMatrix, SVector};
+
+use super::dense::{self, Pin};
+use super::{Case, Extent, Item, Reactions, Start, Turn};
+use crate::exact::{Big, Exact, Joint, Kind, Load, Vector, equilibrium, in_frame, left, vector};
+use crate::expert::four_bar as expert;
+use crate::linkages::four_bar::{self, Loads, Pose};
+
+impl super::Loads for Loads {
+    fn toward(first: f64, second: f64) -> Self {
+        Self { F13: polar(50.0, first), F14: polar(100.0, second) }
+    }
+    fn depend(&mut self, change: f64) {
+        self.F13.x += change;
+        self.F14.x += change;
+    }
+}
+
+impl Start for Pose {
+    fn depend(&mut self, _: f64) -> bool {
+        false
+    }
+}
+
+impl Start for expert::Pose {
+    fn depend(&mut self, _: f64) -> bool {
+        false
+    }
+}
+
+type All = Reactions<4>;
+type At = Case<f64, Loads>;
+type Posed = Case<Pose, Loads>;
+
+pub(super) fn items(extent: Extent) -> Vec<Item> {
+    let turn = Turn::new(extent, 80.0, |theta, loads| vec![exact(theta, loads)]);
+    let parts = Turn::new(extent, 80.0, exact_parts);
+    let pose = |theta| Pose::at(theta).expect("a pose");
+    let careful_pose = |theta| expert::careful_pose(theta).expect("a pose");
+    vec![
+        Item {
+            id: "P1a",
+            title: "four-bar: all forces and the torque, from a pose",
+            competitors: vec![
+                turn.prepared("expert", expert::pose, statics_expert),
+                turn.prepared("careful expert", careful_pose, statics_careful),
+                turn.prepared("generated", pose, statics_generated),
+                turn.prepared("LU 9x9", pose, statics_dense),
+                turn.prepared("LU 9x9, full pivoting", pose, statics_full),
+                turn.prepared("LU 9x9, dynamic", pose, statics_dynamic),
+            ],
+        },
+        Item {
+            id: "P1b",
+            title: "four-bar: all forces and the torque, from the driver's angle",
+            competitors: vec![
+                turn.competitor("expert", statics_at_expert),
+                turn.competitor("careful expert", statics_at_careful),
+                turn.competitor("generated", statics_at_generated),
+                turn.competitor("generated, by way of a pose", statics_at_pose),
+                turn.competitor("LU 9x9", statics_at_dense),
+            ],
+        },
+        Item {
+            id: "P1c",
+            title: "four-bar: the torque only, from the driver's angle",
+            competitors: vec![
+                turn.competitor("expert", torque_at_expert),
+                turn.competitor("careful expert", torque_at_careful),
+                turn.competitor("generated", torque_at_generated),
+                turn.competitor("LU 9x9", torque_at_dense),
+            ],
+        },
+        Item {
+            id: "P1d",
+            title: "four-bar: forces and torque by each of two loads, from the driver's angle",
+            competitors: vec![
+                parts.competitor("expert", parts_at_expert),
+                parts.competitor("careful expert", parts_at_careful),
+                parts.competitor("generated", parts_at_generated),
+                parts.competitor("LU 9x9", parts_at_dense),
+            ],
+        },
+    ]
+}
+
+fn statics_expert(case: &Case<expert::Pose, Loads>, out: &mut All) -> bool {
+    case.start.statics(&case.loads, out);
+    true
+}
+
+fn statics_careful(case: &Case<expert::Pose, Loads>, out: &mut All) -> bool {
+    case.start.statics(&case.loads, out);
+    out.is_finite()
+}
+
+fn statics_generated(case: &Posed, out: &mut All) -> bool {
+    match case.start.statics(&case.loads) {
+        Ok(all) => {
+            *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+fn statics_at_expert(case: &At, out: &mut All) -> bool {
+    expert::pose(case.start).statics(&case.loads, out);
+    true
+}
+
+fn statics_at_careful(case: &At, out: &mut All) -> bool {
+    let Some(pose) = expert::careful_pose(case.start) else { return false };
+    pose.statics(&case.loads, out);
+    out.is_finite()
+}
+
+fn statics_at_generated(case: &At, out: &mut All) -> bool {
+    match four_bar::statics_at(case.start, &case.loads) {
+        Ok(all) => {
+            *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+fn statics_at_pose(case: &At, out: &mut All) -> bool {
+    match Pose::at(case.start).and_then(|pose| pose.statics(&case.loads)) {
+        Ok(all) => {
+            *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+fn torque_at_expert(case: &At, out: &mut f64) -> bool {
+    *out = expert::pose(case.start).torque_of(&case.loads);
+    true
+}
+
+fn torque_at_careful(case: &At, out: &mut f64) -> bool {
+    let Some(pose) = expert::careful_pose(case.start) else { return false };
+    *out = pose.torque_of(&case.loads);
+    out.is_finite()
+}
+
+fn torque_at_generated(case: &At, out: &mut f64) -> bool {
+    match four_bar::torque_at(case.start, &case.loads) {
+        Ok(torque) => {
+            *out = torque.T12;
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+fn parts_at_expert(case: &At, out: &mut [All; 2]) -> bool {
+    expert::pose(case.start).parts(&case.loads, out);
+    true
+}
+
+fn parts_at_careful(case: &At, out: &mut [All; 2]) -> bool {
+    let Some(pose) = expert::careful_pose(case.start) else { return false };
+    pose.parts(&case.loads, out);
+    out[0].is_finite() && out[1].is_finite()
+}
+
+fn parts_at_generated(case: &At, out: &mut [All; 2]) -> bool {
+    match four_bar::parts_at(case.start, &case.loads) {
+        Ok(parts) => {
+            let (first, second) = (&parts.F13, &parts.F14);
+            *out = [
+                Reactions { torque: first.T12, forces: [first.A0, first.A, first.B, first.B0] },
+                Reactions { torque: second.T12, forces: [second.A0, second.A, second.B, second.B0] },
+            ];
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+/// The equations at a pose, and where C is from A, and D from B0.
+#[inline]
+fn dense(pose: &Pose) -> (SMatrix<f64, 9, 9>, [f64; 2], [f64; 2]) {
+    let along = |r: f64, u: Vector2<f64>| [r * u.x, r * u.y];
+    let (coupler, rocker) = (pose.coupler_direction(), pose.rocker_direction());
+    let a = along(80.0, pose.crank_direction());
+    let matrix = dense::matrix(&[
+        Pin { first: None, second: (0, [0.0, 0.0]) },
+        Pin { first: Some((0, a)), second: (1, [0.0, 0.0]) },
+        Pin { first: Some((1, along(100.0, coupler))), second: (2, along(120.0, rocker)) },
+        Pin { first: None, second: (2, [0.0, 0.0]) },
+    ]);
+    let ([x, y], [p, q]) = (along(42.5, coupler), along(55.621_488_653_217_47, coupler));
+    (matrix, [x - q, y + p], along(90.0, rocker))
+}
+
+/// The equations at a pose with both loads.
+#[inline]
+fn equations(pose: &Pose, loads: &Loads) -> (SMatrix<f64, 9, 9>, SVector<f64, 9>) {
+    let (matrix, c, d) = dense(pose);
+    let mut right = SVector::zeros();
+    dense::load(&mut right, 0, 1, c, loads.F13.into());
+    dense::load(&mut right, 0, 2, d, loads.F14.into());
+    (matrix, right)
+}
+
+#[inline]
+fn put(solution: Option<SVector<f64, 9>>, out: &mut All) -> bool {
+    let Some(x) = solution else { return false };
+    let force = |k: usize| Vector2::new(x[k], x[k + 1]);
+    *out = Reactions { torque: x[8], forces: [force(0), force(2), force(4), force(6)] };
+    true
+}
+
+fn statics_dense(case: &Posed, out: &mut All) -> bool {
+    let (matrix, right) = equations(&case.start, &case.loads);
+    put(dense::partial(matrix, &right), out)
+}
+
+fn statics_full(case: &Posed, out: &mut All) -> bool {
+    let (matrix, right) = equations(&case.start, &case.loads);
+    put(dense::full(matrix, &right), out)
+}
+
+fn statics_dynamic(case: &Posed, out: &mut All) -> bool {
+    let (matrix, right) = equations(&case.start, &case.loads);
+    put(dense::dynamic(matrix, &right), out)
+}
+
+fn statics_at_dense(case: &At, out: &mut All) -> bool {
+    let Ok(pose) = Pose::at(case.start) else { return false };
+    let (matrix, right) = equations(&pose, &case.loads);
+    put(dense::partial(matrix, &right), out)
+}
+
+fn torque_at_dense(case: &At, out: &mut f64) -> bool {
+    let Ok(pose) = Pose::at(case.start) else { return false };
+    let (matrix, right) = equations(&pose, &case.loads);
+    let Some(x) = dense::partial(matrix, &right) else { return false };
+    *out = x[8];
+    true
+}
+
+fn parts_at_dense(case: &At, out: &mut [All; 2]) -> bool {
+    let Ok(pose) = Pose::at(case.start) else { return false };
+    let (matrix, c, d) = dense(&pose);
+    let mut right = SMatrix::<f64, 9, 2>::zeros();
+    dense::load(&mut right, 0, 1, c, case.loads.F13.into());
+    dense::load(&mut right, 1, 2, d, case.loads.F14.into());
+    let Some(x) = dense::partial(matrix, &right) else { return false };
+    put(Some(x.column(0).into_owned()), &mut out[0]) && put(Some(x.column(1).into_owned()), &mut out[1])
+}
+
+/// The exact forces and torque.
+fn exact(theta: &Big, loads: &Loads) -> Exact {
+    let [first, second] = [loads.F13, loads.F14].map(|force| vector(force.x, force.y));
+    solve(theta, &[Some(first), Some(second)])
+}
+
+fn exact_parts(theta: &Big, loads: &Loads) -> Vec<Exact> {
+    let [first, second] = [loads.F13, loads.F14].map(|force| vector(force.x, force.y));
+    vec![solve(theta, &[Some(first), None]), solve(theta, &[None, Some(second)])]
+}
+
+/// The places of A0, A, B and B0.
+fn joints(theta: &Big) -> [Vector; 4] {
+    let (a0, b0) = (vector(0.0, 0.0), vector(140.0, 0.0));
+    let a = theta.direction().map(|x| Big::of(80.0) * x);
+    let b = left(&a, &b0, &Big::of(100.0), &Big::of(120.0));
+    [a0, a, b, b0]
+}
+
+/// The exact solution under the forces at C and at D.
+fn solve(theta: &Big, forces: &[Option<Vector>; 2]) -> Exact {
+    let number = |x: f64| Big::of(x);
+    let [a0, a, b, b0] = joints(theta);
+    let c = left(&a, &b, &number(70.0), &number(80.0));
+    let d = in_frame(&b0, &b, &number(120.0), &number(90.0), &number(0.0));
+    let pin = |first, second, at: &Vector| Joint { first, second, at: at.clone(), kind: Kind::Pin };
+    let joints = [pin(None, 0, &a0), pin(Some(0), 1, &a), pin(Some(1), 2, &b), pin(None, 2, &b0)];
+    let loads = [(1, c), (2, d)].into_iter().zip(forces);
+    let loads = loads.filter_map(|((link, at), force)| force.clone().map(|force| Load { link, at, force }));
+    equilibrium(3, &joints, &loads.collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::difference;
+
+    /// The fifteen digits that the figures are stored with.
+    fn digits(value: &Big) -> String {
+        format!("{:.14e}", value.to_f64())
+    }
+
+    fn polar(size: f64, degrees: f64) -> Vector {
+        Big::degrees(degrees).direction().map(|x| Big::of(size) * x)
+    }
+
+    /// The figures of METU Example 6.3, found by other means in 80 digits; not the page's, some of which are misprints.
+    #[test]
+    fn the_reference_has_the_seeds_digits() {
+        let theta = Big::degrees(60.0);
+        let (first, second) = (polar(50.0, 230.0), polar(100.0, 200.0));
+
+        let all = solve(&theta, &[Some(first.clone()), Some(second.clone())]);
+        assert_eq!(digits(&all.torque), "-2.90132766207453e3");
+        // F23, F34, G14: on the coupler by the crank, on the rocker by the coupler, on the rocker by the ground.
+        let [_, a, b, b0] = all.forces.try_into().expect("four joints");
+        assert_eq!(a.map(|x| digits(&x)), ["9.87412004295161e1", "9.84915843924005e1"]);
+        assert_eq!(b.map(|x| digits(&x)), ["6.66018199451891e1", "6.01893622364516e1"]);
+        assert_eq!(b0.map(|x| digits(&x)), ["2.73674421334017e1", "-2.59873479038848e1"]);
+
+        assert_eq!(digits(&solve(&theta, &[None, Some(second)]).torque), "-3.18344052096837e3");
+        assert_eq!(digits(&solve(&theta, &[Some(first), None]).torque), "2.82112858893847e2");
+    }
+
+    /// The angles of coupler and rocker there, as far as their digits go.
+    #[test]
+    fn the_reference_has_the_seeds_pose() {
+        let [_, a, b, b0] = joints(&Big::degrees(60.0));
+        for (from, length, degrees) in [(a, 100.0, 29.979_957_439_997_5), (b0, 120.0, 96.401_778_961_795_7)] {
+            let [x, y] = difference(&difference(&b, &from), &polar(length, degrees));
+            assert!(x.to_f64().hypot(y.to_f64()) < 1e-15 * length, "{x:?} {y:?} at {degrees}°");
+        }
+    }
+
+    /// What makes the careful expert careful.
+    #[test]
+    fn the_careful_expert_refuses_what_generated_code_refuses() {
+        let loads = super::super::Loads::toward(1.0, 2.0);
+        let endless = Loads { F13: Vector2::new(f64::INFINITY, 0.0), ..loads };
+        let angles = [std::f64::consts::PI, f64::NAN, f64::INFINITY].map(|start| Case { start, loads });
+        for case in angles.into_iter().chain([Case { start: 1.0, loads: endless }]) {
+            let mut out = All::default();
+            assert!(!statics_at_generated(&case, &mut out) && !statics_at_careful(&case, &mut out), "{case:?}");
+            let mut out = [All::default(); 2];
+            assert!(!parts_at_generated(&case, &mut out) && !parts_at_careful(&case, &mut out), "{case:?}");
+            let mut out = 0.0;
+            assert!(!torque_at_generated(&case, &mut out) && !torque_at_careful(&case, &mut out), "{case:?}");
+        }
+    }
+}

@@ -1,0 +1,299 @@
+//! What is measured: work items, each with its competitors.
+//!
+//! All competitors of an item have functions of one shape, `fn(&Case, &mut Results) -> bool`, where the result says
+//! whether there is an answer: the same arguments come in, the same numbers are written to the same place.
+
+mod dense;
+mod four_bar;
+mod six_bar;
+mod slider_crank;
+
+use linkage_runtime::Vector2;
+
+use crate::exact::{Big, Exact, difference, size, vector};
+use crate::harness::{Chained, Competitor};
+
+/// A torque, and the forces in the joints.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reactions<const N: usize> {
+    /// On the crank by the ground, N·mm.
+    pub(crate) torque: f64,
+    /// N, on the second link of each joint.
+    pub(crate) forces: [Vector2<f64>; N],
+}
+
+impl<const N: usize> Reactions<N> {
+    /// Whether all numbers are finite; without a jump for each, none of which has to wait for another.
+    #[inline]
+    fn is_finite(&self) -> bool {
+        self.forces.iter().fold(self.torque.is_finite(), |all, force| all & force.x.is_finite() & force.y.is_finite())
+    }
+}
+
+impl<const N: usize> Default for Reactions<N> {
+    fn default() -> Self {
+        Self { torque: 0.0, forces: [Vector2::new(0.0, 0.0); N] }
+    }
+}
+
+/// The results of an item: one part for each set of loads, and what is asked of it.
+pub(crate) trait Results: Copy + Default + 'static {
+    /// The torque and the forces of each part.
+    fn parts(&self) -> Vec<(f64, &[Vector2<f64>])>;
+    /// A number that is there when the function has done its work.
+    fn last(&self) -> f64;
+    /// All numbers.
+    fn numbers(&self) -> Vec<f64> {
+        let part = |(torque, forces): (f64, &[Vector2<f64>])| {
+            forces.iter().flat_map(|force| [force.x, force.y]).chain([torque]).collect::<Vec<_>>()
+        };
+        self.parts().into_iter().flat_map(part).collect()
+    }
+}
+
+impl<const N: usize> Results for Reactions<N> {
+    fn parts(&self) -> Vec<(f64, &[Vector2<f64>])> {
+        vec![(self.torque, &self.forces)]
+    }
+    fn last(&self) -> f64 {
+        self.torque
+    }
+}
+
+impl<const N: usize> Results for [Reactions<N>; 2] {
+    fn parts(&self) -> Vec<(f64, &[Vector2<f64>])> {
+        self.iter().map(|part| (part.torque, part.forces.as_slice())).collect()
+    }
+    fn last(&self) -> f64 {
+        self[0].torque + self[1].torque
+    }
+}
+
+impl Results for f64 {
+    fn parts(&self) -> Vec<(f64, &[Vector2<f64>])> {
+        vec![(*self, &[])]
+    }
+    fn last(&self) -> f64 {
+        *self
+    }
+}
+
+/// The largest relative errors; a force's by the largest force of its pose, a torque's by that force at the crank's
+/// length.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Errors {
+    /// `None` where no force is asked for.
+    pub(crate) force: Option<f64>,
+    /// Zero where nothing is judged.
+    pub(crate) torque: f64,
+}
+
+/// An error beyond this is a mistake and no rounding: such a competitor is not timed.
+const MISTAKE: f64 = 1e-9;
+
+/// Loads of a linkage: two vectors, or one.
+pub(crate) trait Loads: Copy + 'static {
+    /// Loads of 50 N and 100 N in given directions.
+    fn toward(first: f64, second: f64) -> Self;
+    /// Makes a load depend on a number.
+    fn depend(&mut self, change: f64);
+}
+
+/// What a function starts from, beside the loads: the driver's angle, or a pose.
+pub(crate) trait Start: Copy + 'static {
+    /// Makes the angle depend on a number; a pose stays as it is.
+    fn depend(&mut self, change: f64) -> bool;
+}
+
+impl Start for f64 {
+    fn depend(&mut self, change: f64) -> bool {
+        *self += change;
+        true
+    }
+}
+
+/// The argument of a competitor.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Case<S, L> {
+    /// The driver's angle, or a pose.
+    pub(crate) start: S,
+    /// The loads that are given at run time.
+    pub(crate) loads: L,
+}
+
+impl<S: Start, L: Loads> Chained for Case<S, L> {
+    fn depend(&mut self, change: f64) {
+        if !self.start.depend(change) {
+            self.loads.depend(change);
+        }
+    }
+}
+
+/// All poses of a linkage, in which its items are timed and judged.
+pub(crate) struct Turn<L> {
+    /// Whose time is taken.
+    timed: Vec<Case<f64, L>>,
+    /// Whose errors are looked at, with the exact solution of each set of loads.
+    judged: Vec<(Case<f64, L>, Vec<Exact>)>,
+    /// The length of the crank, mm.
+    arm: f64,
+}
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    /// Whose time is taken, in a turn.
+    pub(crate) timed: u32,
+    /// Whether errors are looked at, in half degrees round the turn.
+    pub(crate) judged: bool,
+    /// The poses in disorder instead of along the turn.
+    pub(crate) shuffled: bool,
+}
+
+impl<L: Loads> Turn<L> {
+    /// A turn of a crank that is `arm` long; `exact` solves a pose for each set of loads.
+    fn new(extent: Extent, arm: f64, exact: fn(&Big, &L) -> Vec<Exact>) -> Self {
+        let mut random = Random(20_240_901);
+        let full = std::f64::consts::TAU;
+        let mut timed: Vec<_> = (0..extent.timed)
+            .map(|k| Case {
+                start: full * (f64::from(k) + 0.25) / f64::from(extent.timed),
+                loads: L::toward(full * random.next(), full * random.next()),
+            })
+            .collect();
+        if extent.shuffled {
+            for k in (1..timed.len()).rev() {
+                timed.swap(k, random.below(k + 1));
+            }
+        }
+        // At 180° the four-bar folds: nothing holds its loads there.
+        let half_degrees = (0_u32..720).filter(|k| extent.judged && *k != 360);
+        let judged = half_degrees.map(|k| {
+            let theta = (0.5 * f64::from(k)).to_radians();
+            let loads = L::toward(230_f64.to_radians(), 200_f64.to_radians());
+            (Case { start: theta, loads }, exact(&Big::of(theta), &loads))
+        });
+        Self { timed, judged: judged.collect(), arm }
+    }
+
+    /// A competitor that starts from the driver's angle.
+    fn competitor<R: Results>(&self, method: &'static str, call: fn(&Case<f64, L>, &mut R) -> bool) -> Competitor {
+        self.prepared(method, |theta| theta, call)
+    }
+
+    /// A competitor that starts from what `prepare` makes of the driver's angle, which is not timed.
+    fn prepared<S: Start, R: Results>(
+        &self,
+        method: &'static str,
+        prepare: impl Fn(f64) -> S,
+        call: fn(&Case<S, L>, &mut R) -> bool,
+    ) -> Competitor {
+        let case = |case: &Case<f64, L>| Case { start: prepare(case.start), loads: case.loads };
+        let errors = self.errors(method, |given, results| call(&case(given), results));
+        Competitor::new(method, errors, self.timed.iter().map(case).collect(), call)
+    }
+
+    /// The largest errors over the poses that are judged.
+    fn errors<R: Results>(&self, method: &str, call: impl Fn(&Case<f64, L>, &mut R) -> bool) -> Errors {
+        let mut errors = Errors::default();
+        for (case, exact) in &self.judged {
+            let mut results = R::default();
+            assert!(call(case, &mut results), "{method} has no answer at {}", case.start);
+            for ((torque, forces), exact) in results.parts().into_iter().zip(exact) {
+                let largest = exact.forces.iter().map(size).reduce(Big::larger).expect("a force");
+                let error = (Big::of(torque) - &exact.torque).abs() / (&largest * Big::of(self.arm));
+                errors.torque = errors.torque.max(error.to_f64());
+                for (force, exact) in forces.iter().zip(&exact.forces) {
+                    let error = size(&difference(&vector(force.x, force.y), exact)) / &largest;
+                    errors.force = Some(errors.force.unwrap_or(0.0).max(error.to_f64()));
+                }
+            }
+        }
+        let largest = errors.torque.max(errors.force.unwrap_or(0.0));
+        assert!(largest < MISTAKE, "{method} is wrong by {largest:e}");
+        errors
+    }
+}
+
+/// A work item: the expert is the first of its competitors.
+pub(crate) struct Item {
+    /// What it is called on the command line.
+    pub(crate) id: &'static str,
+    /// What is to be found, from what.
+    pub(crate) title: &'static str,
+    /// Those that find it.
+    pub(crate) competitors: Vec<Competitor>,
+}
+
+/// All items.
+pub(crate) fn all(extent: Extent) -> Vec<Item> {
+    let mut items = four_bar::items(extent);
+    items.extend(six_bar::items(extent));
+    items.extend(slider_crank::items(extent));
+    items
+}
+
+/// Numbers without a pattern, the same in every run (splitmix64).
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// From 0 to 1.
+    #[allow(clippy::cast_precision_loss, reason = "53 bits are exact")]
+    fn next(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// An index below a length.
+    #[allow(clippy::cast_possible_truncation, reason = "the remainder is below a length")]
+    fn below(&mut self, length: usize) -> usize {
+        (self.bits() % length as u64) as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::harness::agree;
+
+    /// What is promised of generated code over a whole turn, the neighbours of the change point included.
+    const GENERATED: f64 = 2e-15;
+
+    /// The same of each load's part by its own largest force, which is small where the moment of the load vanishes.
+    const PARTS: f64 = 5e-15;
+
+    /// A closed form in plain steps loses digits near the change point, and nowhere else.
+    const EXPERT: f64 = 1e-11;
+
+    /// Elimination with exchange of rows.
+    const ELIMINATION: f64 = 1e-13;
+
+    #[test]
+    fn every_competitor_is_right() {
+        for item in all(Extent { timed: 1, judged: true, shuffled: false }) {
+            for Competitor { method, errors, .. } in &item.competitors {
+                let bar = match *method {
+                    "expert" => EXPERT,
+                    method if method.starts_with("LU") => ELIMINATION,
+                    _ if item.id == "P1d" => PARTS,
+                    _ => GENERATED,
+                };
+                let largest = errors.torque.max(errors.force.unwrap_or(0.0));
+                assert!(largest > 0.0 && largest <= bar, "{}: {method} is off by {largest:e}", item.id);
+            }
+        }
+    }
+
+    #[test]
+    fn all_competitors_find_the_same() {
+        for item in all(Extent { timed: 720, judged: false, shuffled: true }) {
+            assert_eq!(agree(&item), Ok(()));
+        }
+    }
+}

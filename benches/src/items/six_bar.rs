@@ -1,0 +1,122 @@
+//! P2: a six-bar with weight on every link.
+
+use linkage_runtime::{Vector2, polar};
+use nalgebra::SVector;
+
+use super::dense::{self, Pin};
+use super::{Case, Extent, Item, Reactions, Turn};
+use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, in_frame, left, vector};
+use crate::expert::six_bar as expert;
+use crate::linkages::six_bar::{self, Loads, Pose};
+
+impl super::Loads for Loads {
+    fn toward(first: f64, second: f64) -> Self {
+        Self { F: polar(50.0, first), G: polar(100.0, second) }
+    }
+    fn depend(&mut self, change: f64) {
+        self.F.x += change;
+        self.G.x += change;
+    }
+}
+
+type All = Reactions<7>;
+type At = Case<f64, Loads>;
+
+pub(super) fn items(extent: Extent) -> Vec<Item> {
+    let turn = Turn::new(extent, 50.0, |theta, loads| vec![exact(theta, loads)]);
+    vec![Item {
+        id: "P2b",
+        title: "six-bar with weights: all forces and the torque, from the driver's angle",
+        competitors: vec![
+            turn.competitor("expert", statics_at_expert),
+            turn.competitor("generated", statics_at_generated),
+            turn.competitor("LU 15x15", statics_at_dense),
+        ],
+    }]
+}
+
+fn statics_at_expert(case: &At, out: &mut All) -> bool {
+    expert::statics(case.start, &case.loads, out);
+    true
+}
+
+fn statics_at_generated(case: &At, out: &mut All) -> bool {
+    match six_bar::statics_at(case.start, &case.loads) {
+        Ok(all) => {
+            *out = Reactions { torque: all.T, forces: [all.A0, all.A, all.B, all.B0, all.C, all.D, all.D0] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+fn statics_at_dense(case: &At, out: &mut All) -> bool {
+    let Ok(pose) = Pose::at(case.start) else { return false };
+    // The place (x, y) in a link's frame, seen from the frame's origin.
+    let at = |u: Vector2<f64>, x: f64, y: f64| [x * u.x - y * u.y, x * u.y + y * u.x];
+    let (crank, coupler, rocker) = (pose.crank_direction(), pose.coupler_direction(), pose.rocker_direction());
+    let (rod, arm) = (pose.rod_direction(), pose.arm_direction());
+    let here = [0.0, 0.0];
+    let matrix = dense::matrix(&[
+        Pin { first: None, second: (0, here) },
+        Pin { first: Some((0, at(crank, 50.0, 0.0))), second: (1, here) },
+        Pin { first: Some((1, at(coupler, 140.0, 0.0))), second: (2, at(rocker, 100.0, 0.0)) },
+        Pin { first: None, second: (2, here) },
+        Pin { first: Some((2, at(rocker, 80.0, -40.0))), second: (3, here) },
+        Pin { first: Some((3, at(rod, 170.0, 0.0))), second: (4, at(arm, 110.0, 0.0)) },
+        Pin { first: None, second: (4, here) },
+    ]);
+    let mut right = SVector::<f64, 15>::zeros();
+    dense::load(&mut right, 0, 1, at(coupler, 60.0, 35.0), case.loads.F.into());
+    dense::load(&mut right, 0, 4, at(arm, 70.0, 25.0), case.loads.G.into());
+    for (link, (u, (mass, x, y))) in [crank, coupler, rocker, rod, arm].into_iter().zip(MASSES).enumerate() {
+        dense::load(&mut right, 0, link, at(u, x, y), [0.0, -9.81 * mass]);
+    }
+    let Some(x) = dense::partial(matrix, &right) else { return false };
+    out.torque = x[14];
+    for (k, force) in out.forces.iter_mut().enumerate() {
+        *force = Vector2::new(x[2 * k], x[2 * k + 1]);
+    }
+    true
+}
+
+/// Each link's mass in kg, and its place in mm.
+const MASSES: [(f64, f64, f64); 5] =
+    [(0.4, 25.0, 0.0), (0.9, 65.0, 12.0), (0.8, 60.0, -10.0), (0.7, 85.0, 0.0), (0.6, 50.0, 8.0)];
+
+/// The exact forces and torque.
+fn exact(theta: &Big, loads: &Loads) -> Exact {
+    let number = |x: i32| Big::ratio(x, 1);
+    let point = |x: i32, y: i32| [number(x), number(y)];
+    let (a0, b0, d0) = (point(0, 0), point(150, 0), point(330, 20));
+    let [cos, sin] = theta.direction();
+    let a = [number(50) * cos, number(50) * sin];
+    let b = left(&a, &b0, &number(140), &number(100));
+    let c = in_frame(&b0, &b, &number(100), &number(80), &number(-40));
+    let d = left(&c, &d0, &number(170), &number(110));
+    let pin = |first, second, at: &[Big; 2]| Joint { first, second, at: at.clone(), kind: Kind::Pin };
+    let joints = [
+        pin(None, 0, &a0),
+        pin(Some(0), 1, &a),
+        pin(Some(1), 2, &b),
+        pin(None, 2, &b0),
+        pin(Some(2), 3, &c),
+        pin(Some(3), 4, &d),
+        pin(None, 4, &d0),
+    ];
+    let frames = [(&a0, &a, 50), (&a, &b, 140), (&b0, &b, 100), (&c, &d, 170), (&d0, &d, 110)];
+    let place = |link: usize, x: i32, y: i32| {
+        let (from, to, length) = frames[link];
+        in_frame(from, to, &number(length), &number(x), &number(y))
+    };
+    // Tenths of a kilogramme, and the centre of each link.
+    let masses = [(4, 25, 0), (9, 65, 12), (8, 60, -10), (7, 85, 0), (6, 50, 8)];
+    let mut all = vec![
+        Load { link: 1, at: place(1, 60, 35), force: vector(loads.F.x, loads.F.y) },
+        Load { link: 4, at: place(4, 70, 25), force: vector(loads.G.x, loads.G.y) },
+    ];
+    for (link, (mass, x, y)) in masses.into_iter().enumerate() {
+        all.push(Load { link, at: place(link, x, y), force: [number(0), Big::ratio(-981 * mass, 1000)] });
+    }
+    equilibrium(5, &joints, &all)
+}

@@ -1,0 +1,92 @@
+//! P3: an engine's slider-crank.
+
+use linkage_runtime::{Vector2, polar};
+use nalgebra::{SMatrix, SVector};
+
+use super::dense;
+use super::{Case, Extent, Item, Reactions, Turn};
+use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, vector};
+use crate::expert::slider_crank as expert;
+use crate::linkages::slider_crank::{self, Loads, Pose};
+
+impl super::Loads for Loads {
+    fn toward(first: f64, _: f64) -> Self {
+        Self { gas: polar(50.0, first) }
+    }
+    fn depend(&mut self, change: f64) {
+        self.gas.x += change;
+    }
+}
+
+type All = Reactions<4>;
+type At = Case<f64, Loads>;
+
+pub(super) fn items(extent: Extent) -> Vec<Item> {
+    let turn = Turn::new(extent, 45.0, |theta, loads| vec![exact(theta, loads)]);
+    vec![Item {
+        id: "P3b",
+        title: "slider-crank: all forces and the torque, from the driver's angle",
+        competitors: vec![
+            turn.competitor("expert", statics_at_expert),
+            turn.competitor("generated", statics_at_generated),
+            turn.competitor("LU 9x9", statics_at_dense),
+        ],
+    }]
+}
+
+fn statics_at_expert(case: &At, out: &mut All) -> bool {
+    expert::statics(case.start, &case.loads, out);
+    true
+}
+
+fn statics_at_generated(case: &At, out: &mut All) -> bool {
+    match slider_crank::statics_at(case.start, &case.loads) {
+        Ok(all) => {
+            *out = Reactions { torque: all.T, forces: [all.O, all.A, all.B, all.P.force] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+/// Unknowns: the forces at O, A, B, the guide's force and couple, the torque. Moments about O, A and B.
+fn statics_at_dense(case: &At, out: &mut All) -> bool {
+    let Ok(pose) = Pose::at(case.start) else { return false };
+    let (crank, rod) = (45.0 * pose.crank_direction(), 150.0 * pose.rod_direction());
+    let mut matrix = SMatrix::<f64, 9, 9>::zeros();
+    for link in 0..3 {
+        matrix[(3 * link, 2 * link)] = 1.0;
+        matrix[(3 * link + 1, 2 * link + 1)] = 1.0;
+    }
+    for (link, arm) in [crank, rod].into_iter().enumerate() {
+        matrix[(3 * link, 2 * link + 2)] = -1.0;
+        matrix[(3 * link + 1, 2 * link + 3)] = -1.0;
+        matrix[(3 * link + 2, 2 * link + 2)] = arm.y;
+        matrix[(3 * link + 2, 2 * link + 3)] = -arm.x;
+    }
+    matrix[(7, 6)] = 1.0;
+    matrix[(8, 7)] = 1.0;
+    matrix[(2, 8)] = 1.0;
+    let mut right = SVector::<f64, 9>::zeros();
+    dense::load(&mut right, 0, 2, [0.0, 0.0], case.loads.gas.into());
+    let Some(x) = dense::partial(matrix, &right) else { return false };
+    out.torque = x[8];
+    out.forces =
+        [Vector2::new(x[0], x[1]), Vector2::new(x[2], x[3]), Vector2::new(x[4], x[5]), Vector2::new(0.0, x[6])];
+    true
+}
+
+/// The exact forces and torque.
+fn exact(theta: &Big, loads: &Loads) -> Exact {
+    let [cos, sin] = theta.direction();
+    let a = [Big::of(45.0) * cos, Big::of(45.0) * sin];
+    let b = [&a[0] + (Big::of(22500.0) - &a[1] * &a[1]).sqrt(), Big::of(0.0)];
+    let joint = |first, second, at: &[Big; 2], kind| Joint { first, second, at: at.clone(), kind };
+    let joints = [
+        joint(None, 0, &vector(0.0, 0.0), Kind::Pin),
+        joint(Some(0), 1, &a, Kind::Pin),
+        joint(Some(1), 2, &b, Kind::Pin),
+        joint(None, 2, &b, Kind::SlideAlongX),
+    ];
+    equilibrium(3, &joints, &[Load { link: 2, at: b, force: vector(loads.gas.x, loads.gas.y) }])
+}

@@ -1,0 +1,93 @@
+//! The linkages that are measured.
+
+use linkage_runtime::linkage;
+
+linkage! {
+    /// METU Example 6.3, both loads given at run time.
+    pub(crate) mod four_bar;
+    units { mm, N }
+
+    ground       { A0: (0, 0), B0: (140mm, 0) }
+    link crank   { A0 -> A: 80mm }
+    link coupler { A -> B: 100mm, C: left(A -> B, 70mm, 80mm) }
+    link rocker  { B0 -> B: 120mm, D: (90mm, 0) }
+
+    revolute A0: ground  -> crank;
+    revolute A:  crank   -> coupler;
+    revolute B:  coupler -> rocker;
+    revolute B0: ground  -> rocker;
+
+    drive theta: A0;
+    unknown T12: torque(ground -> crank);
+    assemble B: left(A -> B0);
+
+    load F13: force(coupler.C);
+    load F14: force(rocker.D);
+
+    scene statics: equilibrium;
+    scene parts:   superposition;
+    scene torque:  virtual_work -> (T12);
+}
+
+linkage! {
+    /// A six-bar, Watt's chain: a crank-rocker moves a second rocker. Weight on every link, a load on the coupler, one on
+    /// the arm.
+    pub(crate) mod six_bar;
+    units { mm, N }
+
+    ground       { A0: (0, 0), B0: (150mm, 0), D0: (330mm, 20mm) }
+    link crank   { A0 -> A: 50mm }
+    link coupler { A -> B: 140mm, P: (60mm, 35mm) }
+    link rocker  { B0 -> B: 100mm, C: (80mm, -40mm) }
+    link rod     { C -> D: 170mm }
+    link arm     { D0 -> D: 110mm, Q: (70mm, 25mm) }
+
+    mass crank:   0.4kg at (25mm, 0);
+    mass coupler: 0.9kg at (65mm, 12mm);
+    mass rocker:  0.8kg at (60mm, -10mm);
+    mass rod:     0.7kg at (85mm, 0);
+    mass arm:     0.6kg at (50mm, 8mm);
+
+    revolute A0: ground  -> crank;
+    revolute A:  crank   -> coupler;
+    revolute B:  coupler -> rocker;
+    revolute B0: ground  -> rocker;
+    revolute C:  rocker  -> rod;
+    revolute D:  rod     -> arm;
+    revolute D0: ground  -> arm;
+
+    drive theta: A0;
+    unknown T: torque(ground -> crank);
+    assemble B: left(A -> B0);
+    assemble D: left(C -> D0);
+
+    load F: force(coupler.P);
+    load G: force(arm.Q);
+    load W: gravity = 9.81m/s^2 @ -90deg;
+
+    scene statics: equilibrium;
+}
+
+linkage! {
+    /// An engine's slider-crank, in line, with the force of the gas on the piston.
+    pub(crate) mod slider_crank;
+    units { mm, N }
+
+    ground      { O: (0, 0) }
+    link crank  { O -> A: 45mm }
+    link rod    { A -> B: 150mm }
+    link piston { B }
+
+    revolute  O: ground   -> crank;
+    revolute  A: crank    -> rod;
+    revolute  B: rod      -> piston;
+    prismatic P: ground.O -> piston.B along 0deg;
+
+    drive theta: O;
+    unknown T: torque(ground -> crank);
+    assemble B: ahead(A);
+
+    load gas: force(piston.B);
+
+    scene statics: equilibrium;
+}
