@@ -1,0 +1,32 @@
+# The habits of working on this; `just` lists them. Everything at once, as it must pass: `.ci/run`.
+
+_:
+    @just --list --unsorted
+
+# Formatting, lints, documentation: warnings are errors.
+check:
+    .ci/run style clippy docs
+
+# All tests of all packages, and what is said to refused declarations.
+test *arguments:
+    cargo test --workspace --all-features {{arguments}}
+
+# The tests that take minutes.
+long:
+    .ci/run long
+
+# Looks at snapshots that have changed, and accepts or refuses them (`cargo install cargo-insta`).
+review:
+    cargo insta test --workspace --all-features --review
+
+# Measures what is emitted against formulas by hand and general solutions.
+bench *arguments:
+    cargo run --release --package linkage-bench -- {{arguments}}
+
+# The documentation, in the browser.
+docs:
+    cargo doc --workspace --no-deps --all-features --open
+
+# Targets without an operating system: no panic, no allocation, the same bits; emulated boards too.
+no-std:
+    .ci/run no-std board

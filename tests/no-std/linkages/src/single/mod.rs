@@ -1,0 +1,8 @@
+//! Linkages in single precision.
+
+pub mod folding;
+pub mod four_bar;
+pub mod press;
+pub mod slider_crank;
+
+crate::digest::scalar!(f32);
