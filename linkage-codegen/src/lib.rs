@@ -51,6 +51,19 @@ pub struct Refusal {
 
 /// Takes a declaration through all stages.
 ///
+/// ```
+/// let declaration = "mod lever; ground { O: (0, 0) } link lever { O -> P: 250mm }
+///     revolute O: ground -> lever; drive theta: O; load F: force(lever.P); scene torque: virtual_work;";
+/// let linkage = linkage_codegen::analyse(declaration.parse()?).map_err(|refusal| format!("{:?}", refusal.errors))?;
+/// assert_eq!(linkage.plan.motion_rules, ["link on a pin"]);
+/// assert!(linkage_codegen::emit::equations(&linkage).contains("ΣM(O)"));
+///
+/// let wrong = declaration.replace("lever.P", "lever.Q");
+/// let refusal = linkage_codegen::analyse(wrong.parse()?).unwrap_err();
+/// assert_eq!(refusal.errors.len(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 ///
 /// All that was found to be wrong, each with its place.
@@ -102,6 +115,14 @@ pub fn expand_or_report(declaration: TokenStream) -> TokenStream {
 }
 
 /// Emitted tokens as formatted source.
+///
+/// ```
+/// let declaration = "mod lever; ground { O: (0, 0) } link lever { O -> P: 250mm }
+///     revolute O: ground -> lever; drive theta: O; scene place: position -> (lever.P);";
+/// let source = linkage_codegen::formatted(linkage_codegen::expand(declaration.parse()?))?;
+/// assert!(source.contains("pub fn place_at(theta: f64)"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 ///

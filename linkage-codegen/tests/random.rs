@@ -165,28 +165,3 @@ fn two_thousand_linkages_agree_with_the_general_solution() {
         }
     }
 }
-
-#[test]
-#[ignore = "debug"]
-fn debug() {
-    for (dyads, sliders, params) in
-        [(0, false, false), (0, true, false), (1, false, false), (1, false, true), (1, true, false), (2, true, false)]
-    {
-        let mut bad = 0;
-        let mut first = None;
-        for seed in 0..300 {
-            let s = sample(seed, Kind { dyads, sliders, unknown_anywhere: false, params, scalar: "f64" });
-            let r = std::panic::catch_unwind(|| {
-                let l = compile(&s.text);
-                check_in_doubles(&s, &l);
-            });
-            if let Err(e) = r {
-                bad += 1;
-                if first.is_none() {
-                    first = Some((seed, e.downcast_ref::<String>().cloned().unwrap_or_default()));
-                }
-            }
-        }
-        println!("{dyads} {sliders} {params}: {bad} bad; {first:?}");
-    }
-}

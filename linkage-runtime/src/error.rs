@@ -5,6 +5,31 @@ use core::fmt;
 /// Why a function of a linkage has no answer at a pose.
 ///
 /// Groups are named by their links, joints and pivots as in the declaration.
+///
+/// ```
+/// use linkage_runtime::{Error, linkage};
+///
+/// linkage! {
+///     /// Its ground is too long for it to turn all round.
+///     mod four_bar;
+///     units { mm, N }
+///     ground       { A0: (0, 0), B0: (200mm, 0) }
+///     link crank   { A0 -> A: 80mm }
+///     link coupler { A -> B: 100mm }
+///     link rocker  { B0 -> B: 120mm }
+///     revolute A0: ground -> crank;
+///     revolute A: crank -> coupler;
+///     revolute B: coupler -> rocker;
+///     revolute B0: ground -> rocker;
+///     drive theta: A0;
+///     assemble B: left(A -> B0);
+///     scene places: position;
+/// }
+///
+/// let error = four_bar::Pose::at(std::f64::consts::PI).unwrap_err();
+/// assert_eq!(error.to_string(), "coupler + rocker cannot be assembled: B stays open by 60");
+/// assert!(matches!(error, Error::CannotAssemble { joint: "B", .. }));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {

@@ -15,6 +15,26 @@ use crate::Error;
 /// How far the ways to a scene's results disagree: the largest difference of forces over the largest force, or of moments over the
 /// largest moment, whichever is larger.
 ///
+/// ```
+/// use linkage_runtime::{Vector2, linkage};
+///
+/// linkage! {
+///     /// A lever with a force at its end.
+///     mod lever;
+///     units { mm, N }
+///     ground     { O: (0, 0) }
+///     link lever { O -> P: 250mm }
+///     revolute O: ground -> lever;
+///     drive theta: O;
+///     load F: force(lever.P);
+///     scene check: verify;
+/// }
+///
+/// let agreement = lever::check_at(0.3, &lever::Loads { F: Vector2::new(2.0, -8.0) })?;
+/// assert!(agreement.general < 1e-15 && agreement.virtual_work < 1e-15);
+/// # Ok::<(), linkage_runtime::Error>(())
+/// ```
+///
 /// A size of `1e-15` is a matter of roundings; it grows with [`condition`](Self::condition).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verification<T> {
@@ -38,7 +58,16 @@ impl<T: fmt::LowerExp> fmt::Display for Verification<T> {
     }
 }
 
-/// A square linear system: for each unknown what its unit exerts on the links, for each equation what the loads exert.
+/// A square linear system, solved with complete pivoting: for each unknown what its unit exerts on the links, for each equation what the loads exert.
+///
+/// ```
+/// use linkage_runtime::reference::Equations;
+///
+/// // Two equations: 2x + y + 4 = 0, y − 6 = 0.
+/// let equations = Equations::new(&[(0, 0, 2.0), (0, 1, 1.0), (1, 1, 1.0)], &[4.0, -6.0]);
+/// assert_eq!(equations.solve(), Some(vec![-5.0, 6.0]));
+/// assert!(equations.condition() < 3.0);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Equations<T> {
     matrix: DMatrix<T>,

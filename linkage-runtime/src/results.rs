@@ -3,6 +3,30 @@
 use nalgebra::{Scalar, Vector2};
 
 /// The reaction of a prismatic joint on its second link.
+///
+/// Along the line there is no force, as slides are smooth: `force` is `normal` times the line's direction turned by +90°.
+///
+/// ```
+/// use linkage_runtime::{Vector2, linkage};
+///
+/// linkage! {
+///     /// A block on a horizontal guide, pushed down beside its middle.
+///     mod press;
+///     units { mm, N }
+///     ground     { O: (0, 0) }
+///     link block { S: (0, 0), P: (20mm, 0) }
+///     prismatic S: ground.O -> block along 0deg;
+///     drive x: S;
+///     load F: force(block.P);
+///     scene held: equilibrium;
+/// }
+///
+/// let loads = press::Loads { F: Vector2::new(3.0, -50.0) };
+/// let held = press::held_at(100.0, &loads)?;
+/// assert_eq!(held.effort_x, -3.0);
+/// assert_eq!((held.S.force, held.S.normal, held.S.couple), (Vector2::new(0.0, 50.0), 50.0, 1000.0));
+/// # Ok::<(), linkage_runtime::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliderReaction<T: Scalar> {
     /// The force, ground axes.
@@ -14,6 +38,28 @@ pub struct SliderReaction<T: Scalar> {
 }
 
 /// The term of a load in the principle of virtual work.
+///
+/// ```
+/// use linkage_runtime::{Vector2, linkage};
+///
+/// linkage! {
+///     /// A lever of 250 mm.
+///     mod lever;
+///     units { mm, N }
+///     ground     { O: (0, 0) }
+///     link lever { O -> P: 250mm }
+///     revolute O: ground -> lever;
+///     drive theta: O;
+///     load F: force(lever.P);
+///     scene torque: virtual_work;
+/// }
+///
+/// let loads = lever::Loads { F: Vector2::new(0.0, -8.0) };
+/// let torque = lever::torque_at(0.0, &loads)?;
+/// // Turned at 1 rad/s, the end moves upwards with 250 mm/s: against the force.
+/// assert_eq!((torque.F.velocity, torque.F.work, torque.effort_theta), (-250.0, -2000.0, 2000.0));
+/// # Ok::<(), linkage_runtime::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WorkTerm<T> {
     /// Velocity of the load's point along the load, for unit rate; of a moment the rate of rotation that it works on. Zero for a
@@ -23,7 +69,12 @@ pub struct WorkTerm<T> {
     pub work: T,
 }
 
-/// A vector by its size and its angle in radians, counter-clockwise from the x axis: `polar(50.0, 230f64.to_radians())`.
+/// A vector by its size and its angle in radians, counter-clockwise from the x axis.
+///
+/// ```
+/// let force = linkage_runtime::polar(50.0, 90f64.to_radians());
+/// assert!((force.y - 50.0).abs() < 1e-13 && force.x.abs() < 1e-13);
+/// ```
 ///
 /// Sine and cosine are those of [`math`](crate::math). An argument that is not finite makes components that are NaN, which every
 /// scene reports as [`Error::NotFinite`](crate::Error::NotFinite).

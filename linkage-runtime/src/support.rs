@@ -10,17 +10,18 @@ macro_rules! support {
             if x > 0.0 { x } else { 0.0 }
         }
 
-        /// Whether none is infinite or NaN: less itself, such a number is NaN, every other one zero.
+        /// Whether none is infinite or NaN.
         #[inline]
         #[must_use]
         pub fn all_finite<const N: usize>(values: [$scalar; N]) -> bool {
-            let (mut sum, mut rest) = (0.0, values.as_slice());
-            // By patterns: neither an index nor an iterator, which keep a way to panic in unoptimised builds.
+            let (mut all, mut rest) = (true, values.as_slice());
+            // By patterns: neither an index nor an iterator, which keep a way to panic in unoptimised builds. By `&`: the comparisons
+            // do not wait for each other.
             while let [value, others @ ..] = rest {
-                sum += value - value;
+                all &= value.abs() < $scalar::INFINITY;
                 rest = others;
             }
-            sum == 0.0
+            all
         }
 
         /// A gap for an error message: in single precision, at most its largest number.

@@ -50,8 +50,15 @@ pub(super) fn body<'a>(linkage: &'a Linkage, program: &'a Program) -> Body<'a> {
     Body::new(program, &linkage.model.graph, &|input| input_name(linkage, input), &TAKEN)
 }
 
+/// Where a function has the coordinates of the drives from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Drives {
+    Arguments,
+    Pose,
+}
+
 /// Statements that take a function's inputs out of where they are kept.
-fn bindings(linkage: &Linkage, program: &Program) -> TokenStream {
+fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream {
     let mut prepared = Vec::new();
     let mut kept = Vec::new();
     let mut statements = TokenStream::new();
@@ -61,6 +68,7 @@ fn bindings(linkage: &Linkage, program: &Program) -> TokenStream {
         match input {
             Input::Prepared(_) => prepared.push(name),
             Input::Kept(_) => kept.push(name),
+            Input::Symbol(Symbol::Drive(_)) if drives == Drives::Pose => kept.push(name),
             Input::Symbol(Symbol::Load(load, part)) => match loads.iter_mut().find(|(other, _)| *other == load) {
                 Some((_, parts)) => parts[usize::from(part)] = true,
                 None => {
@@ -215,7 +223,7 @@ pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
 /// `Pose::at`.
 pub(super) fn pose_at(linkage: &Linkage) -> TokenStream {
     let program = &linkage.functions.pose;
-    let bindings = bindings(linkage, program);
+    let bindings = bindings(linkage, program, Drives::Arguments);
     let (statements, body) = body(linkage, program).statements();
     let values = outputs(&body, program);
     let kept = linkage.plan.pose.iter().zip(values).map(|(kept, value)| member(&kept.name, &value));
@@ -253,22 +261,12 @@ pub(super) fn accessors(linkage: &Linkage) -> TokenStream {
     let all = linkage.plan.accessors.iter().zip(&linkage.functions.accessors).map(|(accessor, program)| {
         let name = ident(&accessor.name);
         let prepared = prepared_of_pose(linkage, program);
-        let bindings = bindings(linkage, program);
-        let drive = match accessor.output {
-            Output::Scalar(node, _) => {
-                matches!(linkage.model.graph.op(node), crate::graph::Op::Symbol(Symbol::Drive(_)))
-            }
-            _ => false,
-        };
+        let bindings = bindings(linkage, program, Drives::Pose);
         let unchecked = without_checks(program);
         let (statements, body) = body(linkage, &unchecked).statements();
         let doc = format!(" {}", accessor.meaning);
         let ty = output_type(&linkage.model, &accessor.output, "");
-        let value = if drive {
-            quote!(self.#name)
-        } else {
-            result(Method::Position, "", "", &accessor.output, &mut outputs(&body, &unchecked).into_iter())
-        };
+        let value = result(Method::Position, "", "", &accessor.output, &mut outputs(&body, &unchecked).into_iter());
         quote! {
             #[doc = #doc]
             #[inline]
@@ -296,16 +294,6 @@ fn prepared_of_pose(linkage: &Linkage, program: &Program) -> TokenStream {
     if reads && has_params(linkage) { quote!(let linkage = self.linkage;) } else { TokenStream::new() }
 }
 
-/// Drives that a function from a pose reads.
-fn drives_of_pose(linkage: &Linkage, program: &Program) -> TokenStream {
-    let drives = program.inputs().filter_map(|(_, input)| match input {
-        Input::Symbol(Symbol::Drive(drive)) => Some(ident(&linkage.model.drive(drive).name.text)),
-        _ => None,
-    });
-    let drives: Vec<_> = drives.collect();
-    if drives.is_empty() { TokenStream::new() } else { quote!(let Self { #(#drives,)* .. } = *self;) }
-}
-
 /// A scene from a pose.
 pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
     let scene = &linkage.model.scenes[index];
@@ -314,8 +302,7 @@ pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
     let ty = output_type(&linkage.model, &linkage.plan.scenes[index], &type_name(&scene.name.text));
     let loads = loads_argument(&program);
     let prepared = prepared_of_pose(linkage, &program);
-    let drives = drives_of_pose(linkage, &program);
-    let bindings = bindings(linkage, &program);
+    let bindings = bindings(linkage, &program, Drives::Pose);
     let (statements, body) = body(linkage, &program).statements();
     let base = type_name(&scene.name.text);
     let value =
@@ -327,7 +314,6 @@ pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
         #[inline]
         pub fn #name(&self #loads) -> Result<#ty, Error> {
             #prepared
-            #drives
             #bindings
             #statements
             Ok(#value)
@@ -355,7 +341,7 @@ pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
     let loads = loads_argument(program);
     let prepared = linkage_argument(linkage, &TokenStream::new());
     let arguments = drive_arguments(linkage);
-    let bindings = bindings(linkage, program);
+    let bindings = bindings(linkage, program, Drives::Arguments);
     let (statements, body) = body(linkage, program).statements();
     let base = type_name(&scene.name.text);
     let value =

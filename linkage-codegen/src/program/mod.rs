@@ -1,4 +1,4 @@
-//! [`Plan`] in, [`Program`]s out: straight-line code, one program for every function of the module.
+//! [`Plan`](crate::plan::Plan) in, [`Program`]s out: straight-line code, one program for every function of the module.
 //!
 //! A program holds what its results need and nothing else, in an order of evaluation, each value computed once. Checks stand where
 //! what they protect is first used.

@@ -10,12 +10,12 @@ use linkage_codegen::graph::NodeId;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::model::LoadKind;
 use linkage_codegen::model::ids::{JointId, LinkId};
-use linkage_codegen::program::{Fault, Input, Run};
+use linkage_codegen::program::Fault;
 use nalgebra::{DMatrix, DVector};
 
 use super::general::{General, equations_at};
 use super::numbers::Extended;
-use super::{Arguments, Number, pose};
+use super::{Arguments, Number, from_pose, pose};
 
 /// The measures of the acceptance bars, in epsilons of the scalar.
 #[derive(Clone, Copy, Debug, Default)]
@@ -128,11 +128,7 @@ pub fn values_from_kept<T: Number>(
 ) -> Result<(Vec<String>, Vec<T>), Fault> {
     let index = linkage.model.scenes.iter().position(|scene| scene.name.text == name).expect("a scene of this name");
     let program = &linkage.functions.scenes[index].from_pose;
-    let values = Run { program, graph: &linkage.model.graph }.with(&|input| match input {
-        Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
-        Input::Kept(node) => kept[&node].clone(),
-        Input::Prepared(_) => T::exactly(f64::NAN),
-    })?;
+    let values = from_pose(linkage, program, kept, arguments)?;
     Ok((program.outputs.iter().map(|(path, _)| path.clone()).collect(), values))
 }
 

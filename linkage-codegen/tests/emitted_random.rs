@@ -1,0 +1,191 @@
+//! Random linkages emitted, compiled and run: the same bits as from the interpreter, from every function.
+//!
+//! They are written into a crate of their own, which prints what each scene gives; only that needs a run of cargo within the test.
+
+mod support;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use linkage_codegen::Linkage;
+use linkage_codegen::graph::{Op, Symbol};
+use linkage_codegen::model::LoadKind;
+use linkage_codegen::program::Fault;
+use support::linkages::{Kind, sample};
+use support::measures::values_from_kept;
+use support::numbers::{Double, Single};
+use support::{Arguments, Number, direct, pose};
+
+const SCENES: [&str; 4] = ["all", "parts", "work", "whole"];
+
+struct Case {
+    name: String,
+    scalar: &'static str,
+    declaration: String,
+    arguments: Arguments,
+    linkage: Linkage,
+}
+
+fn cases() -> Vec<Case> {
+    let of = |seed: u64| {
+        let scalar = if seed.is_multiple_of(3) { "f32" } else { "f64" };
+        let dyads = usize::try_from(seed % 4).expect("small");
+        let kind =
+            Kind { dyads, sliders: true, unknown_anywhere: seed.is_multiple_of(2), params: seed % 5 == 4, scalar };
+        let sample = sample(seed, kind);
+        // With its unknown anywhere a linkage may be one that is refused.
+        let linkage = linkage_codegen::analyse(sample.text.parse().expect("tokens")).ok()?;
+        Some(Case {
+            name: format!("case_{seed}"),
+            scalar,
+            declaration: sample.text,
+            arguments: sample.arguments,
+            linkage,
+        })
+    };
+    (50_000..50_060).filter_map(of).collect()
+}
+
+/// A module with the linkage, and a function that prints what its scenes give.
+fn module(case: &Case) -> String {
+    let Case { name, scalar, declaration, arguments, linkage } = case;
+    let model = &linkage.model;
+    let number = |value: f64| format!("({value:?}f64 as {scalar})");
+    let given = |node| matches!(model.graph.op(node), Op::Symbol(Symbol::Load(..)));
+    let loads: Vec<String> = model
+        .loads
+        .iter()
+        .zip(&arguments.loads)
+        .filter_map(|(load, [x, y])| match load.kind {
+            LoadKind::Moment { moment, .. } => given(moment).then(|| format!("{}: {}", load.name, number(*x))),
+            LoadKind::Force { force: pair, .. } | LoadKind::Gravity { acceleration: pair } => {
+                given(pair.x).then(|| format!("{}: Vector2::new({}, {})", load.name, number(*x), number(*y)))
+            }
+        })
+        .collect();
+    let params: Vec<String> = model
+        .params
+        .iter()
+        .zip(&arguments.params)
+        .map(|(p, value)| format!("{}: {}", p.name, number(*value)))
+        .collect();
+    let mut text = format!("mod {name} {{\nuse linkage_runtime::{{Error, Vector2, linkage}};\nlinkage! {{\n");
+    let _ = writeln!(text, "{declaration}}}\npub fn run() -> Result<(), Error> {{");
+    let mut first = String::new();
+    if !params.is_empty() {
+        let _ = writeln!(text, "let linkage = sample::Linkage::new(&sample::Params {{ {} }})?;", params.join(", "));
+        first.push_str("&linkage, ");
+    }
+    if !loads.is_empty() {
+        let _ = writeln!(text, "let loads = sample::Loads {{ {} }};", loads.join(", "));
+    }
+    let drives: Vec<String> = arguments.drives.iter().map(|value| number(*value)).collect();
+    let drives = drives.join(", ");
+    let _ = writeln!(text, "let pose = sample::Pose::at({first}{drives});");
+    for scene in SCENES {
+        let functions = &linkage.functions.scenes[index_of(linkage, scene)];
+        let loads = |reads: bool, before: &'static str| if reads { format!("{before}&loads") } else { String::new() };
+        let straight = loads(functions.direct.reads_loads(), ", ");
+        let _ = writeln!(
+            text,
+            "println!(\"{name} {scene} straight {{:?}}\", sample::{scene}_at({first}{drives}{straight}));"
+        );
+        let from_pose = loads(functions.from_pose.reads_loads(), "");
+        let _ = writeln!(
+            text,
+            "println!(\"{name} {scene} pose {{:?}}\", pose.and_then(|pose| pose.{scene}({from_pose})));"
+        );
+    }
+    text.push_str("Ok(())\n}\n}\n");
+    text
+}
+
+fn index_of(linkage: &Linkage, scene: &str) -> usize {
+    linkage.model.scenes.iter().position(|s| s.name.text == scene).expect("a scene of this name")
+}
+
+/// A crate of its own workspace, with the versions of this one.
+fn write_crate(cases: &[Case]) -> PathBuf {
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().expect("the workspace");
+    let at = Path::new(env!("CARGO_TARGET_TMPDIR")).join("emitted_random");
+    std::fs::create_dir_all(at.join("src")).expect("a directory");
+    let manifest = format!(
+        "[package]\nname = \"emitted_random\"\nedition = \"2024\"\n\n[dependencies]\nlinkage-runtime = {{ path = {:?} }}\n\n[workspace]\n",
+        workspace.join("linkage-runtime")
+    );
+    std::fs::write(at.join("Cargo.toml"), manifest).expect("a manifest");
+    std::fs::copy(workspace.join("Cargo.lock"), at.join("Cargo.lock")).expect("a lock file");
+    let mut main: String = cases.iter().map(module).collect();
+    main.push_str("fn main() {\n");
+    for Case { name, .. } in cases {
+        let _ = writeln!(main, "if let Err(error) = {name}::run() {{ println!(\"{name} fails {{error:?}}\"); }}");
+    }
+    main.push_str("}\n");
+    std::fs::write(at.join("src/main.rs"), main).expect("a source");
+    at
+}
+
+fn run(at: &Path) -> String {
+    let output = Command::new(env!("CARGO"))
+        .args(["run", "--quiet", "--offline"])
+        .env("CARGO_TARGET_DIR", at.join("target"))
+        .env_remove("RUSTFLAGS")
+        .current_dir(at)
+        .output()
+        .expect("cargo");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// All numbers of a printed result, in the order of its fields; `None` for an error.
+fn bits<T: Number>(printed: &str) -> Option<Vec<u64>> {
+    let inner = printed.strip_prefix("Ok(")?;
+    let parts = inner.split(|c: char| "[]{}(),: ".contains(c));
+    Some(parts.filter_map(|part| part.parse::<f64>().ok()).map(|x| T::exactly(x).to_f64().to_bits()).collect())
+}
+
+fn interpreted<T: Number>(case: &Case, scene: &str, form: &str) -> Option<Vec<u64>> {
+    let Case { linkage, arguments, .. } = case;
+    let values: Result<Vec<T>, Fault> = if form == "straight" {
+        direct(linkage, &linkage.functions.scenes[index_of(linkage, scene)].direct, arguments)
+    } else {
+        pose(linkage, arguments)
+            .and_then(|kept| values_from_kept(linkage, scene, &kept, arguments).map(|(_, values)| values))
+    };
+    Some(values.ok()?.iter().map(|value| value.to_f64().to_bits()).collect())
+}
+
+#[test]
+#[ignore = "long"]
+fn random_linkages_compile_to_what_the_interpreter_computes() {
+    let cases = cases();
+    assert!(cases.len() > 40, "{} linkages", cases.len());
+    let printed = run(&write_crate(&cases));
+    let (mut results, mut failures) = (0, 0);
+    for case in &cases {
+        let lines = printed.lines().filter_map(|line| line.strip_prefix(case.name.as_str())?.strip_prefix(' '));
+        let mut scenes = 0;
+        for line in lines {
+            let Some((scene, rest)) = line.split_once(' ') else { panic!("{line}") };
+            if scene == "fails" {
+                assert!(pose::<Double>(&case.linkage, &case.arguments).is_err(), "{line}\n{}", case.declaration);
+                scenes = SCENES.len() * 2;
+                failures += 1;
+                continue;
+            }
+            let (form, printed) = rest.split_once(' ').expect("a result");
+            let (own, expected) = if case.scalar == "f32" {
+                (bits::<Single>(printed), interpreted::<Single>(case, scene, form))
+            } else {
+                (bits::<Double>(printed), interpreted::<Double>(case, scene, form))
+            };
+            assert_eq!(own, expected, "{scene} {form}: {printed}\n{}", case.declaration);
+            scenes += 1;
+            results += usize::from(own.is_some());
+        }
+        assert_eq!(scenes, SCENES.len() * 2, "{}", case.declaration);
+    }
+    println!("{} linkages, {results} equal results, {failures} with parameters out of range", cases.len());
+    assert!(results > 300, "{results} results");
+}
