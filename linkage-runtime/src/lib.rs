@@ -66,16 +66,10 @@ pub mod __private {
 
     pub mod f32 {
         pub use crate::math::f32::*;
-        crate::support::support!(f32, |x| x);
+        crate::support::support!(f32, x => x);
     }
     pub mod f64 {
         pub use crate::math::f64::*;
-        #[allow(clippy::cast_possible_truncation, reason = "a diagnostic in single precision")]
-        mod single {
-            pub(super) fn of(x: f64) -> f32 {
-                x as f32
-            }
-        }
-        crate::support::support!(f64, single::of);
+        crate::support::support!(f64, x => x as f32);
     }
 }

@@ -1,8 +1,10 @@
 //! What emitted code uses beside the elementary functions: clamping, error gaps, and cores of two and three equations.
 
-/// The functions for a scalar; `$single` makes a single-precision number of one.
+/// The functions for a scalar; `$single` is the number `$x` in single precision.
+///
+/// No function pointers: with the table of them that an unoptimised WebAssembly module then has, its linker fails.
 macro_rules! support {
-    ($scalar:ident, $single:expr) => {
+    ($scalar:ident, $x:ident => $single:expr) => {
         /// The value, or zero if it is negative or NaN.
         #[inline]
         #[must_use]
@@ -27,10 +29,10 @@ macro_rules! support {
         /// A gap for an error message: in single precision, at most its largest number.
         #[cold]
         #[must_use]
-        pub fn gap(x: $scalar) -> f32 {
-            let single: fn($scalar) -> f32 = $single;
-            let x = single(x);
-            if x < f32::MAX { x } else { f32::MAX }
+        #[allow(clippy::cast_possible_truncation, reason = "a diagnostic in single precision")]
+        pub fn gap($x: $scalar) -> f32 {
+            let single: f32 = $single;
+            if single < f32::MAX { single } else { f32::MAX }
         }
 
         /// `[x, y]` of `a x + b y = e`, `c x + d y = f`, by elimination from the equation with the larger coefficient of x.
