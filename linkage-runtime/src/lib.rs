@@ -73,3 +73,7 @@ pub mod __private {
         crate::support::support!(f64, x => x as f32);
     }
 }
+
+#[cfg(all(doctest, feature = "std"))]
+#[doc = include_str!("../../README.md")]
+struct Readme;
