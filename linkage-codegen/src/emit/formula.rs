@@ -12,6 +12,10 @@ pub(super) trait Terms<T> {
     fn name(&self, term: T) -> Option<String>;
 }
 
+/// Operations of the longest formula that is written out: nobody reads a longer one, and where values are used often, its length
+/// grows without bounds.
+const LENGTH: usize = 256;
+
 /// Nodes, written out in full.
 pub(super) struct Nodes<'a>(pub(super) &'a Graph);
 
@@ -20,7 +24,16 @@ impl Terms<NodeId> for Nodes<'_> {
         self.0.op(term)
     }
 
-    fn name(&self, _: NodeId) -> Option<String> {
+    fn name(&self, term: NodeId) -> Option<String> {
+        let mut open = vec![term];
+        let mut operations = 0;
+        while let Some(term) = open.pop() {
+            open.extend(self.0.op(term).operands());
+            operations += 1;
+            if operations > LENGTH {
+                return Some("…".to_owned());
+            }
+        }
         None
     }
 }

@@ -3,13 +3,17 @@
 use std::collections::HashMap;
 
 use super::real::Real;
-use super::{Coordinate, Expr, Graph, Kernel, NodeId, Op, Symbol};
+use super::{Coordinate, Expr, Graph, Kernel, NodeId, Op, Stage, Symbol};
 use crate::model::ids::LinkId;
 
 impl Graph {
     /// Partial derivative by a coordinate of a link: its place or its angle. Cosine and sine of a link are functions of its angle.
     #[must_use]
     pub fn derivative<'g>(&'g self, of: Expr<'g>, link: LinkId, by: Coordinate) -> Expr<'g> {
+        // Dimensions do not move. They may be worked out in many steps that use each other often; these are not gone into.
+        if of.stage() < Stage::Posed {
+            return self.zero();
+        }
         let d = |id: NodeId| self.derivative(self.expr(id), link, by);
         match of.op() {
             Op::Symbol(Symbol::Coordinate(owner, coordinate)) if owner == link => match (coordinate, by) {

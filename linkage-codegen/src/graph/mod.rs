@@ -4,6 +4,7 @@
 //! products with zero gone, signs pulled outwards. A node's number grows along its dependencies, so the order of numbers
 //! is an order of evaluation.
 
+mod bounds;
 mod calculus;
 mod expr;
 mod fold;
@@ -425,21 +426,6 @@ impl Graph {
     #[must_use]
     pub fn guard(&self, id: GuardId) -> Guard {
         self.arena.borrow().guards[id.0 as usize].clone()
-    }
-
-    /// Checks that constants fail.
-    #[must_use]
-    pub fn impossible_guards(&self) -> Vec<Guard> {
-        let guards = self.arena.borrow().guards.clone();
-        let fails = |guard: &Guard| {
-            let [a, b] = guard.condition.operands().map(|id| self.constant_value(id));
-            let Some((a, b)) = a.zip(b) else { return false };
-            match guard.condition {
-                Condition::Above { .. } => !a.compare(&b).is_gt(),
-                Condition::AtLeast { .. } => a.compare(&b).is_lt(),
-            }
-        };
-        guards.into_iter().filter(fails).collect()
     }
 
     /// A node's name.

@@ -21,6 +21,8 @@ const CANCELLED: isize = 200;
 const RATIONAL_BITS: usize = 8192;
 /// No constant that is written down has an exponent beyond this: twice that of a double's square.
 const EXPONENT: isize = 4096;
+/// The same for angles.
+const ANGLE_EXPONENT: isize = 64;
 
 type Float = FBig<HalfEven, 2>;
 
@@ -114,12 +116,15 @@ impl Number {
 
     /// A value to 256 bits; one that agrees with a whole number in all but its last bits is that number.
     fn real(value: Float) -> Self {
+        if value.repr().significand().is_zero() {
+            return Self::zero();
+        }
         let nearest = value.round();
         let error = context().sub(value.repr(), nearest.repr()).map_or(Float::ZERO, Rounded::value);
         if magnitude(&value).abs() < 64 && magnitude(&error) < magnitude(&value) - CANCELLED {
             return Self::Rational(RBig::from(nearest.to_int().value()));
         }
-        if value.repr().significand().is_zero() { Self::zero() } else { Self::Real(value) }
+        Self::Real(value)
     }
 
     /// The value to 256 bits.
@@ -326,6 +331,12 @@ impl Number {
     #[must_use]
     pub fn is_excessive(&self) -> bool {
         !self.is_zero() && self.binary_exponent().abs() > EXPONENT
+    }
+
+    /// Whether it is so many radians that 256 bits leave no direction.
+    #[must_use]
+    pub fn is_excessive_angle(&self) -> bool {
+        self.binary_exponent() > ANGLE_EXPONENT
     }
 
     /// The place of the leading bit, give or take one; of π's multiples that of the factor.

@@ -37,6 +37,9 @@ impl<'m> Scope<'m> {
         if let Some(factor) = kind.factor_from(dimension, units) {
             let converted = self.model.graph.constant(&factor) * found.expr;
             let fits = converted.value().is_none_or(|number| number.fits(self.model.graph.scalar()));
+            if kind == Kind::Angle && converted.value().is_some_and(|angle| angle.is_excessive_angle()) {
+                return Err(Diagnostic::new(place, "this angle is too large").help("leave whole turns out"));
+            }
             return if fits { Ok(converted) } else { Err(self.beyond_range(place)) };
         }
         let help = if dimension == Dimension::NUMBER {
@@ -269,6 +272,9 @@ impl<'m> Scope<'m> {
                     && a != b
                 {
                     return Err(Diagnostic::new(place, format!("`atan2` compares {a} with {b}")));
+                }
+                if y.expr.is_zero() && x.expr.is_zero() {
+                    return Err(Diagnostic::new(place, "the zero vector has no angle"));
                 }
                 Ok(angle(graph.atan2(y.expr, x.expr)))
             }

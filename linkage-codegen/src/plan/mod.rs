@@ -22,6 +22,8 @@ pub use pivots::Pivots;
 pub use placement::Placement;
 pub use velocities::Motion;
 
+use std::collections::BTreeSet;
+
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::equations::System;
 use crate::graph::{Coordinate, Expr, NodeId, Op};
@@ -282,28 +284,40 @@ fn angle<'m>(assembly: &Assembly<'m>, link: LinkId) -> Expr<'m> {
     })
 }
 
-/// A check that constants fail stands for a linkage that works at no pose.
+/// A check that fails whatever is given stands for a linkage that works at no pose.
 fn check_possible(model: &Model, sink: &Sink) {
+    let mut told = BTreeSet::new();
     for guard in model.graph.impossible_guards() {
         use crate::graph::Failure;
         let found = match &guard.failure {
+            Failure::CannotAssemble { joint, .. } if !told.insert(joint.clone()) => continue,
             Failure::CannotAssemble { group, joint, .. } => Diagnostic::new(
                 joint_place(model, joint),
-                format!("{group} cannot be assembled at `{joint}`, at any pose"),
-            ),
+                format!("{} cannot be assembled at `{joint}`, at any pose", named(group)),
+            )
+            .note("whatever the drives are, its links are too short or too long to meet there")
+            .help("check their lengths, and where the joints are on which they hang"),
             Failure::CoincidentPivots { group, joint } => Diagnostic::new(
                 joint_place(model, joint),
-                format!("the outer joints of {group} coincide at every pose: the place of `{joint}` is undetermined"),
+                format!(
+                    "the outer joints of {} coincide at every pose: the place of `{joint}` is undetermined",
+                    named(group)
+                ),
             ),
             Failure::DeadCentre { group, pivot } => Diagnostic::new(
                 model.unknowns.first().map_or(model.name.place(), |u| u.place),
-                format!("at every pose, nothing holds {group}: `{pivot}` is zero"),
+                format!("at every pose, nothing holds {}: `{pivot}` is zero", named(group)),
             )
             .note("the unknown does no work on the motion that the loads drive, whatever the pose"),
             Failure::Parameter { requirement } => Diagnostic::new(model.name.place(), requirement.clone()),
         };
         sink.report(found);
     }
+}
+
+/// The links of a group as it is named in failures: `a + b`.
+fn named(group: &str) -> String {
+    list(&group.split(" + ").collect::<Vec<_>>())
 }
 
 fn joint_place(model: &Model, name: &str) -> crate::diagnostics::Place {

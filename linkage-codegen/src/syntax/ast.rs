@@ -414,7 +414,7 @@ pub enum Effort {
     /// `torque(a -> b)`
     Torque(Name, Name),
     /// `force(link.P) along direction`
-    Force(End, Direction),
+    Force(End, Box<Direction>),
     /// `thrust(a.P, b.Q)`
     Thrust(Place),
 }

@@ -331,7 +331,7 @@ fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
                 ));
             }
             expect_word(input, "along")?;
-            Effort::Force(at, direction(input)?)
+            Effort::Force(at, Box::new(direction(input)?))
         }
         _ => {
             while take(&content).is_some() {}

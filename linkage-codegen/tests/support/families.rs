@@ -3,7 +3,7 @@
 use super::linkages::Random;
 use super::measures::{Measures, measure};
 use super::numbers::{Double, Single};
-use super::{Arguments, Number, compile};
+use super::{Arguments, Number, compile_if_it_closes};
 
 /// The bars, in epsilons of the scalar.
 pub const BARS: Measures = Measures { unit: 3.0, closure: 4.0, backward: 1.0, free_body: 3.0, torque: 8.0 };
@@ -51,7 +51,8 @@ pub fn slider_crank([crank, rod, offset]: [f64; 3], random: &mut Random) -> Stri
 
 /// The worst measures of a family, over the poses that assemble and are no dead centres; and how many those are.
 pub fn worst<T: Number>(family: &Family, scalar: &str, epsilon: f64) -> (Measures, usize) {
-    let linkage = compile(&family.text.replacen(';', &format!("; scalar {scalar};"), 1));
+    let text = family.text.replacen(';', &format!("; scalar {scalar};"), 1);
+    let Some(linkage) = compile_if_it_closes(&text) else { return (Measures::default(), 0) };
     let mut worst = Measures::default();
     let mut count = 0;
     for drive in &family.drives {
