@@ -94,6 +94,55 @@ fn every_stage_of_every_example() {
     }
 }
 
+/// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives.
+const OTHERS: [(&str, &str); 3] = [
+    (
+        "adjustable",
+        "/// A crank-rocker whose dimensions are given at run time.
+        pub mod adjustable; units { mm, N } scalar f32;
+        param base: length = 140mm; param crank_length: length = 80mm; param tilt: angle = 10deg;
+        ground { A0: (0, 0), B0: base @ tilt } link crank { A0 -> A: crank_length }
+        link coupler { A -> B: 100mm, C: (crank_length / 2, 20mm) } link rocker { B0 -> B: 120mm }
+        revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+        drive theta: A0; unknown T12: torque(ground -> crank); assemble B: left(A -> B0);
+        load F: force(coupler.C) in coupler; load M: moment(rocker);
+        scene torque: virtual_work -> (T12); scene reaction: equilibrium -> (B);",
+    ),
+    (
+        "parallelogram",
+        "/// Folds at 0 and at π, and moves on smoothly.
+        pub mod parallelogram; units { mm, N }
+        ground { A0: (0, 0), B0: (200mm, 0) } link crank { A0 -> A: 60mm } link coupler { A -> B: 200mm, C: (70mm, 30mm) }
+        link rocker { B0 -> B: 60mm }
+        revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+        drive theta: A0; assemble B: left(A -> B0) smooth at 60deg;
+        load F: force(coupler.C); scene held: equilibrium -> (effort_theta, B); scene place: position -> (coupler.C);",
+    ),
+    (
+        "hoist",
+        "/// A carriage that runs on a slope, and an arm on it.
+        pub mod hoist; units { m, kN }
+        ground { O: (0, 0) } link carriage { P: (0, 0), E: (0.2m, 0.5m) } link arm { E: (0, 0), tip: (2.9m, 0) }
+        mass carriage: 600kg at (0.1m, 0.2m); mass arm: 300kg at (1m, 0), inertia 200kg*m^2;
+        prismatic run: ground.O -> carriage.P along 15deg, angle 15deg; revolute E: carriage -> arm;
+        drive travel: run; drive turn: E;
+        load W: gravity = 9.81m/s^2 @ -90deg; load lifted: force(arm.tip);
+        scene held: equilibrium; scene work: virtual_work; scene place: position -> (E, arm.tip, arm.angle);",
+    ),
+];
+
+#[test]
+fn equations_and_code_of_what_no_example_has() {
+    for (name, text) in OTHERS {
+        let linkage = support::compile(text);
+        let code = linkage_codegen::formatted(linkage_codegen::expand(text.parse().expect("tokens"))).expect("Rust");
+        insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
+            insta::assert_snapshot!(format!("{name}.2_equations"), emit::equations(&linkage));
+            insta::assert_snapshot!(format!("{name}.3_code"), code);
+        });
+    }
+}
+
 /// The declaration without `emit source;`: the code would hold itself.
 fn without_source(declaration: proc_macro2::TokenStream) -> proc_macro2::TokenStream {
     let tokens: Vec<proc_macro2::TokenTree> = declaration.into_iter().collect();

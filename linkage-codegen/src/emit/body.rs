@@ -118,7 +118,9 @@ impl<'a> Body<'a> {
                 (Kernel::SinCos | Kernel::SinCosSum(_), 0) => format!("sin_{of}"),
                 (Kernel::SinCos | Kernel::SinCosSum(_), _) => format!("cos_{of}"),
                 (Kernel::Atan2, _) => format!("angle_{of}"),
-                (Kernel::Unit, part) => format!("unit_{of}_{}", if *part == 0 { "x" } else { "y" }),
+                (Kernel::Unit, part) => {
+                    format!("unit_{}_{}", of.trim_end_matches("_x"), if *part == 0 { "x" } else { "y" })
+                }
                 (Kernel::Solve2 | Kernel::Solve3, part) => format!("solved_{}", part + 1),
             };
         }
@@ -214,8 +216,21 @@ impl<'a> Body<'a> {
                 Code::atom(quote!(math::sqrt(#a)))
             }
             Op::Where { value, limit, then } => {
-                let (value, limit, then) = (plain(value), plain(limit), plain(then));
-                Code { tokens: quote!(if #value > #limit { #then } else { 0.0 }), binding: Binding::Sum }
+                // Of several conditions, all must hold.
+                let mut conditions = vec![(value, limit)];
+                let mut then = then;
+                while let (None, Some(Op::Where { value, limit, then: inner })) =
+                    (self.names.get(then), self.program.op(*then))
+                {
+                    conditions.insert(0, (value, limit));
+                    then = inner;
+                }
+                let conditions = conditions.into_iter().map(|(value, limit)| {
+                    let (value, limit) = (within(value, Binding::Sum), plain(limit));
+                    quote!(#value > #limit)
+                });
+                let (conditions, then) = (conditions.reduce(|all, one| quote!(#all && #one)), plain(then));
+                Code { tokens: quote!(if #conditions { #then } else { 0.0 }), binding: Binding::Sum }
             }
             Op::Kernel { kernel, args, part } => {
                 let call = self.call(*kernel, args);

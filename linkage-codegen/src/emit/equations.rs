@@ -2,7 +2,7 @@
 
 use super::docs::blocks;
 use super::formula::{Formula, Nodes};
-use super::functions::body;
+use super::functions::{body, prepare_program};
 use crate::Linkage;
 use crate::equations::joints::Component;
 use crate::equations::{Exerted, Source};
@@ -158,6 +158,9 @@ fn closed_forms(linkage: &Linkage) -> String {
             text.push_str(&format!("  {line}\n"));
         }
     };
+    if !linkage.model.params.is_empty() {
+        add("prepared, from the parameters".into(), &prepare_program(linkage));
+    }
     add("pose, from the drives".into(), &linkage.functions.pose);
     for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
         if scene.method != Method::Verify {

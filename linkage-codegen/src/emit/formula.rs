@@ -114,7 +114,14 @@ impl<S> Formula<'_, S> {
             Op::Abs(a) => (format!("|{}|", self.of(a)), Binding::Atom),
             Op::NonNegative(a) => (format!("max({}, 0)", self.of(a)), Binding::Atom),
             Op::Where { value, limit, then } => {
-                (format!("{} where {} > {}, else 0", sum(then), sum(value), sum(limit)), Binding::Sum)
+                // Of several conditions, all must hold.
+                let (mut conditions, mut then) = (vec![format!("{} > {}", sum(value), sum(limit))], then);
+                while let (None, Op::Where { value, limit, then: inner }) = (self.terms.name(then), self.terms.op(then))
+                {
+                    conditions.insert(0, format!("{} > {}", sum(value), sum(limit)));
+                    then = inner;
+                }
+                (format!("{} where {}, else 0", sum(then), conditions.join(" and ")), Binding::Sum)
             }
             Op::Quantity(a) | Op::Held(a) | Op::Checked { value: a, .. } => self.bound(a),
             Op::Kernel { kernel, args, part } => {

@@ -189,14 +189,20 @@ fn linkage_argument(linkage: &Linkage, lifetime: &TokenStream) -> TokenStream {
     if has_params(linkage) { quote!(linkage: &#lifetime Linkage,) } else { TokenStream::new() }
 }
 
+/// The program of `Linkage::new`, with the names of what it prepares.
+pub(super) fn prepare_program(linkage: &Linkage) -> Program {
+    let mut program = linkage.functions.prepare.clone();
+    for ((path, _), (name, _)) in program.outputs.iter_mut().zip(prepared_names(linkage)) {
+        *path = name;
+    }
+    program
+}
+
 /// `Linkage::new`.
 pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
-    let program = &linkage.functions.prepare;
-    let (statements, body) = body(linkage, program).statements();
-    let fields = prepared_names(linkage)
-        .into_iter()
-        .zip(outputs(&body, program))
-        .map(|((name, _), value)| member(&name, &value));
+    let program = prepare_program(linkage);
+    let (statements, body) = body(linkage, &program).statements();
+    let fields = program.outputs.iter().map(|(name, value)| member(name, &body.value(*value)));
     let params = linkage.model.params.iter().map(|param| ident(&param.name.text));
     let finite = linkage.model.params.iter().map(|param| {
         let name = ident(&param.name.text);

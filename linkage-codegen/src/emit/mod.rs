@@ -13,8 +13,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::Linkage;
-use crate::graph::{Op, Symbol};
-use crate::model::Method;
+use crate::graph::{NodeId, Op, Symbol};
+use crate::model::{Method, Model};
 pub use equations::text as equations;
 pub use fallback::module as fallback;
 use formula::{Formula, Nodes};
@@ -121,24 +121,32 @@ pub fn operations(linkage: &Linkage) -> String {
     text
 }
 
-/// Name and meaning of everything that is prepared from the parameters.
+/// Name and formula of everything that is prepared from the parameters.
 fn prepared_names(linkage: &Linkage) -> Vec<(String, String)> {
     let model = &linkage.model;
     let mut names: Vec<(String, String)> = Vec::new();
     for node in &linkage.functions.prepared {
         let formula = Formula { model, terms: Nodes(&model.graph) }.of(*node);
-        let own = match (model.graph.op(*node), model.graph.label(*node)) {
-            (_, Some(label)) => label.name,
-            (Op::Symbol(Symbol::Parameter(param)), _) => model.param(param).name.text.clone(),
-            (Op::Checked { value, .. }, _) => match model.graph.op(value) {
-                Op::Symbol(Symbol::Parameter(param)) => model.param(param).name.text.clone(),
-                _ => format!("prepared_{}", names.len() + 1),
-            },
-            _ => format!("prepared_{}", names.len() + 1),
-        };
-        let taken = names.iter().any(|(name, _)| *name == own);
-        let name = if taken { format!("prepared_{}", names.len() + 1) } else { own };
+        let own = name_of(model, *node).unwrap_or_else(|| "prepared".to_owned());
+        let mut name = own.clone();
+        let mut number = 2;
+        while names.iter().any(|(other, _)| *other == name) {
+            name = format!("{own}_{number}");
+            number += 1;
+        }
         names.push((name, formula));
     }
     names
+}
+
+/// The name of a quantity, of a parameter, or of what is a multiple of one.
+fn name_of(model: &Model, node: NodeId) -> Option<String> {
+    let graph = &model.graph;
+    match (graph.label(node), graph.op(node)) {
+        (Some(label), _) => Some(label.name),
+        (None, Op::Symbol(Symbol::Parameter(param))) => Some(model.param(param).name.text.clone()),
+        (None, Op::Checked { value, .. }) => name_of(model, value),
+        (None, Op::Mul(a, b)) if graph.expr(a).value().is_some() => Some(format!("{}_scaled", name_of(model, b)?)),
+        _ => None,
+    }
 }

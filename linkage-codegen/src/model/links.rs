@@ -171,7 +171,11 @@ fn add_point(model: &mut Model, link: LinkId, name: &Name, at: Ids, sink: &Sink)
             .help("choose another name"),
         );
     }
-    body.points.push(Point { name: name.clone(), at: super::Pair { x: at.0, y: at.1 } });
+    // Only what parameters make of it gets a name in the code.
+    let owner = if body.name.text == "ground" { String::new() } else { format!("{}_", body.name) };
+    let at = super::Pair { x: at.0, y: at.1 }.vector(&model.graph);
+    let at = at.named(&format!("{owner}{name}"), &format!("{name} in the frame of {}", body.name));
+    body.points.push(Point { name: name.clone(), at: at.into() });
     PointId::new(body.points.len() - 1)
 }
 

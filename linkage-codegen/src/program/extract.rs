@@ -91,7 +91,9 @@ impl Extract<'_> {
         if matches!(op, Op::Held(_)) && self.form == Form::FromPose {
             return Some(Input::Kept(node));
         }
-        (self.graph.stage(node) == Stage::Prepared && self.form != Form::Prepare).then_some(Input::Prepared(node))
+        // A change of sign is made where it is used.
+        let prepared = self.graph.stage(node) == Stage::Prepared && !matches!(op, Op::Neg(_));
+        (prepared && self.form != Form::Prepare).then_some(Input::Prepared(node))
     }
 }
 

@@ -226,7 +226,8 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let (h2, rounding) = if (r - reach).sign() == Some(1) {
         (h2.known_positive(), graph.zero())
     } else {
-        (h2, graph.epsilons(4) * (r * (r + reach)))
+        let rounding = graph.epsilons(4) * (r * (r + reach));
+        (h2, rounding.named(format!("rounding_h2_{inner}"), format!("what rounding makes of h2_{inner} = 0")))
     };
     let failure = Failure::CannotAssemble { group: dyad.group_name(), joint: inner.into(), gap: (g.abs() - r).id() };
     let h2 = h2.require_at_least(h2, -rounding, failure);

@@ -411,6 +411,7 @@ fn by_half_angle<'m>(
     let theta = graph.symbol(crate::graph::Symbol::Drive(arms.drive)).abs();
     let fixed = graph.constant(&arms.phase.abs().add(&Number::one()));
     let angle_rounding = graph.epsilons(2) * (theta + fixed);
+    let angle_rounding = angle_rounding.named(format!("rounding_psi_{joint}"), "what rounding makes of ψ at a fold");
     let apart = arms.b - arms.a;
     let d2 = (apart.squared() + spread).named(format!("D2_{joint}"), format!("d·d = (b − a)² + spread_{joint}"));
     let d2 = if apart.sign().is_some_and(|s| s != 0) || (r1 - r2).sign().is_some_and(|s| s != 0) {
@@ -517,20 +518,23 @@ fn by_distance<'m>(dyad: &PinnedDyad<'m>, closure: &Closure, way: &Way<'m>) -> C
     let length = way.length();
     let (least, most) = reach(way);
     let never = |bound: Option<Expr<'m>>| bound.and_then(Expr::sign) == Some(1);
+    let rounding = |of: &str, value: Expr<'m>| {
+        value.named(format!("rounding_{of}_{joint}"), format!("what rounding makes of {of}_{joint} = 0"))
+    };
     let (p, p_rounding) = if never(most.map(|most| s - most)) {
         (p.known_positive(), graph.zero())
     } else {
-        (p, graph.epsilons(2) * (s.squared() + s * length))
+        (p, rounding("p", graph.epsilons(2) * (s.squared() + s * length)))
     };
     let (q, q_rounding) = if never(least.map(|least| least - m)) {
         (q.known_positive(), graph.zero())
     } else {
-        (q, graph.epsilons(2) * (m.squared() + m * length))
+        (q, rounding("q", graph.epsilons(2) * (m.squared() + m * length)))
     };
     let p = p.require_at_least(p, -p_rounding, gap(dyad, p, true, d2));
     let q = q.require_at_least(q, -q_rounding, gap(dyad, q, false, d2));
     // Coincident outer pins leave the direction open. Where |r₁ − r₂| keeps them apart, q has seen to that.
-    let close = (2 * graph.epsilons(1) * length).squared();
+    let close = rounding("D2", (2 * graph.epsilons(1) * length).squared());
     let apart = never(least) || (m - graph.epsilons(4) * length).sign() == Some(1);
     let d2 = if apart {
         d2.known_positive()
