@@ -348,8 +348,41 @@ pub(crate) const OWN_TYPES: [&str; 9] =
 /// The same, where there are parameters, and where there is something to verify.
 const FURTHER_TYPES: [&str; 2] = ["Default", "Verification"];
 
+/// What the generated functions read may not have two meanings under one name.
+fn check_values(model: &Model, sink: &Sink) {
+    let mut values: BTreeMap<String, String> = BTreeMap::new();
+    values.insert("loads".into(), "holds the loads".into());
+    values.insert("linkage".into(), "holds what is prepared from the parameters".into());
+    for link in &model.links {
+        for part in ["cos", "sin"] {
+            values.insert(format!("{}_{part}", link.name), format!("is the direction of `{}`", link.name));
+        }
+    }
+    for joint in &model.joints {
+        values.insert(format!("travel_{}", joint.name), format!("is the travel of `{}`", joint.name));
+    }
+    let params = model.params.iter().map(|param| (&param.name, vec![param.name.text.clone()]));
+    let drives = model.drives.iter().map(|drive| (&drive.name, vec![drive.name.text.clone()]));
+    let loads = model.loads.iter().filter(|load| load.kind.is_given_at_run_time(model)).map(|load| {
+        let parts = match load.kind {
+            LoadKind::Moment { .. } => vec![load.name.text.clone()],
+            _ => vec![format!("{}_x", load.name), format!("{}_y", load.name)],
+        };
+        (&load.name, parts)
+    });
+    for (name, made) in params.chain(drives).chain(loads) {
+        for made in made {
+            if let Some(other) = values.insert(made.clone(), format!("belongs to `{name}`")) {
+                let problem = format!("the generated functions would have two values `{made}`: the other one {other}");
+                sink.report(Diagnostic::new(name.place(), problem).help("choose another name"));
+            }
+        }
+    }
+}
+
 /// No two things of the generated module may have one name.
 fn check_generated_names(model: &Model, sink: &Sink) {
+    check_values(model, sink);
     let mut methods: BTreeMap<String, String> = BTreeMap::new();
     methods.insert("at".into(), "makes a pose".into());
     let clash =
