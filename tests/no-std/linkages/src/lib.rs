@@ -25,6 +25,7 @@ macro_rules! each_linkage {
             double_adjustable = double::adjustable,
             double_four_bar = double::four_bar,
             double_six_bar = double::six_bar,
+            double_two_drives = double::two_drives,
             single_math = single::math,
             single_folding = single::folding,
             single_four_bar = single::four_bar,

@@ -3,5 +3,6 @@
 pub mod adjustable;
 pub mod four_bar;
 pub mod six_bar;
+pub mod two_drives;
 
 crate::digest::scalar!(f64);
