@@ -112,7 +112,7 @@ fn write_crate(cases: &[Case]) -> PathBuf {
     std::fs::create_dir_all(at.join("src")).expect("a directory");
     let manifest = format!(
         "[package]\nname = \"emitted_random\"\nedition = \"2024\"\n\n[dependencies]\nlinkage-runtime = {{ path = {:?} }}\n\n[workspace]\n",
-        workspace.join("linkage-runtime")
+        workspace.join("linkage-runtime").to_string_lossy()
     );
     std::fs::write(at.join("Cargo.toml"), manifest).expect("a manifest");
     std::fs::copy(workspace.join("Cargo.lock"), at.join("Cargo.lock")).expect("a lock file");
