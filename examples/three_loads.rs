@@ -48,7 +48,7 @@ fn main() -> Result<(), Error> {
     println!("{:<22}{:>12}{:>12}{:>12}{:>14}{:>12}", "", "F12 alone", "F13 alone", "F14 alone", "sum", "together");
     let row = |name: &str, values: [f64; 5]| {
         print!("{name:<22}");
-        values.iter().for_each(|value| print!("{value:>12.4} "));
+        values.iter().for_each(|value| print!("{value:>12.4}"));
         println!();
     };
     row("torque T12 (N·mm)", [parts.F12.T12, parts.F13.T12, parts.F14.T12, sum.T12, whole.T12]);

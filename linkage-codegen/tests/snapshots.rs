@@ -28,15 +28,14 @@ fn topology(linkage: &Linkage) -> String {
                 Input::Drive(drive) => format!("drive {}", model.drive(*drive).name),
                 Input::Unknown(unknown) => format!("unknown {}", model.unknown(*unknown).name),
             });
-            let _ = writeln!(
-                text,
-                "  {}. {rule}: {}; outer {}; inner {}; by {}",
-                index + 1,
-                model.link_names(&group.links),
-                joints(&group.outer),
-                joints(&group.inner),
-                inputs.collect::<Vec<_>>().join(", "),
-            );
+            let parts = [
+                ("outer", joints(&group.outer)),
+                ("inner", joints(&group.inner)),
+                ("by", inputs.collect::<Vec<_>>().join(", ")),
+            ];
+            let parts = parts.into_iter().filter(|(_, names)| !names.is_empty());
+            let parts: String = parts.map(|(what, names)| format!("; {what} {names}")).collect();
+            let _ = writeln!(text, "  {}. {rule}: {}{parts}", index + 1, model.link_names(&group.links));
         }
     };
     list("motion", &linkage.topology.motion, &linkage.plan.motion_rules);

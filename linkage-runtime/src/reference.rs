@@ -135,12 +135,17 @@ pub struct Compared<'a, T> {
 ///
 /// # Errors
 ///
-/// [`Error::DeadCentre`] if the general equations are singular.
+/// [`Error::DeadCentre`] if the general equations are singular to rounding.
 #[doc(hidden)]
 pub fn verify<T: RealField + Copy>(compared: &Compared<'_, T>) -> Result<Verification<T>, Error> {
     let Compared { coefficients, loads, moments, equilibrium, superposition, virtual_work } = compared;
     let equations = Equations::new(coefficients, loads);
     let singular = Error::DeadCentre { group: "the linkage", pivot: "determinant of the general equations" };
+    let condition = equations.condition();
+    // Beyond this the general solution has no digits.
+    if !(condition * T::default_epsilon() < T::one()) {
+        return Err(singular);
+    }
     let general = equations.solve().ok_or(singular)?;
     let efforts = equilibrium.len().saturating_sub(virtual_work.len());
     // The unknowns from `first` on, forces and moments each by their largest.
@@ -159,7 +164,7 @@ pub fn verify<T: RealField + Copy>(compared: &Compared<'_, T>) -> Result<Verific
         superposition: difference(superposition, 0),
         virtual_work: difference(virtual_work, efforts),
         general: difference(&general, 0),
-        condition: equations.condition(),
+        condition,
     })
 }
 

@@ -3,12 +3,14 @@
 use super::docs::blocks;
 use super::formula::{Formula, Nodes};
 use super::functions::{body, prepare_program};
+use super::types::load_doc;
 use crate::Linkage;
 use crate::equations::joints::Component;
 use crate::equations::{Exerted, Source};
 use crate::graph::{NodeId, Op};
-use crate::model::ids::LinkId;
-use crate::model::{JointKind, Method};
+use crate::model::ids::{LinkId, UnknownId};
+use crate::model::{JointKind, LoadKind, Method};
+use crate::plan::scenes::unknown_doc;
 use crate::program::Program;
 
 /// The derivation of a linkage as text.
@@ -17,7 +19,7 @@ pub fn text(linkage: &Linkage) -> String {
     let model = &linkage.model;
     let mut text = format!("{}\n{}\n\n", model.name, "=".repeat(model.name.text.chars().count()));
     text.push_str(&mobility(linkage));
-    text.push_str(&joints(linkage));
+    text.push_str(&parts(linkage));
     text.push_str(&free_bodies(linkage));
     text.push_str(
         "Reduction\n---------\n\nThe equations fall apart into groups; each is solved by the rule of its class.\n\n",
@@ -35,7 +37,7 @@ fn mobility(linkage: &Linkage) -> String {
     format!(
         "{} links, {moving} of them moving; {} joints with {constraints} constraints: mobility 3·{moving} − {constraints} = {}\n\
          lengths in {}, forces in {}; the link that a reaction acts on stands behind the arrow\n\
-         sin(link), cos(link): of the angle of the x axis of the link's own frame\n\n",
+         sin(link), cos(link): of the angle of the x axis of the link's own frame; link_sin, link_cos: of the direction that it carries\n\n",
         model.links.len(),
         model.joints.len(),
         3 * moving - constraints,
@@ -44,18 +46,38 @@ fn mobility(linkage: &Linkage) -> String {
     )
 }
 
-fn joints(linkage: &Linkage) -> String {
+/// What there is: joints, unknowns, loads.
+fn parts(linkage: &Linkage) -> String {
     let model = &linkage.model;
-    let lines = model.joints.iter().map(|joint| {
-        let kind = match joint.kind {
-            JointKind::Revolute => "revolute",
-            JointKind::Prismatic { .. } => "prismatic",
+    let formula = Formula { model, terms: Nodes(&model.graph) };
+    let joints = model.joints.iter().map(|joint| {
+        let (kind, line) = match joint.kind {
+            JointKind::Revolute => ("revolute", String::new()),
+            JointKind::Prismatic { carrier, axis, angle, .. } => {
+                let carrier = &model.link(carrier).name;
+                let (x, y) = (formula.of(axis.x), formula.of(axis.y));
+                ("prismatic", format!(" along ({x}, {y}) of {carrier}, at the angle {}", formula.of(angle)))
+            }
         };
-        format!("  {kind:<9} {}: {} -> {}\n", joint.name, model.end_name(joint.from), model.end_name(joint.to))
+        let ends = format!("{} -> {}", model.end_name(joint.from), model.end_name(joint.to));
+        format!("  {kind:<9} {}: {ends}{line}\n", joint.name)
     });
-    let unknowns = model.unknowns.iter().map(|unknown| format!("  unknown   {}\n", unknown.name));
-    let loads = model.loads.iter().map(|load| format!("  load      {}\n", load.name));
-    lines.chain(unknowns).chain(loads).chain(["\n".to_owned()]).collect()
+    let plain = |sentence: String| sentence.replace('`', "");
+    let unknowns = (0..model.unknowns.len()).map(UnknownId::new);
+    let unknowns = unknowns.map(|unknown| {
+        format!("  unknown   {}: {}\n", model.unknown(unknown).name, plain(unknown_doc(model, unknown)))
+    });
+    let loads = model.loads.iter().map(|load| {
+        let value = match load.kind {
+            _ if load.kind.is_given_at_run_time(model) => String::new(),
+            LoadKind::Force { force: pair, .. } | LoadKind::Gravity { acceleration: pair } => {
+                format!(" = ({}, {})", formula.of(pair.x), formula.of(pair.y))
+            }
+            LoadKind::Moment { moment, .. } => format!(" = {}", formula.of(moment)),
+        };
+        format!("  load      {}{value}: {}\n", load.name, plain(load_doc(model, &load.kind)))
+    });
+    joints.chain(unknowns).chain(loads).chain(["\n".to_owned()]).collect()
 }
 
 /// The equilibrium equations of every moving link: `3(l − 1)` in all.
@@ -141,7 +163,8 @@ fn term(formula: &Formula<'_, Nodes<'_>>, node: NodeId, unknown: Option<&str>) -
     };
     let is_sum = matches!(graph.op(node), Op::Add(..) | Op::Sub(..));
     let text = formula.of(node);
-    let text = if is_sum { format!("({text})") } else { text };
+    // A sum that is added needs no brackets.
+    let text = if is_sum && (negative || unknown.is_some()) { format!("({text})") } else { text };
     let text = match unknown {
         Some(name) if graph.expr(node).is_one() => name.to_owned(),
         Some(name) => format!("{text}·{name}"),

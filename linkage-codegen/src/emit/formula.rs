@@ -89,6 +89,20 @@ impl<S> Formula<'_, S> {
         if own >= binding { text } else { format!("({text})") }
     }
 
+    /// The size of a negative constant.
+    fn negative<T: Copy>(&self, term: T) -> Option<String>
+    where
+        S: Terms<T>,
+    {
+        match (self.terms.name(term), self.terms.op(term)) {
+            (None, Op::Constant(number)) => {
+                let value = self.model.graph.number(number).to_f64();
+                (value < 0.0).then(|| number_text(-value))
+            }
+            _ => None,
+        }
+    }
+
     fn bound<T: Copy>(&self, term: T) -> (String, Binding)
     where
         S: Terms<T>,
@@ -108,7 +122,10 @@ impl<S> Formula<'_, S> {
             Op::Neg(a) => (format!("−{}", product(a)), Binding::Sum),
             Op::Add(a, b) => (format!("{} + {}", sum(a), product(b)), Binding::Sum),
             Op::Sub(a, b) => (format!("{} − {}", sum(a), product(b)), Binding::Sum),
-            Op::Mul(a, b) => (format!("{}·{}", product(a), atom(b)), Binding::Product),
+            Op::Mul(a, b) => match self.negative(a) {
+                Some(factor) => (format!("−{factor}·{}", atom(b)), Binding::Sum),
+                None => (format!("{}·{}", product(a), atom(b)), Binding::Product),
+            },
             Op::Div(a, b) => (format!("{}/{}", product(a), atom(b)), Binding::Product),
             Op::Sqrt(a) => (format!("√({})", self.of(a)), Binding::Atom),
             Op::Abs(a) => (format!("|{}|", self.of(a)), Binding::Atom),

@@ -81,7 +81,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
         #[allow(
             dead_code, non_snake_case, non_camel_case_types, unused_imports, unused_variables, unused_doc_comments,
                 unused_parens,
-            clippy::all, clippy::pedantic,
+            clippy::all, clippy::pedantic, clippy::nursery,
             reason = "generated code keeps the names and the formulas of its declaration"
         )]
         #visibility mod #name {

@@ -51,7 +51,8 @@ pub(super) fn loads(model: &Model, whole: bool) -> TokenStream {
     }
 }
 
-fn load_doc(model: &Model, kind: &LoadKind) -> String {
+/// What a load is, in a sentence.
+pub(super) fn load_doc(model: &Model, kind: &LoadKind) -> String {
     let link = |id| &model.link(id).name.text;
     match kind {
         LoadKind::Force { at, frame, .. } => {

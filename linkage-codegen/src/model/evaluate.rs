@@ -149,7 +149,8 @@ impl<'m> Scope<'m> {
             ValueKind::Quotient(a, b) => {
                 let (a, divisor) = (self.quantity(a)?, self.quantity(b)?);
                 if divisor.expr.is_zero() {
-                    return Err(Diagnostic::new(b.place, "division by zero"));
+                    return Err(Diagnostic::new(b.place, "division by zero")
+                        .help("the divisor is exactly zero: check the formula"));
                 }
                 let dimension = a.dimension.zip(divisor.dimension).map(|(a, b)| a.over(b));
                 Ok(Quantity { expr: a.expr / divisor.expr, dimension })
@@ -246,7 +247,8 @@ impl<'m> Scope<'m> {
             "sqrt" => {
                 let arg = self.quantity(&args[0])?;
                 if arg.expr.sign() == Some(-1) {
-                    return Err(Diagnostic::new(args[0].place, "the root of a negative number"));
+                    return Err(Diagnostic::new(args[0].place, "the root of a negative number")
+                        .help("check the signs under the root"));
                 }
                 let Some(dimension) = arg.dimension.map(Dimension::root) else { return Ok(arg) };
                 let Some(dimension) = dimension else {
@@ -282,7 +284,8 @@ impl<'m> Scope<'m> {
                 let x = self.scalar(&args[0], Kind::Number)?;
                 let rest = graph.one() - x * x;
                 if name != "atan" && rest.sign() == Some(-1) {
-                    return Err(Diagnostic::new(args[0].place, format!("`{name}` takes a number from −1 to 1")));
+                    return Err(Diagnostic::new(args[0].place, format!("`{name}` takes a number from −1 to 1"))
+                        .help("it is a ratio of two lengths of one triangle: check which is the longer one"));
                 }
                 Ok(angle(match name {
                     "asin" => graph.atan2(x, rest.sqrt()),

@@ -12,7 +12,7 @@ mod output;
 mod pivots;
 mod placement;
 pub mod rules;
-mod scenes;
+pub(crate) mod scenes;
 mod velocities;
 
 pub use assembly::Assembly;
@@ -308,7 +308,8 @@ fn check_possible(model: &Model, sink: &Sink) {
                 model.unknowns.first().map_or(model.name.place(), |u| u.place),
                 format!("at every pose, nothing holds {}: `{pivot}` is zero", named(group)),
             )
-            .note("the unknown does no work on the motion that the loads drive, whatever the pose"),
+            .note("the unknown does no work on the motion that the loads drive, whatever the pose")
+            .help("let it act on a coordinate that changes when the drive moves"),
             Failure::Parameter { requirement } => Diagnostic::new(model.name.place(), requirement.clone()),
         };
         sink.report(found);

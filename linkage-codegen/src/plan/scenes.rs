@@ -377,7 +377,8 @@ fn unknown_meaning(model: &Model, unknown: UnknownId) -> Meaning {
     }
 }
 
-fn unknown_doc(model: &Model, unknown: UnknownId) -> String {
+/// What an unknown is, in a sentence.
+pub(crate) fn unknown_doc(model: &Model, unknown: UnknownId) -> String {
     let (force, moment) = (Kind::Force.unit(&model.units), Kind::Moment.unit(&model.units));
     let name = |link: crate::model::ids::LinkId| &model.link(link).name.text;
     match model.unknown(unknown).kind {

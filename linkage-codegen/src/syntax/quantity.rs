@@ -121,8 +121,18 @@ fn atom(input: ParseStream<'_>) -> Result<Value> {
     Err(input.error("expected a value, such as `80mm`"))
 }
 
+/// Words that may follow a value.
+const AFTER_VALUES: [&str; 7] = ["along", "angle", "at", "in", "inertia", "of", "smooth"];
+
 fn number(input: ParseStream<'_>) -> Result<Value> {
     let literal: Lit = input.parse()?;
+    let follows = peek_word(input).filter(|word| !AFTER_VALUES.contains(&word.as_str()));
+    // A word and a colon begin the next field.
+    if let Some(word) = follows.filter(|_| !input.peek2(Token![:])) {
+        return Err(
+            input.error(format!("expected an operator, found `{word}`: a unit is written to its number, as in `80mm`"))
+        );
+    }
     let place = Place::at(literal.span());
     let written = literal.to_string_of_source();
     if written.starts_with("0x") || written.starts_with("0b") || written.starts_with("0o") {

@@ -11,6 +11,8 @@ pub(super) fn weights(model: &Model, acceleration: Pair) -> Vec<(LinkId, Action)
     massive
         .map(|(link, mass)| {
             let weight = acceleration.vector(graph).scaled(conversion * graph.expr(mass.mass));
+            let name = &model.link(link).name;
+            let weight = weight.named(&format!("weight_{name}"), &format!("weight of {name}"));
             (link, Action::Force { link, at: mass.centroid, force: weight.into(), frame: GROUND })
         })
         .collect()

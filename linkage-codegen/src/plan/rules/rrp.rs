@@ -233,7 +233,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let h2 = h2.require_at_least(h2, -rounding, failure);
     let side = if closure.side == Side::Ahead { 1 } else { -1 };
     let h = side * h2.non_negative().sqrt();
-    let h = h.named(format!("h_{inner}"), "h = ±√(h²), + ahead");
+    let h = h.named(format!("h_{inner}"), if side > 0 { "h = √(h²), ahead" } else { "h = −√(h²), behind" });
     let (cosine, sine) = (
         (h / r).named(dyad.pivot_name(), "sin μ = u·e = h/r"),
         (g / r).named(format!("g_over_r_{inner}"), "u·n = g/r"),
@@ -251,7 +251,10 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let forwards = model.joint(dyad.slide).to.link == dyad.slider;
     let travel = if forwards { h - q.x } else { q.x - h };
     let slide = dyad.joint_name(dyad.slide);
-    let travel = travel.named(format!("travel_{slide}"), format!("travel of the slide {slide}: ±(h − e·Q)"));
+    let travel = travel.named(
+        format!("travel_{slide}"),
+        format!("travel of the slide {slide}: {}", if forwards { "h − e·Q" } else { "e·Q − h" }),
+    );
     assembly.placement.set_travel(dyad.slide, travel);
     let u = dyad.direction(&assembly.placement);
     assembly.pivots.state(u, e, None, Some(pivot));

@@ -240,8 +240,17 @@ struct Closing<'m> {
     d2: Expr<'m>,
     /// `K = ±√(p q)`.
     k: Expr<'m>,
+    /// Whether that is the negative root.
+    negative: bool,
     /// What must exceed what for `sin μ` to be more than rounding.
     significant: Vec<(Expr<'m>, Expr<'m>)>,
+}
+
+impl Closing<'_> {
+    /// The sign before `K`.
+    fn sign(&self) -> &'static str {
+        if self.negative { "−" } else { "" }
+    }
 }
 
 fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) -> RuleResult {
@@ -279,10 +288,13 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) 
         let scale = (inverse / (2 * own)).named(format!("scale_{link}"), format!("1/(2 {mine} D2_{name})"));
         let along = (sum * scale)
             .named(format!("along_{link}"), format!("sum_{link} · scale_{link}, the part of the direction along d"));
-        let across =
-            (closing.k * scale).named(format!("across_{link}"), format!("±K_{name} · scale_{link}, the part across d"));
+        let across = (closing.k * scale)
+            .named(format!("across_{link}"), format!("{}K_{name} · scale_{link}, the part across d", closing.sign()));
         let rough = closing.d.scaled(sense * along) + closing.d.perp().scaled(across);
-        let rough = rough.named_direction(&format!("rough_{link}"), &format!("±along_{link} d + across_{link} d⊥"));
+        let rough = rough.named_direction(
+            &format!("rough_{link}"),
+            &format!("{}along_{link} d + across_{link} d⊥", if sense < 0 { "−" } else { "" }),
+        );
         let direction = normalised(rough, own, other, link);
         let meaning = format!("direction of {link} from {} to {name}", dyad.joint_name(leg.outer));
         let direction = direction.named_direction(link, &meaning);
@@ -299,7 +311,15 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) 
         u1.cross(u2)
     };
     let [n1, n2] = dyad.legs.map(|leg| dyad.length_name(leg));
-    let sine = sine.named(dyad.pivot_name(), format!("sin μ at {name} = ±K_{name}/(2 {n1} {n2})"));
+    let sine = sine.named(
+        dyad.pivot_name(),
+        format!(
+            "sin μ at {name} = {}K_{name}/(2 {n1} {n2}), μ from {} to {}",
+            closing.sign(),
+            dyad.link_name(first),
+            dyad.link_name(second)
+        ),
+    );
     let pivot = closing.significant.iter().fold(sine, |pivot, (value, limit)| pivot.where_above(*value, *limit));
     let pivot =
         pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding").held();
@@ -439,6 +459,11 @@ fn by_half_angle<'m>(
     };
     let smooth = closure.smooth_at.is_some();
     if smooth && !p.folds && !q.folds {
+        if [kp, kq].iter().any(|k| k.value().is_none()) {
+            let problem = format!("whether the dyad at `{joint}` folds is not known before its parameters are");
+            return Err(Diagnostic::new(closure.smooth_place, problem)
+                .help("`smooth` is for lengths that are constants: leave it out, or give the lengths here"));
+        }
         return Err(not_folding(dyad, closure, "its lengths leave a gap"));
     }
     let (p, q) = (p.assembled(dyad, true, d2), q.assembled(dyad, false, d2));
@@ -466,7 +491,7 @@ fn by_half_angle<'m>(
             (margin.value, margin.rounding)
         }
     });
-    Ok(Closing { d, d2, k, significant: significant.to_vec() })
+    Ok(Closing { d, d2, k, negative: sign < 0, significant: significant.to_vec() })
 }
 
 /// The failure to assemble, with the gap: how much too far apart (`p < 0`) or too close together (`q < 0`) the outer pins are.
@@ -546,7 +571,7 @@ fn by_distance<'m>(dyad: &PinnedDyad<'m>, closure: &Closure, way: &Way<'m>) -> C
     let root =
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
     let k = side * root;
-    Closing { d, d2, k, significant: vec![(p, p_rounding), (q, q_rounding)] }
+    Closing { d, d2, k, negative: side < 0, significant: vec![(p, p_rounding), (q, q_rounding)] }
 }
 
 /// The least and the largest distance that constant parts of a way can make up.

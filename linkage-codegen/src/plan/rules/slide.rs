@@ -53,7 +53,8 @@ impl Rule for Slide {
         let direction = balance.placement.slide_direction(slide);
         let total = balance.total(link).along(direction);
         let (name, effort) = (&model.link(link).name, &model.unknown(unknown).name);
-        let equation = format!("±ΣF of what acts on {name} along the slide {}", joint.name);
+        let equation =
+            format!("{}ΣF of what acts on {name} along the slide {}", if second { "−" } else { "" }, joint.name);
         let across = match force_on(balance.placement, unknown) {
             None => {
                 // The effort acts along the slide: on the second link forwards, on the first one backwards.
@@ -134,12 +135,13 @@ pub(super) fn guide<'m>(
     let one = balance.graph().one();
     let moment = balance.moment(link, about, one) + arm * across;
     let second = model.joint(slide).to.link == link;
-    let (normal, couple) = if second { (-across, -moment) } else { (across, moment) };
+    let (normal, couple, sign) = if second { (-across, -moment, "−") } else { (across, moment, "") };
     let normal = normal.named(
         balance.name(&format!("{joint}_normal")),
-        format!("±ΣF of what acts on {name} across the slide {joint}"),
+        format!("{sign}ΣF of what acts on {name} across the slide {joint}"),
     );
-    let couple = couple.named(balance.name(&format!("{joint}_couple")), format!("±ΣM({joint}) of what acts on {name}"));
+    let couple =
+        couple.named(balance.name(&format!("{joint}_couple")), format!("{sign}ΣM({joint}) of what acts on {name}"));
     let axes = balance.placement.slide_direction(slide);
     let force = Framed { components: Vector::new(balance.graph().zero(), normal), axes };
     balance.slide(slide, link, force, couple);
