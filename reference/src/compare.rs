@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::declaration::{ALL, Declaration, PARTS, PLACES, WEIGHT, WORK};
+use crate::declaration::{ALL, Declaration, PARTS, PLACES, WEIGHT, WORK, depends_on_motion, is_dynamic};
 use crate::exact::{difference, difference_of_angles, nearest};
 use crate::file::{Answers, File, Limits, Reaction};
 use crate::number::Number;
@@ -44,7 +44,8 @@ impl Worst {
 /// The results of the scenes in one form at one position.
 pub(crate) type Results = BTreeMap<String, Value>;
 
-/// Holds the results of a position against its answers.
+/// Holds the results of a position against its answers. Where inertia or damping plays a part, what is left of statics: the pose, and
+/// what each of the other loads brings.
 pub(crate) fn compare(
     file: &File,
     declaration: &Declaration,
@@ -53,14 +54,16 @@ pub(crate) fn compare(
     worst: &mut Worst,
 ) -> Result<(), String> {
     let scales = Scales::of(file, answers)?;
-    let comparison = Comparison { declaration, answers, scales };
+    let comparison = Comparison { file, declaration, answers, scales };
     let scene = |name: &str| {
         let value = results.get(name).ok_or_else(|| format!("the scene `{name}` printed nothing"))?;
         if let Value::Error(error) = value { Err(format!("{name}: {error}")) } else { Ok(value) }
     };
     comparison.pose(scene(PLACES)?, worst)?;
-    comparison.equilibrium(scene(ALL)?, worst)?;
-    comparison.work(scene(WORK)?, worst)?;
+    if !is_dynamic(file) {
+        comparison.equilibrium(scene(ALL)?, worst)?;
+        comparison.work(scene(WORK)?, worst)?;
+    }
     comparison.parts(scene(PARTS)?, worst)
 }
 
@@ -141,6 +144,7 @@ fn length_of(file: &File) -> Result<f64, String> {
 }
 
 struct Comparison<'a> {
+    file: &'a File,
     declaration: &'a Declaration,
     answers: &'a Answers,
     scales: Scales,
@@ -222,14 +226,15 @@ impl Comparison<'_> {
     fn parts(&self, own: &Value, worst: &mut Worst) -> Result<(), String> {
         let found: Vec<(String, &Value)> = own.fields().iter().flat_map(|part| self.part(part)).collect();
         if self.answers.contributions.0.is_empty() {
-            return self.sums(&found, worst);
+            return if is_dynamic(self.file) { Ok(()) } else { self.sums(&found, worst) };
         }
         for (load, _) in &found {
             if self.answers.contributions.get(load).is_none() {
                 return Err(format!("`{load}` brings something, and the file knows nothing of it"));
             }
         }
-        for (load, answer) in self.answers.contributions.iter() {
+        for (load, answer) in self.answers.contributions.iter().filter(|(load, _)| !depends_on_motion(self.file, load))
+        {
             let own = found.iter().find_map(|(name, value)| (name == load).then_some(*value));
             let own = own.ok_or_else(|| format!("there is no part of `{load}`"))?;
             for (index, effort) in answer.efforts.iter().enumerate() {

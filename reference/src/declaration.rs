@@ -77,6 +77,8 @@ impl Declaration {
 
 struct Writer<'a> {
     file: &'a File,
+    /// Of a file that needs more than statics, the statics are declared.
+    dynamic: bool,
     links: Names,
     joints: Names,
     loads: Names,
@@ -94,7 +96,7 @@ impl<'a> Writer<'a> {
             let names = body.points.iter().enumerate();
             names.map(|(index, (name, _))| (Place::Named(name.into()), declared('P', index, name))).collect()
         };
-        Self { file, links, joints, loads, points: bodies.map(named).collect() }
+        Self { file, dynamic: is_dynamic(file), links, joints, loads, points: bodies.map(named).collect() }
     }
 
     fn number(&self, raw: &Raw) -> Result<Number, String> {
@@ -335,7 +337,7 @@ impl<'a> Writer<'a> {
                     ("rate", stiffness.as_ref(), "N/m"),
                     ("free", free_length.as_ref(), "m"),
                     ("preload", preload.as_ref(), "N"),
-                    ("damping", damping.as_ref(), "N*s/m"),
+                    ("damping", damping.as_ref().filter(|_| !self.dynamic), "N*s/m"),
                 ])?;
                 format!("spring({}, {}) {{ {fields} }}", self.end(a)?, self.end(b)?)
             }
@@ -343,7 +345,7 @@ impl<'a> Writer<'a> {
                 let fields = self.fields(&[
                     ("rate", stiffness.as_ref(), "N*m/rad"),
                     ("free", free_angle.as_ref(), "rad"),
-                    ("damping", damping.as_ref(), "N*m*s/rad"),
+                    ("damping", damping.as_ref().filter(|_| !self.dynamic), "N*m*s/rad"),
                 ])?;
                 format!("torsion({} -> {}) {{ {fields} }}", self.link(a)?, self.link(b)?)
             }
@@ -404,18 +406,29 @@ impl<'a> Writer<'a> {
     }
 }
 
+fn is_zero(raw: Option<&Raw>) -> bool {
+    raw.is_none_or(|raw| Number::new(raw, Mode::Decimal).is_ok_and(|number| number.is_zero()))
+}
+
+fn is_damped(load: &LoadKind) -> bool {
+    match load {
+        LoadKind::Spring { damping, .. } | LoadKind::TorsionSpring { damping, .. } => !is_zero(damping.as_ref()),
+        _ => false,
+    }
+}
+
 /// Whether inertia or damping plays a part: such a file needs more than statics.
 pub(crate) fn is_dynamic(file: &File) -> bool {
-    let zero = |raw: &Option<Raw>| {
-        raw.as_ref().is_none_or(|raw| Number::new(raw, Mode::Decimal).is_ok_and(|number| number.is_zero()))
-    };
-    let moving = file.inputs.iter().any(|input| !zero(&input.rate) || !zero(&input.acc));
-    let massive = file.include_inertia && file.links.iter().any(|(_, body)| !zero(&body.mass) || !zero(&body.inertia));
-    let damped = file.loads.iter().any(|load| match &load.kind {
-        LoadKind::Spring { damping, .. } | LoadKind::TorsionSpring { damping, .. } => !zero(damping),
-        _ => false,
-    });
-    moving && (massive || damped)
+    let moving = file.inputs.iter().any(|input| !is_zero(input.rate.as_ref()) || !is_zero(input.acc.as_ref()));
+    let has_inertia = |body: &Body| !is_zero(body.mass.as_ref()) || !is_zero(body.inertia.as_ref());
+    let massive = file.include_inertia && file.links.iter().any(|(_, body)| has_inertia(body));
+    moving && (massive || file.loads.iter().any(|load| is_damped(&load.kind)))
+}
+
+/// Whether what a load brings depends on how fast a file moves.
+pub(crate) fn depends_on_motion(file: &File, load: &str) -> bool {
+    let damped = file.loads.iter().any(|own| own.name == load && is_damped(&own.kind));
+    is_dynamic(file) && (load.starts_with("inertia:") || damped)
 }
 
 /// The file's joint of this name.

@@ -83,9 +83,9 @@ fn write_crate(cases: &[Case<'_>], sound: &[usize], at: &Path, name: &str) -> st
     std::fs::create_dir_all(&source)?;
     let manifest = format!(
         "[package]\nname = \"reference-{name}\"\nedition = \"2024\"\n\n\
-         [dependencies]\nlinkage-runtime = {{ path = {:?} }}\n\n\
+         [dependencies]\nlinkage-runtime = {{ path = \"{}\" }}\n\n\
          # The compiler of declarations is in here.\n[profile.dev.build-override]\nopt-level = 2\n\n[workspace]\n",
-        workspace.join("linkage-runtime")
+        workspace.join("linkage-runtime").display()
     );
     std::fs::write(at.join("Cargo.toml"), manifest)?;
     std::fs::copy(workspace.join("Cargo.lock"), at.join("Cargo.lock"))?;

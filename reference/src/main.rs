@@ -64,9 +64,6 @@ fn prepare(path: &Path) -> Stage {
     if file.expect.is_none() && file.reference.is_none() && file.sweep.is_none() {
         return Stage::Decided(Verdict::Failed("has no answers".into()));
     }
-    if declaration::is_dynamic(&file) {
-        return Stage::Decided(Verdict::NotYetRun("inertia or damping".into()));
-    }
     let declaration = match Declaration::of(&file) {
         Ok(declaration) => declaration,
         Err(problem) => return Stage::Decided(Verdict::Failed(format!("cannot be expressed: {problem}"))),

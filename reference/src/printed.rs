@@ -67,6 +67,9 @@ fn value(text: &str) -> Option<(Value, &str)> {
     if let Ok(number) = word.parse() {
         return Some((Value::Number(number), rest));
     }
+    if !word.starts_with(|c: char| c.is_alphabetic()) {
+        return None;
+    }
     let Some(mut rest) = rest.strip_prefix(" {") else { return Some((Value::Record(Vec::new()), rest)) };
     let mut fields = Vec::new();
     loop {

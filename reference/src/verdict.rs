@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::closure::Refused;
 use crate::compare::{Results, Worst, compare};
-use crate::declaration::{ALL, Declaration, PARTS, PLACES, SCENES, WORK};
+use crate::declaration::{ALL, Declaration, PARTS, PLACES, SCENES, WORK, is_dynamic};
 use crate::driver::{FORMS, Printed};
 use crate::file::{Answers, Expected, File, Outcome};
 use crate::printed::Value;
@@ -20,7 +20,7 @@ pub(crate) enum Verdict {
     Failed(String),
     /// The compiler says that it does not carry this out yet.
     Unsupported(String),
-    /// More than statics.
+    /// More than statics; how far its statics are right.
     NotYetRun(String),
 }
 
@@ -41,13 +41,20 @@ impl fmt::Display for Verdict {
 
 /// The verdict on a file whose declaration the compiler refuses: right where there is no answer.
 pub(crate) fn of_refusal(file: &File, refused: &Refused) -> Verdict {
-    if refused.is_unsupported() {
+    if refused.is_unsupported() && needs_motion(file) {
+        Verdict::NotYetRun(refused.summary())
+    } else if refused.is_unsupported() {
         Verdict::Unsupported(refused.summary())
     } else if file.expect.is_some() {
         Verdict::Refused(format!("refused: {}", refused.summary()))
     } else {
         Verdict::Failed(format!("refused: {}", refused.messages.join("\n    ").replace('\n', "\n    ")))
     }
+}
+
+/// Whether the answers of a file are those of a motion. Without an answer it makes no difference.
+fn needs_motion(file: &File) -> bool {
+    file.expect.is_none() && is_dynamic(file)
 }
 
 /// The verdict on a file whose declaration was compiled.
@@ -59,10 +66,13 @@ pub(crate) fn of_results(file: &File, declaration: &Declaration, printed: &Print
         refusals(expected, printed).map(Verdict::Refused)
     } else {
         positions(file, declaration, printed).map(|worst| {
-            if worst.ratio <= 1.0 {
-                Verdict::Passed(worst)
+            let text = format!("{:9.2e} of the limit: {}", worst.ratio, worst.what);
+            if worst.ratio > 1.0 {
+                Verdict::Failed(text)
+            } else if needs_motion(file) {
+                Verdict::NotYetRun(format!("{text}; without inertia and damping"))
             } else {
-                Verdict::Failed(format!("{:9.2e} of the limit: {}", worst.ratio, worst.what))
+                Verdict::Passed(worst)
             }
         })
     };
@@ -160,4 +170,23 @@ pub(crate) fn report(verdicts: &[(String, Verdict)], allow_unsupported: bool) ->
         verdicts.len()
     );
     failed == 0 && (allow_unsupported || unsupported == 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Verdict, report};
+    use crate::compare::Worst;
+
+    fn all_is_well(verdict: Verdict, allow_unsupported: bool) -> bool {
+        report(&[("a".into(), Verdict::Passed(Worst::new())), ("b".into(), verdict)], allow_unsupported)
+    }
+
+    #[test]
+    fn only_what_is_not_supported_may_be_allowed() {
+        assert!(!all_is_well(Verdict::Unsupported("gears".into()), false));
+        assert!(all_is_well(Verdict::Unsupported("gears".into()), true));
+        assert!(!all_is_well(Verdict::Failed("wrong".into()), true));
+        assert!(all_is_well(Verdict::NotYetRun("inertia".into()), false));
+        assert!(all_is_well(Verdict::Refused("a dead centre".into()), false));
+    }
 }
