@@ -9,7 +9,7 @@ use linkage_codegen::topology::Topology;
 use linkage_codegen::{Linkage, Refusal, analyse};
 
 use crate::declaration::{Declaration, joint_of};
-use crate::file::{End, File, Place};
+use crate::file::{Coordinate, End, File, Place};
 use crate::number::{Number, Raw};
 
 /// A declaration that the compiler took, with its closures.
@@ -28,7 +28,7 @@ pub(crate) struct Refused {
 impl Refused {
     /// Whether all that stands in the way is what the compiler does not carry out yet.
     pub(crate) fn is_unsupported(&self) -> bool {
-        self.messages.iter().all(|message| message.contains("supported"))
+        self.messages.iter().all(|message| message.contains("not supported yet"))
     }
 
     /// The first message in one line, without its remarks.
@@ -49,8 +49,11 @@ pub(crate) fn close(file: &File, declaration: &Declaration) -> Result<Closed, Re
                 let before = closures.len();
                 for message in &messages {
                     closures.extend(guess.choose(message, refusal.model.as_deref()));
+                    closures.extend(guess.starts(message));
                 }
-                if closures.len() == before {
+                // What stands already and did not help is no way out.
+                let repeated = (before..closures.len()).any(|new| closures[..new].contains(&closures[new]));
+                if closures.len() == before || repeated {
                     return Err(Refused { messages });
                 }
             }
@@ -67,7 +70,8 @@ fn compile(declaration: &Declaration, closures: &[String]) -> Result<Closed, Ref
 /// Lets each dyad that folds with its driver go smoothly through its folds.
 fn smooth(declaration: &Declaration, mut closures: Vec<String>, guess: &Guess<'_>, closed: Closed) -> Closed {
     let mut closed = closed;
-    for index in 0..closures.len() {
+    let sides: Vec<usize> = (0..closures.len()).filter(|index| closures[*index].starts_with("assemble ")).collect();
+    for index in sides {
         for input in &guess.file.inputs {
             let Ok(at) = Number::new(&input.value, guess.file.number_mode) else { continue };
             let plain = closures[index].clone();
@@ -91,14 +95,29 @@ struct Guess<'a> {
 }
 
 impl Guess<'_> {
-    /// One of the items that the compiler offers in a message.
+    /// One of the sides that the compiler offers in a message.
     fn choose(&self, message: &str, model: Option<&Model>) -> Option<String> {
-        let offered = |line: &&str| line.starts_with("assemble ");
-        let lines: Vec<&str> = message.lines().map(|line| line.trim_start_matches("help:").trim()).collect();
-        let offers: Vec<&str> = lines.into_iter().filter(offered).collect();
+        let offers: Vec<&str> = offers(message, "assemble ").collect();
         let chosen = offers.iter().find(|offer| self.holds(offer, model) == Some(true));
         // At a guess that is on neither side, where there is no answer to come, either will do.
         chosen.or(offers.first()).map(|offer| (*offer).to_owned())
+    }
+
+    /// The starting poses of which the compiler gives an example in a message: of links, and of drives.
+    fn starts(&self, message: &str) -> Vec<String> {
+        let start = |offer: &str| {
+            let (name, _) = offer.strip_prefix("start ")?.split_once(':')?;
+            let written = |raw: &Raw, unit: &str| Some(Number::new(raw, self.file.number_mode).ok()?.in_unit(unit));
+            if let Some(index) = name.strip_prefix('D').and_then(|index| index.parse::<usize>().ok()) {
+                let input = self.file.inputs.get(index)?;
+                let unit = if input.coord == Coordinate::Angle { "rad" } else { "m" };
+                return Some(format!("start {name}: {};", written(&input.value, unit)?));
+            }
+            let [x, y, angle] = self.file.guess.get(self.declaration.links.original(name)?)?;
+            let (x, y, angle) = (written(x, "m")?, written(y, "m")?, written(angle, "rad")?);
+            Some(format!("start {name}: ({x}, {y}), angle {angle};"))
+        };
+        offers(message, "start ").filter_map(start).collect()
     }
 
     /// Whether an offered side is that of the guess: `assemble B: left(A -> B0);`.
@@ -164,6 +183,12 @@ impl Guess<'_> {
     fn value(&self, raw: &Raw) -> Option<f64> {
         Number::new(raw, self.file.number_mode).ok().map(|number| number.value)
     }
+}
+
+/// The items of this kind that stand in a message.
+fn offers<'a>(message: &'a str, kind: &'a str) -> impl Iterator<Item = &'a str> {
+    let lines = message.lines().map(|line| line.trim_start_matches("help:").trim());
+    lines.filter(move |line| line.starts_with(kind))
 }
 
 fn turned([x, y]: [f64; 2], angle: f64) -> [f64; 2] {

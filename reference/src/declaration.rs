@@ -293,6 +293,9 @@ impl<'a> Writer<'a> {
                 if series.field != field {
                     return Err(format!("`{}` of `{}` at each position has no words", series.field, series.name));
                 }
+                if Some(series.values.len()) != self.file.sweep.as_ref().map(|sweep| sweep.results.len()) {
+                    return Err(format!("`{}` has not one value for each position", series.name));
+                }
                 let values = series.values.iter().map(|value| self.at_run_time(value)).collect::<Result<_, _>>()?;
                 run_time.push((name.clone(), values));
             }
