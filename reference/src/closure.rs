@@ -1,0 +1,209 @@
+//! Closures: where a group can be assembled in two ways, the file's guess says which one is meant.
+//!
+//! Which groups there are is the compiler's to say. It offers the sides of each group that needs one, as items to be written, and the
+//! guess decides between them. Whether a dyad folds with its driver is the compiler's to say too: `smooth` is written where it is taken.
+
+use linkage_codegen::diagnostics::Sink;
+use linkage_codegen::model::{JointKind, Model};
+use linkage_codegen::topology::Topology;
+use linkage_codegen::{Linkage, Refusal, analyse};
+
+use crate::declaration::{Declaration, joint_of};
+use crate::file::{Coordinate, End, File, Place};
+use crate::number::{Number, Raw};
+
+/// A declaration that the compiler took, with its closures.
+pub(crate) struct Closed {
+    pub(crate) text: String,
+    pub(crate) linkage: Linkage,
+}
+
+/// Why a declaration was not taken.
+#[derive(Debug)]
+pub(crate) struct Refused {
+    /// What the compiler said.
+    pub(crate) messages: Vec<String>,
+}
+
+impl Refused {
+    /// Whether all that stands in the way is what the compiler does not carry out yet.
+    pub(crate) fn is_unsupported(&self) -> bool {
+        self.messages.iter().all(|message| message.contains("not supported yet"))
+    }
+
+    /// The first message in one line, without its remarks.
+    pub(crate) fn summary(&self) -> String {
+        self.messages.first().and_then(|message| message.lines().next()).unwrap_or("refused").to_owned()
+    }
+}
+
+/// Closes all groups of a declaration.
+pub(crate) fn close(file: &File, declaration: &Declaration) -> Result<Closed, Refused> {
+    let guess = Guess { file, declaration };
+    let mut closures: Vec<String> = Vec::new();
+    loop {
+        match compile(declaration, &closures) {
+            Ok(closed) => return Ok(smooth(declaration, closures, &guess, closed)),
+            Err(refusal) => {
+                let messages: Vec<String> = refusal.errors.iter().map(|error| error.message().to_owned()).collect();
+                let before = closures.len();
+                for message in &messages {
+                    closures.extend(guess.choose(message, refusal.model.as_deref()));
+                    closures.extend(guess.starts(message));
+                }
+                // What stands already and did not help is no way out.
+                let repeated = (before..closures.len()).any(|new| closures[..new].contains(&closures[new]));
+                if closures.len() == before || repeated {
+                    return Err(Refused { messages });
+                }
+            }
+        }
+    }
+}
+
+fn compile(declaration: &Declaration, closures: &[String]) -> Result<Closed, Refusal> {
+    let text = declaration.text(closures);
+    let tokens = text.parse().unwrap_or_default();
+    analyse(tokens).map(|linkage| Closed { text, linkage })
+}
+
+/// Lets each dyad that folds with its driver go smoothly through its folds.
+fn smooth(declaration: &Declaration, mut closures: Vec<String>, guess: &Guess<'_>, closed: Closed) -> Closed {
+    let mut closed = closed;
+    let sides: Vec<usize> = (0..closures.len()).filter(|index| closures[*index].starts_with("assemble ")).collect();
+    for index in sides {
+        for input in &guess.file.inputs {
+            let Ok(at) = Number::new(&input.value, guess.file.number_mode) else { continue };
+            let plain = closures[index].clone();
+            closures[index] = format!("{} smooth at {};", plain.trim_end_matches(';'), at.in_unit("rad"));
+            match compile(declaration, &closures) {
+                Ok(folding) => {
+                    closed = folding;
+                    break;
+                }
+                Err(_) => closures[index] = plain,
+            }
+        }
+    }
+    closed
+}
+
+/// The pose near which the wanted one lies.
+struct Guess<'a> {
+    file: &'a File,
+    declaration: &'a Declaration,
+}
+
+impl Guess<'_> {
+    /// One of the sides that the compiler offers in a message.
+    fn choose(&self, message: &str, model: Option<&Model>) -> Option<String> {
+        let offers: Vec<&str> = offers(message, "assemble ").collect();
+        let chosen = offers.iter().find(|offer| self.holds(offer, model) == Some(true));
+        // At a guess that is on neither side, where there is no answer to come, either will do.
+        chosen.or(offers.first()).map(|offer| (*offer).to_owned())
+    }
+
+    /// The starting poses of which the compiler gives an example in a message: of links, and of drives.
+    fn starts(&self, message: &str) -> Vec<String> {
+        let start = |offer: &str| {
+            let (name, _) = offer.strip_prefix("start ")?.split_once(':')?;
+            let written = |raw: &Raw, unit: &str| Some(Number::new(raw, self.file.number_mode).ok()?.in_unit(unit));
+            if let Some(index) = name.strip_prefix('D').and_then(|index| index.parse::<usize>().ok()) {
+                let input = self.file.inputs.get(index)?;
+                let unit = if input.coord == Coordinate::Angle { "rad" } else { "m" };
+                return Some(format!("start {name}: {};", written(&input.value, unit)?));
+            }
+            let [x, y, angle] = self.file.guess.get(self.declaration.links.original(name)?)?;
+            let (x, y, angle) = (written(x, "m")?, written(y, "m")?, written(angle, "rad")?);
+            Some(format!("start {name}: ({x}, {y}), angle {angle};"))
+        };
+        offers(message, "start ").filter_map(start).collect()
+    }
+
+    /// Whether an offered side is that of the guess: `assemble B: left(A -> B0);`.
+    fn holds(&self, offer: &str, model: Option<&Model>) -> Option<bool> {
+        let (inner, side) = offer.strip_prefix("assemble ")?.split_once(':')?;
+        let (word, of) = side.trim().split_once('(')?;
+        let of: Vec<[f64; 2]> =
+            of.split_once(')')?.0.split("->").map(|joint| self.place(joint.trim())).collect::<Option<_>>()?;
+        let at = self.place(inner)?;
+        Some(match (word, &of[..]) {
+            ("left", [p, q]) => cross(from(*p, *q), from(*p, at)) > 0.0,
+            ("right", [p, q]) => cross(from(*p, *q), from(*p, at)) < 0.0,
+            ("ahead", [p]) => dot(self.slide_of(inner, model?)?, from(*p, at)) > 0.0,
+            ("behind", [p]) => dot(self.slide_of(inner, model?)?, from(*p, at)) < 0.0,
+            _ => return None,
+        })
+    }
+
+    /// The direction of the slide in the group of this inner joint.
+    fn slide_of(&self, inner: &str, model: &Model) -> Option<[f64; 2]> {
+        let named = |joint: &linkage_codegen::model::ids::JointId| &model.joint(*joint).name.text;
+        let topology = Topology::of(model, &Sink::default())?;
+        let group = topology.motion.iter().find(|group| group.inner.iter().any(|joint| named(joint) == inner))?;
+        let slides = |joint: &&_| !matches!(model.joint(**joint).kind, JointKind::Revolute);
+        let slide = group.outer.iter().chain(&group.inner).find(slides)?;
+        let joint = joint_of(self.file, &self.declaration.joints, named(slide))?;
+        let [x, y] = joint.axis.as_ref()?;
+        let [_, _, angle] = self.frame(&joint.a.0)?;
+        Some(turned([self.value(x)?, self.value(y)?], angle))
+    }
+
+    /// Where a joint is: between its two points, which a guess need not bring together exactly.
+    fn place(&self, joint: &str) -> Option<[f64; 2]> {
+        let joint = joint_of(self.file, &self.declaration.joints, joint)?;
+        let [a, b] = [self.end(&joint.a)?, self.end(&joint.b)?];
+        match joint.kind {
+            crate::file::JointKind::Revolute | crate::file::JointKind::Weld => {
+                Some([f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1])])
+            }
+            _ => Some(b),
+        }
+    }
+
+    fn end(&self, End(link, place): &End) -> Option<[f64; 2]> {
+        let body = if link == "ground" { &self.file.ground } else { self.file.links.get(link)? };
+        let [x, y] = match place {
+            Place::Named(name) => body.points.get(name)?,
+            Place::At(at) => at,
+        };
+        let [at_x, at_y, angle] = self.frame(link)?;
+        let [x, y] = turned([self.value(x)?, self.value(y)?], angle);
+        Some([at_x + x, at_y + y])
+    }
+
+    fn frame(&self, link: &str) -> Option<[f64; 3]> {
+        if link == "ground" {
+            return Some([0.0; 3]);
+        }
+        let [x, y, angle] = self.file.guess.get(link)?;
+        Some([self.value(x)?, self.value(y)?, self.value(angle)?])
+    }
+
+    fn value(&self, raw: &Raw) -> Option<f64> {
+        Number::new(raw, self.file.number_mode).ok().map(|number| number.value)
+    }
+}
+
+/// The items of this kind that stand in a message.
+fn offers<'a>(message: &'a str, kind: &'a str) -> impl Iterator<Item = &'a str> {
+    let lines = message.lines().map(|line| line.trim_start_matches("help:").trim());
+    lines.filter(move |line| line.starts_with(kind))
+}
+
+fn turned([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
+    let (s, c) = angle.sin_cos();
+    [c * x - s * y, s * x + c * y]
+}
+
+fn from(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [b[0] - a[0], b[1] - a[1]]
+}
+
+fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}

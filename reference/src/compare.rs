@@ -1,0 +1,277 @@
+//! Results against answers.
+//!
+//! An effort may be off by a share of its size, a reaction by a share of the largest one, that the file states: how far rounded data
+//! alone move the answer. A load's own part of an effort may be as far off as the effort, or by the share of reactions in its own
+//! size: where parts cancel, each is larger than what is left of them.
+
+use std::collections::BTreeMap;
+
+use crate::declaration::{ALL, Declaration, PARTS, PLACES, WEIGHT, WORK, depends_on_motion, is_dynamic};
+use crate::exact::{difference, difference_of_angles, nearest};
+use crate::file::{Answers, File, Limits, Reaction};
+use crate::number::Number;
+use crate::printed::Value;
+
+/// No limit is closer than some roundings.
+const ROUNDINGS: f64 = 1e-13;
+
+/// The largest error of a file, in units of its limit.
+#[derive(Clone, Debug)]
+pub(crate) struct Worst {
+    pub(crate) ratio: f64,
+    pub(crate) what: String,
+    /// The same against the closer limits.
+    pub(crate) tight: f64,
+}
+
+impl Worst {
+    pub(crate) fn new() -> Self {
+        Self { ratio: 0.0, what: String::new(), tight: 0.0 }
+    }
+
+    fn see(&mut self, error: f64, [loose, tight]: [f64; 2], what: impl FnOnce() -> String) {
+        let ratio = |limit: f64| if error == 0.0 { 0.0 } else { error / limit };
+        // What is no number is beyond every limit.
+        let beyond = |ratio: f64| if ratio.is_nan() { f64::INFINITY } else { ratio };
+        let ratio = [beyond(ratio(loose)), beyond(ratio(tight))];
+        if ratio[0] > self.ratio || self.what.is_empty() {
+            *self = Self { ratio: ratio[0], what: what(), tight: self.tight };
+        }
+        self.tight = self.tight.max(ratio[1]);
+    }
+}
+
+/// The results of the scenes in one form at one position.
+pub(crate) type Results = BTreeMap<String, Value>;
+
+/// Holds the results of a position against its answers. Where inertia or damping plays a part, what is left of statics: the pose, and
+/// what each of the other loads brings.
+pub(crate) fn compare(
+    file: &File,
+    declaration: &Declaration,
+    answers: &Answers,
+    results: &Results,
+    worst: &mut Worst,
+) -> Result<(), String> {
+    let scales = Scales::of(file, answers)?;
+    let comparison = Comparison { file, declaration, answers, scales };
+    let scene = |name: &str| {
+        let value = results.get(name).ok_or_else(|| format!("the scene `{name}` printed nothing"))?;
+        if let Value::Error(error) = value { Err(format!("{name}: {error}")) } else { Ok(value) }
+    };
+    comparison.pose(scene(PLACES)?, worst)?;
+    if !is_dynamic(file) {
+        comparison.equilibrium(scene(ALL)?, worst)?;
+        comparison.work(scene(WORK)?, worst)?;
+    }
+    comparison.parts(scene(PARTS)?, worst)
+}
+
+/// What errors are measured by, and how far they may go: loose limits and tight ones.
+struct Scales {
+    effort: Vec<f64>,
+    reaction: f64,
+    length: f64,
+    limits: [Limits; 2],
+    pose: f64,
+}
+
+impl Scales {
+    fn of(file: &File, answers: &Answers) -> Result<Self, String> {
+        let limit = |floor: &str| Ok::<f64, String>((64.0 * nearest(floor)?).max(ROUNDINGS));
+        let limits = match (&answers.accept, &answers.f64_floor) {
+            (Some(accept), _) => [accept.loose.clone(), accept.tight.clone()],
+            (None, Some(floor)) => {
+                let effort = floor.effort.iter().map(|floor| limit(floor)).collect::<Result<_, _>>()?;
+                let limits = Limits { effort, reaction: limit(&floor.reaction_normwise)? };
+                [limits.clone(), limits]
+            }
+            (None, None) => {
+                let limits = Limits { effort: vec![ROUNDINGS; answers.efforts.len()], reaction: ROUNDINGS };
+                [limits.clone(), limits]
+            }
+        };
+        let (effort, reaction) = match &answers.accept {
+            Some(accept) => {
+                let effort = accept.effort_scale.iter().map(|scale| nearest(scale)).collect::<Result<_, _>>()?;
+                (effort, nearest(&accept.reaction_scale)?)
+            }
+            None => (effort_scales(answers)?, largest(answers.reactions.iter().map(|(_, reaction)| reaction))?),
+        };
+        // Without a measure of its own, a pose may move as far as the forces that follow from it.
+        let moved = limits[0].effort.iter().fold(limits[0].reaction, |most, limit| most.max(*limit));
+        let pose = answers.f64_floor.as_ref().map_or(Ok(moved), |floor| limit(&floor.pose))?;
+        Ok(Self { effort, reaction, length: length_of(file)?, limits, pose })
+    }
+
+    fn effort_limits(&self, index: usize) -> [f64; 2] {
+        let scale = self.effort.get(index).copied().unwrap_or(0.0);
+        self.limits.each_ref().map(|limits| scale * limits.effort.get(index).copied().unwrap_or(0.0))
+    }
+}
+
+/// The size of each effort; of one that vanishes, that of its parts.
+fn effort_scales(answers: &Answers) -> Result<Vec<f64>, String> {
+    let scale = |(index, effort): (usize, &crate::file::EffortAnswer)| {
+        let size = nearest(effort.text())?.abs();
+        let parts = answers.contributions.iter().map(|(_, part)| part.efforts.get(index));
+        let parts: f64 = parts.flatten().map(|part| nearest(part).map(f64::abs)).sum::<Result<_, _>>()?;
+        Ok(if size == 0.0 { parts } else { size })
+    };
+    answers.efforts.iter().enumerate().map(scale).collect()
+}
+
+fn largest<'a>(reactions: impl Iterator<Item = &'a Reaction>) -> Result<f64, String> {
+    let size = |reaction: &Reaction| Ok(nearest(&reaction.force[0])?.hypot(nearest(&reaction.force[1])?));
+    reactions.map(size).try_fold(0.0, |most: f64, size: Result<f64, String>| Ok(most.max(size?)))
+}
+
+/// The largest distance of two points of a link, or a driven travel: by it places are measured, and couples against forces.
+fn length_of(file: &File) -> Result<f64, String> {
+    let value = |raw| Number::new(raw, file.number_mode).map(|number| number.value);
+    let mut length: f64 = 0.0;
+    for body in std::iter::once(&file.ground).chain(file.links.iter().map(|(_, body)| body)) {
+        let points = body.points.iter().map(|(_, [x, y])| Ok([value(x)?, value(y)?]));
+        let points = points.collect::<Result<Vec<_>, String>>()?;
+        for (index, a) in points.iter().enumerate() {
+            length = points[..index].iter().fold(length, |most, b| most.max((a[0] - b[0]).hypot(a[1] - b[1])));
+        }
+    }
+    for input in file.inputs.iter().filter(|input| input.coord == crate::file::Coordinate::Displacement) {
+        length = length.max(value(&input.value)?.abs());
+    }
+    Ok(if length > 0.0 { length } else { 1.0 })
+}
+
+struct Comparison<'a> {
+    file: &'a File,
+    declaration: &'a Declaration,
+    answers: &'a Answers,
+    scales: Scales,
+}
+
+impl Comparison<'_> {
+    fn pose(&self, own: &Value, worst: &mut Worst) -> Result<(), String> {
+        let limit = [self.scales.pose; 2];
+        for (link, [x, y, angle]) in self.answers.pose.iter() {
+            let name = self.declaration.links.find(link)?;
+            let missing = || format!("the pose has no `{link}`");
+            let at = own.fields().iter().find(|(field, value)| {
+                field.starts_with(name) && field.ends_with(crate::declaration::ORIGIN) && value.vector().is_some()
+            });
+            let at = at.and_then(|(_, value)| value.vector()).ok_or_else(missing)?;
+            let turn = own.field(&format!("{name}_angle")).and_then(Value::number).ok_or_else(missing)?;
+            let off = difference(at[0], x)?.hypot(difference(at[1], y)?);
+            worst.see(off / self.scales.length, limit, || format!("place of {link}"));
+            worst.see(difference_of_angles(turn, angle)?.abs(), limit, || format!("angle of {link}"));
+        }
+        Ok(())
+    }
+
+    fn equilibrium(&self, own: &Value, worst: &mut Worst) -> Result<(), String> {
+        for (index, answer) in self.answers.efforts.iter().enumerate() {
+            let off = difference(self.effort(own, index)?, answer.text())?.abs();
+            worst.see(off, self.scales.effort_limits(index), || format!("effort {index}"));
+        }
+        let limits = self.scales.limits.each_ref().map(|limits| limits.reaction * self.scales.reaction);
+        self.reactions(own, self.answers.reactions.iter(), limits, "", worst)
+    }
+
+    fn effort(&self, own: &Value, index: usize) -> Result<f64, String> {
+        let name = self.declaration.unknowns.get(index).ok_or_else(|| format!("there is no input {index}"))?;
+        own.field(name).and_then(Value::number).ok_or_else(|| format!("there is no effort `{name}`"))
+    }
+
+    fn reactions<'r>(
+        &self,
+        own: &Value,
+        answers: impl Iterator<Item = (&'r str, &'r Reaction)>,
+        limits: [f64; 2],
+        of: &str,
+        worst: &mut Worst,
+    ) -> Result<(), String> {
+        for (joint, answer) in answers {
+            let name = self.declaration.joints.find(joint)?;
+            let missing = || format!("there is no reaction of `{joint}`");
+            let own = own.field(name).ok_or_else(missing)?;
+            let force = own.vector().or_else(|| own.field("force")?.vector()).ok_or_else(missing)?;
+            let off = difference(force[0], &answer.force[0])?.hypot(difference(force[1], &answer.force[1])?);
+            worst.see(off, limits, || format!("reaction {joint}{of}"));
+            if let Some(moment) = &answer.moment {
+                let couple = ["couple", "moment"].into_iter().find_map(|name| own.field(name)?.number());
+                let off = difference(couple.ok_or_else(|| format!("there is no couple of `{joint}`"))?, moment)?.abs();
+                worst.see(off / self.scales.length, limits, || format!("couple {joint}{of}"));
+            }
+            if let Some(scalar) = &answer.scalar {
+                let size = ["normal", "tooth", "scalar", "size"].into_iter().find_map(|name| own.field(name)?.number());
+                let off = difference(size.ok_or_else(|| format!("there is no size of `{joint}`"))?, scalar)?.abs();
+                worst.see(off, limits, || format!("size of {joint}{of}"));
+            }
+        }
+        Ok(())
+    }
+
+    fn work(&self, own: &Value, worst: &mut Worst) -> Result<(), String> {
+        let plain: Vec<&str> = self.answers.efforts.iter().map(crate::file::EffortAnswer::text).collect();
+        let known = self.answers.virtual_work.as_ref();
+        let known = known.map_or(plain, |work| work.efforts.iter().map(String::as_str).collect());
+        for (index, answer) in known.into_iter().enumerate() {
+            let off = difference(self.effort(own, index)?, answer)?.abs();
+            worst.see(off, self.scales.effort_limits(index), || format!("virtual work {index}"));
+        }
+        Ok(())
+    }
+
+    /// What each load brings. A sweep keeps only sums: then the parts add up to them.
+    fn parts(&self, own: &Value, worst: &mut Worst) -> Result<(), String> {
+        let found: Vec<(String, &Value)> = own.fields().iter().flat_map(|part| self.part(part)).collect();
+        if self.answers.contributions.0.is_empty() {
+            return if is_dynamic(self.file) { Ok(()) } else { self.sums(&found, worst) };
+        }
+        for (load, _) in &found {
+            if self.answers.contributions.get(load).is_none() {
+                return Err(format!("`{load}` brings something, and the file knows nothing of it"));
+            }
+        }
+        for (load, answer) in self.answers.contributions.iter().filter(|(load, _)| !depends_on_motion(self.file, load))
+        {
+            let own = found.iter().find_map(|(name, value)| (name == load).then_some(*value));
+            let own = own.ok_or_else(|| format!("there is no part of `{load}`"))?;
+            for (index, effort) in answer.efforts.iter().enumerate() {
+                let (off, size) = (difference(self.effort(own, index)?, effort)?.abs(), nearest(effort)?.abs());
+                let [loose, tight] = self.scales.effort_limits(index);
+                let [of_loose, of_tight] = self.scales.limits.each_ref().map(|limits| limits.reaction * size);
+                worst.see(off, [loose.max(of_loose), tight.max(of_tight)], || format!("effort {index} by {load}"));
+            }
+            let scale = self.scales.reaction.max(largest(answer.reactions.iter().map(|(_, reaction)| reaction))?);
+            let limits = self.scales.limits.each_ref().map(|limits| limits.reaction * scale);
+            self.reactions(own, answer.reactions.iter(), limits, &format!(" by {load}"), worst)?;
+        }
+        Ok(())
+    }
+
+    /// A field of a superposition under the file's name of its load; of gravity, a field for each link.
+    fn part<'v>(&self, (name, value): &'v (String, Value)) -> Vec<(String, &'v Value)> {
+        if name != WEIGHT {
+            return vec![(self.declaration.loads.original(name).unwrap_or(name).to_owned(), value)];
+        }
+        let of_link = |(link, value): &'v (String, Value)| {
+            let link = self.declaration.links.original(link).unwrap_or(link);
+            (format!("gravity:{link}"), value)
+        };
+        value.fields().iter().map(of_link).collect()
+    }
+
+    fn sums(&self, parts: &[(String, &Value)], worst: &mut Worst) -> Result<(), String> {
+        for (index, answer) in self.answers.efforts.iter().enumerate() {
+            let own: Vec<f64> =
+                parts.iter().map(|(_, part)| self.effort(part, index)).collect::<Result<_, String>>()?;
+            let off = difference(own.iter().sum(), answer.text())?.abs();
+            let largest = own.iter().fold(0.0, |most: f64, part| most.max(part.abs()));
+            let [loose, tight] = self.scales.effort_limits(index);
+            let [of_loose, of_tight] = self.scales.limits.each_ref().map(|limits| limits.reaction * largest);
+            worst.see(off, [loose.max(of_loose), tight.max(of_tight)], || format!("sum of parts of effort {index}"));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,441 @@
+//! A file as a declaration of `linkage!`.
+//!
+//! Names of a file may be anything and may meet each other; in a declaration all items share one namespace. So each gets a prefix
+//! with its number: the link `crank` is `L0_crank`, its point `A` `P1_A`, the joint `A` `J1_A`. All numbers are taken as SI: a
+//! consistent set of units gives consistent results.
+
+use crate::file::{Body, Coordinate, Effort, End, File, Given, Joint, JointKind, LoadKind, Place};
+use crate::number::{Mode, Number, Raw};
+
+/// The point at the origin of each link's frame: answers say where that is.
+pub(crate) const ORIGIN: &str = "origin";
+/// All loads at once.
+pub(crate) const ALL: &str = "all";
+/// Each load by itself.
+pub(crate) const PARTS: &str = "parts";
+/// The efforts by virtual work.
+pub(crate) const WORK: &str = "work";
+/// Where the links are.
+pub(crate) const PLACES: &str = "places";
+/// The load that gravity is.
+pub(crate) const WEIGHT: &str = "W";
+/// All scenes.
+pub(crate) const SCENES: [&str; 4] = [PLACES, ALL, PARTS, WORK];
+
+/// The names of one kind of item: in the file, and declared.
+#[derive(Debug, Default)]
+pub(crate) struct Names(Vec<(String, String)>);
+
+impl Names {
+    fn of<'a>(letter: char, names: impl Iterator<Item = &'a str>) -> Self {
+        Self(names.enumerate().map(|(index, name)| (name.to_owned(), declared(letter, index, name))).collect())
+    }
+
+    /// The declared name.
+    pub(crate) fn find(&self, name: &str) -> Result<&str, String> {
+        let found = self.0.iter().find(|(own, _)| own == name);
+        found.map(|(_, declared)| declared.as_str()).ok_or_else(|| format!("there is no `{name}`"))
+    }
+
+    /// The name in the file.
+    pub(crate) fn original(&self, declared: &str) -> Option<&str> {
+        self.0.iter().find_map(|(own, name)| (name == declared).then_some(own.as_str()))
+    }
+}
+
+fn declared(letter: char, index: usize, name: &str) -> String {
+    let safe: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    format!("{letter}{index}_{safe}")
+}
+
+/// A declaration but for the closures, which the compiler asks for.
+#[derive(Debug)]
+pub(crate) struct Declaration {
+    items: Vec<String>,
+    pub(crate) links: Names,
+    pub(crate) joints: Names,
+    pub(crate) loads: Names,
+    /// The unknowns, in the order of the inputs.
+    pub(crate) unknowns: Vec<String>,
+    /// The arguments at each position: only one if the file has no sweep.
+    pub(crate) positions: Vec<Vec<f64>>,
+    /// The loads that are given at run time, as expressions for each position.
+    pub(crate) run_time_loads: Vec<(String, Vec<String>)>,
+}
+
+impl Declaration {
+    pub(crate) fn of(file: &File) -> Result<Self, String> {
+        Writer::new(file).write()
+    }
+
+    /// With closures, as a whole.
+    pub(crate) fn text(&self, closures: &[String]) -> String {
+        let items = self.items.iter().chain(closures).map(|item| format!("    {item}\n"));
+        format!("    mod mechanism;\n{}", items.collect::<String>())
+    }
+}
+
+struct Writer<'a> {
+    file: &'a File,
+    /// Of a file that needs more than statics, the statics are declared.
+    dynamic: bool,
+    links: Names,
+    joints: Names,
+    loads: Names,
+    /// Of each link, the ground first: what is known of its points, and their declared names.
+    points: Vec<Vec<(Place, String)>>,
+}
+
+impl<'a> Writer<'a> {
+    fn new(file: &'a File) -> Self {
+        let links = Names::of('L', file.links.iter().map(|(name, _)| name));
+        let joints = Names::of('J', file.joints.iter().map(|joint| joint.name.as_str()));
+        let loads = Names::of('F', file.loads.iter().map(|load| load.name.as_str()));
+        let bodies = std::iter::once(&file.ground).chain(file.links.iter().map(|(_, body)| body));
+        let named = |body: &Body| {
+            let names = body.points.iter().enumerate();
+            names.map(|(index, (name, _))| (Place::Named(name.into()), declared('P', index, name))).collect()
+        };
+        Self { file, dynamic: is_dynamic(file), links, joints, loads, points: bodies.map(named).collect() }
+    }
+
+    fn number(&self, raw: &Raw) -> Result<Number, String> {
+        Number::new(raw, self.file.number_mode)
+    }
+
+    fn quantity(&self, raw: &Raw, unit: &str) -> Result<String, String> {
+        Ok(self.number(raw)?.in_unit(unit))
+    }
+
+    fn vector(&self, [x, y]: &[Raw; 2], unit: &str) -> Result<String, String> {
+        Ok(format!("({}, {})", self.quantity(x, unit)?, self.quantity(y, unit)?))
+    }
+
+    fn link(&self, name: &str) -> Result<String, String> {
+        if name == "ground" { Ok("ground".into()) } else { self.links.find(name).map(str::to_owned) }
+    }
+
+    /// A frame: `own` stands for the link on which a force acts.
+    fn frame(&self, frame: Option<&str>, own: &str) -> Result<String, String> {
+        self.link(match frame {
+            Some("link") => own,
+            Some(frame) => frame,
+            None => "ground",
+        })
+    }
+
+    /// A point, which is declared if it is given by coordinates.
+    fn point(&mut self, link: &str, place: &Place) -> Result<String, String> {
+        let index = match link {
+            "ground" => 0,
+            _ => {
+                1 + self.file.links.iter().position(|(name, _)| name == link).ok_or(format!("there is no `{link}`"))?
+            }
+        };
+        let points = &mut self.points[index];
+        let name = match (points.iter().find(|(own, _)| own == place), place) {
+            (Some((_, name)), _) => name.clone(),
+            (None, Place::Named(name)) => return Err(format!("`{link}` has no point `{name}`")),
+            (None, Place::At(_)) => {
+                let name = declared('P', points.len(), "at");
+                points.push((place.clone(), name.clone()));
+                name
+            }
+        };
+        Ok(format!("{}.{name}", self.link(link)?))
+    }
+
+    fn end(&mut self, End(link, place): &End) -> Result<String, String> {
+        self.point(link, place)
+    }
+
+    fn write(mut self) -> Result<Declaration, String> {
+        let mut items = Vec::new();
+        for joint in &self.file.joints {
+            items.push(self.joint(joint)?);
+        }
+        let unknowns = self.inputs(&mut items)?;
+        let run_time_loads = self.loads(&mut items)?;
+        self.masses(&mut items)?;
+        let places = self.links.0.iter().flat_map(|(_, link)| [format!("{link}.{ORIGIN}"), format!("{link}.angle")]);
+        items.push(format!("scene {PLACES}: position -> ({});", places.collect::<Vec<_>>().join(", ")));
+        items.push(format!("scene {ALL}: equilibrium;"));
+        items.push(format!("scene {PARTS}: superposition;"));
+        items.push(format!("scene {WORK}: virtual_work;"));
+        // Points last: those that are given by coordinates where they are used are known only now.
+        let mut all = self.bodies()?;
+        all.append(&mut items);
+        let positions = self.positions()?;
+        let Self { links, joints, loads, .. } = self;
+        Ok(Declaration { items: all, links, joints, loads, unknowns, positions, run_time_loads })
+    }
+
+    fn bodies(&self) -> Result<Vec<String>, String> {
+        let bodies = std::iter::once(("ground", &self.file.ground)).chain(self.file.links.iter());
+        let body = |((name, body), points): ((&str, &Body), &Vec<(Place, String)>)| {
+            let place = |(place, declared): &(Place, String)| {
+                let at = match place {
+                    Place::Named(name) => body.points.get(name).ok_or(format!("no point `{name}`"))?,
+                    Place::At(at) => at,
+                };
+                Ok(format!("{declared}: {}", self.vector(at, "m")?))
+            };
+            let mut places: Vec<String> = points.iter().map(place).collect::<Result<_, String>>()?;
+            if name == "ground" {
+                return Ok(format!("ground {{ {} }}", places.join(", ")));
+            }
+            places.push(format!("{ORIGIN}: (0, 0)"));
+            Ok(format!("link {} {{ {} }}", self.link(name)?, places.join(", ")))
+        };
+        bodies.zip(&self.points).map(body).collect()
+    }
+
+    fn joint(&mut self, joint: &Joint) -> Result<String, String> {
+        let name = self.joints.find(&joint.name)?.to_owned();
+        let carrier = self.link(&joint.a.0)?;
+        let ends = format!("{name}: {} -> {}", self.end(&joint.a)?, self.end(&joint.b)?);
+        let missing = |what: &str| format!("the joint `{}` has no {what}", joint.name);
+        let along = || -> Result<String, String> {
+            let [x, y] = joint.axis.as_ref().ok_or_else(|| missing("axis"))?;
+            Ok(format!("along ({}, {}) of {carrier}", self.number(x)?.bare(), self.number(y)?.bare()))
+        };
+        let angle = || -> Result<String, String> {
+            let angle = joint.angle.as_ref().map(|angle| self.quantity(angle, "rad")).transpose()?;
+            Ok(angle.map_or_else(String::new, |angle| format!(", angle {angle}")))
+        };
+        let length = |raw: Option<&Raw>, what: &str| self.quantity(raw.ok_or_else(|| missing(what))?, "m");
+        Ok(match joint.kind {
+            JointKind::Revolute => format!("revolute {ends};"),
+            JointKind::Prismatic => format!("prismatic {ends} {}{};", along()?, angle()?),
+            JointKind::PinInSlot => format!("slot {ends} {};", along()?),
+            JointKind::Weld => format!("weld {ends}{};", angle()?),
+            JointKind::Gear => {
+                let radii = [length(joint.ra.as_ref(), "ra")?, length(joint.rb.as_ref(), "rb")?];
+                let mut text = format!("gear {ends}, radii ({}, {})", radii[0], radii[1]);
+                if joint.internal {
+                    text.push_str(", internal");
+                }
+                if joint.phase.is_some() {
+                    text.push_str(&format!(", phase {}", length(joint.phase.as_ref(), "phase")?));
+                }
+                if let Some(angle) = &joint.pressure_angle {
+                    text.push_str(&format!(", pressure_angle {}", self.quantity(angle, "rad")?));
+                }
+                if let Some(flank) = joint.flank {
+                    text.push_str(if flank > 0 { ", flank left" } else { ", flank right" });
+                }
+                text + ";"
+            }
+        })
+    }
+
+    /// Drives and unknowns. Without any effort that acts elsewhere, each is the one at its driven joint.
+    fn inputs(&mut self, items: &mut Vec<String>) -> Result<Vec<String>, String> {
+        let elsewhere = self.file.inputs.iter().any(|input| input.effort.is_some());
+        let mut unknowns = Vec::new();
+        for (index, input) in self.file.inputs.iter().enumerate() {
+            let joint = self.file.joints.iter().find(|joint| joint.name == input.joint);
+            let joint = joint.ok_or_else(|| format!("there is no joint `{}`", input.joint))?;
+            let coordinate = match (joint.kind, input.coord) {
+                (JointKind::PinInSlot, Coordinate::Angle) => ".angle",
+                (JointKind::PinInSlot, Coordinate::Displacement) => ".travel",
+                _ => "",
+            };
+            items.push(format!("drive D{index}: {}{coordinate};", self.joints.find(&joint.name)?));
+            if elsewhere {
+                items.push(format!("unknown E{index}: {};", self.effort(input.effort.as_ref(), joint, input.coord)?));
+                unknowns.push(format!("E{index}"));
+            } else {
+                unknowns.push(format!("effort_D{index}"));
+            }
+        }
+        Ok(unknowns)
+    }
+
+    fn effort(&mut self, effort: Option<&Effort>, driven: &Joint, coord: Coordinate) -> Result<String, String> {
+        Ok(match (effort, coord) {
+            (Some(Effort::Moment { link, reaction_link }), _) => {
+                let from = reaction_link.as_deref().unwrap_or("ground");
+                format!("torque({} -> {})", self.link(from)?, self.link(link)?)
+            }
+            (Some(Effort::Force { link, point, direction: [x, y], frame }), _) => {
+                let frame = self.frame(frame.as_deref(), link)?;
+                let at = self.point(link, point)?;
+                format!("force({at}) along ({}, {}) of {frame}", self.number(x)?.bare(), self.number(y)?.bare())
+            }
+            (Some(Effort::Axial { a, b }), _) => format!("thrust({}, {})", self.end(a)?, self.end(b)?),
+            (None, Coordinate::Angle) => {
+                format!("torque({} -> {})", self.link(&driven.a.0)?, self.link(&driven.b.0)?)
+            }
+            (None, Coordinate::Displacement) => {
+                let Some([x, y]) = driven.axis.as_ref().filter(|_| driven.a.0 == "ground") else {
+                    return Err("beside an effort elsewhere, that along a moving slide has no words".into());
+                };
+                let at = self.end(&driven.b)?;
+                format!("force({at}) along ({}, {}) of ground", self.number(x)?.bare(), self.number(y)?.bare())
+            }
+        })
+    }
+
+    /// Loads: constants, but for those that have a value at each position.
+    fn loads(&mut self, items: &mut Vec<String>) -> Result<Vec<(String, Vec<String>)>, String> {
+        let mut run_time = Vec::new();
+        let series = self.file.sweep.as_ref().map_or(&[][..], |sweep| &sweep.load);
+        for load in &self.file.loads {
+            let name = self.loads.find(&load.name)?.to_owned();
+            let given = series.iter().find(|series| series.name == load.name);
+            if let Some(series) = given {
+                let field = match load.kind {
+                    LoadKind::Force { .. } | LoadKind::Axial { .. } => "force",
+                    LoadKind::Moment { .. } => "moment",
+                    LoadKind::Spring { .. } | LoadKind::TorsionSpring { .. } => "none",
+                };
+                if series.field != field {
+                    return Err(format!("`{}` of `{}` at each position has no words", series.field, series.name));
+                }
+                if Some(series.values.len()) != self.file.sweep.as_ref().map(|sweep| sweep.results.len()) {
+                    return Err(format!("`{}` has not one value for each position", series.name));
+                }
+                let values = series.values.iter().map(|value| self.at_run_time(value)).collect::<Result<_, _>>()?;
+                run_time.push((name.clone(), values));
+            }
+            let load = self.load(&load.kind, given.is_none())?;
+            items.push(format!("load {name}: {load};"));
+        }
+        if let Some(unknown) = series.iter().find(|s| self.loads.find(&s.name).is_err()) {
+            return Err(format!("there is no load `{}`", unknown.name));
+        }
+        Ok(run_time)
+    }
+
+    fn at_run_time(&self, given: &Given) -> Result<String, String> {
+        Ok(match given {
+            Given::Scalar(value) => format!("{:?}f64", self.number(value)?.value),
+            Given::Vector([x, y]) => {
+                format!("Vector2::new({:?}f64, {:?}f64)", self.number(x)?.value, self.number(y)?.value)
+            }
+        })
+    }
+
+    fn load(&mut self, load: &LoadKind, constant: bool) -> Result<String, String> {
+        let value = |text: String| if constant { format!(" = {text}") } else { String::new() };
+        Ok(match load {
+            LoadKind::Force { link, point, force, frame } => {
+                let frame = self.frame(frame.as_deref(), link)?;
+                let axes = if frame == "ground" { String::new() } else { format!(" in {frame}") };
+                format!("force({}){axes}{}", self.point(link, point)?, value(self.vector(force, "N")?))
+            }
+            LoadKind::Moment { link, moment, reaction_link } => {
+                let from = match reaction_link {
+                    Some(from) => format!("{} -> ", self.link(from)?),
+                    None => String::new(),
+                };
+                format!("moment({from}{}){}", self.link(link)?, value(self.quantity(moment, "N*m")?))
+            }
+            LoadKind::Axial { a, b, force } => {
+                format!("thrust({}, {}){}", self.end(a)?, self.end(b)?, value(self.quantity(force, "N")?))
+            }
+            LoadKind::Spring { a, b, stiffness, free_length, damping, preload } => {
+                let fields = self.fields(&[
+                    ("rate", stiffness.as_ref(), "N/m"),
+                    ("free", free_length.as_ref(), "m"),
+                    ("preload", preload.as_ref(), "N"),
+                    ("damping", damping.as_ref().filter(|_| !self.dynamic), "N*s/m"),
+                ])?;
+                format!("spring({}, {}) {{ {fields} }}", self.end(a)?, self.end(b)?)
+            }
+            LoadKind::TorsionSpring { a, b, stiffness, free_angle, damping } => {
+                let fields = self.fields(&[
+                    ("rate", stiffness.as_ref(), "N*m/rad"),
+                    ("free", free_angle.as_ref(), "rad"),
+                    ("damping", damping.as_ref().filter(|_| !self.dynamic), "N*m*s/rad"),
+                ])?;
+                format!("torsion({} -> {}) {{ {fields} }}", self.link(a)?, self.link(b)?)
+            }
+        })
+    }
+
+    fn fields(&self, fields: &[(&str, Option<&Raw>, &str)]) -> Result<String, String> {
+        let given = fields.iter().filter_map(|(name, raw, unit)| raw.map(|raw| (name, raw, unit)));
+        let written = given.map(|(name, raw, unit)| Ok(format!("{name}: {}", self.quantity(raw, unit)?)));
+        Ok(written.collect::<Result<Vec<_>, String>>()?.join(", "))
+    }
+
+    /// Masses, and the weight of what has one.
+    fn masses(&mut self, items: &mut Vec<String>) -> Result<(), String> {
+        let mut weighty = false;
+        for (name, body) in self.file.links.iter() {
+            let Some(mass) = body.mass.as_ref().map(|mass| self.number(mass)).transpose()? else { continue };
+            if mass.is_zero() {
+                if body.inertia.as_ref().map(|i| self.number(i)).transpose()?.is_some_and(|i| !i.is_zero()) {
+                    return Err(format!("`{name}` has a moment of inertia without a mass"));
+                }
+                continue;
+            }
+            weighty = true;
+            let at = match &body.centroid {
+                Some(Place::At(at)) => self.vector(at, "m")?,
+                Some(place) => {
+                    let point = self.point(name, place)?;
+                    point.split_once('.').map_or_else(String::new, |(_, point)| point.to_owned())
+                }
+                None => ORIGIN.to_owned(),
+            };
+            let inertia = match &body.inertia {
+                Some(inertia) => format!(", inertia {}", self.quantity(inertia, "kg*m^2")?),
+                None => String::new(),
+            };
+            items.push(format!("mass {}: {} at {at}{inertia};", self.link(name)?, mass.in_unit("kg")));
+        }
+        if let Some(gravity) = self.file.gravity.as_ref().filter(|_| weighty) {
+            items.push(format!("load {WEIGHT}: gravity = {};", self.vector(gravity, "m/s^2")?));
+        }
+        Ok(())
+    }
+
+    fn positions(&self) -> Result<Vec<Vec<f64>>, String> {
+        let own = self.file.inputs.iter().map(|input| Ok(self.number(&input.value)?.value));
+        let own = own.collect::<Result<Vec<f64>, String>>()?;
+        let Some(sweep) = &self.file.sweep else { return Ok(vec![own]) };
+        if sweep.input >= own.len() {
+            return Err(format!("there is no input {}", sweep.input));
+        }
+        let position = |value: &Raw| {
+            let mut all = own.clone();
+            all[sweep.input] = self.number(value)?.value;
+            Ok(all)
+        };
+        sweep.results.iter().map(|result| position(&result.value)).collect()
+    }
+}
+
+fn is_zero(raw: Option<&Raw>) -> bool {
+    raw.is_none_or(|raw| Number::new(raw, Mode::Decimal).is_ok_and(|number| number.is_zero()))
+}
+
+fn is_damped(load: &LoadKind) -> bool {
+    match load {
+        LoadKind::Spring { damping, .. } | LoadKind::TorsionSpring { damping, .. } => !is_zero(damping.as_ref()),
+        _ => false,
+    }
+}
+
+/// Whether inertia or damping plays a part: such a file needs more than statics.
+pub(crate) fn is_dynamic(file: &File) -> bool {
+    let moving = file.inputs.iter().any(|input| !is_zero(input.rate.as_ref()) || !is_zero(input.acc.as_ref()));
+    let has_inertia = |body: &Body| !is_zero(body.mass.as_ref()) || !is_zero(body.inertia.as_ref());
+    let massive = file.include_inertia && file.links.iter().any(|(_, body)| has_inertia(body));
+    moving && (massive || file.loads.iter().any(|load| is_damped(&load.kind)))
+}
+
+/// Whether what a load brings depends on how fast a file moves.
+pub(crate) fn depends_on_motion(file: &File, load: &str) -> bool {
+    let damped = file.loads.iter().any(|own| own.name == load && is_damped(&own.kind));
+    is_dynamic(file) && (load.starts_with("inertia:") || damped)
+}
+
+/// The file's joint of this name.
+pub(crate) fn joint_of<'a>(file: &'a File, names: &Names, declared: &str) -> Option<&'a Joint> {
+    let original = names.original(declared)?;
+    file.joints.iter().find(|joint| joint.name == original)
+}

@@ -1,0 +1,183 @@
+//! The crate that computes: all declarations as modules, and a program that prints what their scenes give.
+//!
+//! It is the emitted code that is held against the answers, compiled as anyone's would be. A module whose code does not compile is
+//! taken out, so that it costs no other file its verdict.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::closure::Closed;
+use crate::declaration::{Declaration, SCENES};
+
+/// A mechanism to be computed.
+pub(crate) struct Case<'a> {
+    pub(crate) declaration: &'a Declaration,
+    pub(crate) closed: &'a Closed,
+}
+
+/// The two functions of a scene.
+pub(crate) const FORMS: [&str; 2] = ["pose", "straight"];
+
+/// What the program printed for a mechanism.
+#[derive(Debug, Default)]
+pub(crate) struct Printed {
+    /// By position, scene and form.
+    pub(crate) results: BTreeMap<(usize, String, String), String>,
+    /// Why its code did not compile.
+    pub(crate) broken: Option<String>,
+}
+
+/// Compiles and runs all mechanisms. `name` tells crates of different folders from each other.
+pub(crate) fn run(cases: &[Case<'_>], name: &str) -> Result<Vec<Printed>, String> {
+    let mut printed: Vec<Printed> = cases.iter().map(|_| Printed::default()).collect();
+    let home = target().join("reference");
+    let at = home.join(name);
+    loop {
+        let sound: Vec<usize> = (0..cases.len()).filter(|case| printed[*case].broken.is_none()).collect();
+        if sound.is_empty() {
+            return Ok(printed);
+        }
+        write_crate(cases, &sound, &at, name).map_err(|error| format!("{}: {error}", at.display()))?;
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let output = Command::new(cargo)
+            .args(["run", "--quiet", "--offline"])
+            .env("CARGO_TARGET_DIR", home.join("target"))
+            .env_remove("RUSTFLAGS")
+            .current_dir(&at)
+            .output()
+            .map_err(|error| format!("cargo: {error}"))?;
+        let said = String::from_utf8_lossy(&output.stderr);
+        if output.status.success() {
+            collect(&String::from_utf8_lossy(&output.stdout), &mut printed);
+            return Ok(printed);
+        }
+        let broken = broken(&said);
+        if broken.is_empty() {
+            return Err(format!("the program of all mechanisms fails:\n{said}"));
+        }
+        for (case, message) in broken {
+            if let Some(printed) = printed.get_mut(case) {
+                printed.broken = Some(message);
+            }
+        }
+    }
+}
+
+fn workspace() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| workspace().join("target"), PathBuf::from)
+}
+
+/// A crate of its own workspace, with the versions of this one.
+fn write_crate(cases: &[Case<'_>], sound: &[usize], at: &Path, name: &str) -> std::io::Result<()> {
+    let workspace = workspace().canonicalize()?;
+    let source = at.join("src");
+    if source.exists() {
+        std::fs::remove_dir_all(&source)?;
+    }
+    std::fs::create_dir_all(&source)?;
+    let manifest = format!(
+        "[package]\nname = \"reference-{name}\"\nedition = \"2024\"\n\n\
+         [dependencies]\nlinkage-runtime = {{ path = \"{}\" }}\n\n\
+         # The compiler of declarations is in here.\n[profile.dev.build-override]\nopt-level = 2\n\n[workspace]\n",
+        workspace.join("linkage-runtime").display()
+    );
+    std::fs::write(at.join("Cargo.toml"), manifest)?;
+    std::fs::copy(workspace.join("Cargo.lock"), at.join("Cargo.lock"))?;
+    let (mut modules, mut calls) = (String::new(), String::new());
+    for case in sound {
+        let _ = writeln!(modules, "mod case_{case};");
+        let _ = writeln!(calls, "    case_{case}::run();");
+        std::fs::write(source.join(format!("case_{case}.rs")), module(*case, &cases[*case]))?;
+    }
+    std::fs::write(source.join("main.rs"), format!("{modules}\nfn main() {{\n{calls}}}\n"))
+}
+
+/// A linkage, and a function that prints what its scenes give at each position.
+fn module(index: usize, case: &Case<'_>) -> String {
+    let Case { declaration, closed } = case;
+    let functions = &closed.linkage.functions.scenes;
+    let scenes = &closed.linkage.model.scenes;
+    let mut text = String::new();
+    let imports = if declaration.run_time_loads.is_empty() { "linkage" } else { "Vector2, linkage" };
+    let _ =
+        writeln!(text, "#![allow(dead_code, unused_imports, unused_variables)]\nuse linkage_runtime::{{{imports}}};");
+    let _ = writeln!(text, "\nlinkage! {{\n{}}}\n\npub fn run() {{", closed.text);
+    let drives = declaration.positions.first().map_or(0, Vec::len);
+    let _ = writeln!(
+        text,
+        "    let positions: [[f64; {drives}]; {}] = {:?};",
+        declaration.positions.len(),
+        declaration.positions
+    );
+    if !declaration.run_time_loads.is_empty() {
+        let _ = writeln!(text, "    let loads = [");
+        for position in 0..declaration.positions.len() {
+            let fields = declaration.run_time_loads.iter();
+            let fields =
+                fields.map(|(name, values)| format!("{name}: {}", values.get(position).map_or("", String::as_str)));
+            let _ = writeln!(text, "        mechanism::Loads {{ {} }},", fields.collect::<Vec<_>>().join(", "));
+        }
+        let _ = writeln!(text, "    ];");
+    }
+    let arguments: Vec<String> = (0..drives).map(|drive| format!("at[{drive}]")).collect();
+    let arguments = arguments.join(", ");
+    let _ = writeln!(text, "    for (position, at) in positions.iter().enumerate() {{");
+    if !declaration.run_time_loads.is_empty() {
+        let _ = writeln!(text, "        let loads = loads[position];");
+    }
+    let _ = writeln!(text, "        let pose = mechanism::Pose::at({arguments});");
+    for scene in SCENES {
+        let Some(function) = scenes.iter().position(|s| s.name.text == scene).and_then(|s| functions.get(s)) else {
+            continue;
+        };
+        let of = |reads: bool, before: &str| if reads { format!("{before}&loads") } else { String::new() };
+        let from_pose = of(function.from_pose.reads_loads(), "");
+        let straight = of(function.direct.reads_loads(), ", ");
+        for (form, call) in FORMS.into_iter().zip([
+            format!("pose.and_then(|pose| pose.{scene}({from_pose}))"),
+            format!("mechanism::{scene}_at({arguments}{straight})"),
+        ]) {
+            let _ = writeln!(text, "        println!(\"{index} {{position}} {scene} {form} {{:?}}\", {call});");
+        }
+    }
+    text.push_str("    }\n}\n");
+    text
+}
+
+fn collect(output: &str, printed: &mut [Printed]) {
+    for line in output.lines() {
+        let mut words = line.splitn(5, ' ');
+        let mut next = || words.next().unwrap_or_default();
+        let (case, position, scene, form, result) = (next(), next(), next(), next(), next());
+        let (Ok(case), Ok(position)) = (case.parse::<usize>(), position.parse()) else { continue };
+        if let Some(printed) = printed.get_mut(case) {
+            printed.results.insert((position, scene.to_owned(), form.to_owned()), result.to_owned());
+        }
+    }
+}
+
+/// The cases in which the compiler of Rust found errors, each with the first one.
+fn broken(said: &str) -> BTreeMap<usize, String> {
+    let mut found = BTreeMap::new();
+    let mut error = "";
+    for line in said.lines() {
+        if line.starts_with("error") {
+            error = line;
+        }
+        let place = line.trim_start().strip_prefix("--> src/case_").and_then(|rest| rest.split_once(".rs"));
+        if let (Some(case), false) = (place.and_then(|(case, _)| case.parse().ok()), error.is_empty()) {
+            found.entry(case).or_insert_with(|| error.to_owned());
+            error = "";
+        }
+        if line.starts_with("warning") {
+            error = "";
+        }
+    }
+    found
+}
