@@ -1,6 +1,9 @@
 //! Between which bounds a value lies whatever its symbols are: what fails at every pose is found before any is given.
 
-use super::{Condition, Graph, Guard, Kernel, NodeId, Op};
+use std::collections::BTreeSet;
+
+use super::{Condition, Graph, Guard, Kernel, NodeId, Op, Symbol};
+use crate::model::ids::ParamId;
 
 /// Bounds that hold in spite of the rounding with which they are worked out.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +51,7 @@ impl Graph {
     /// Checks that fail whatever the parameters, the drives and the loads are.
     #[must_use]
     pub fn impossible_guards(&self) -> Vec<Guard> {
-        let guards = self.arena.borrow().guards.clone();
+        let guards = self.guards();
         let bounds = self.bounds();
         let fails = |guard: &Guard| {
             let [a, b] = guard.condition.operands();
@@ -61,6 +64,28 @@ impl Graph {
             bounds[a.index()].high < bounds[b.index()].low
         };
         guards.into_iter().filter(fails).collect()
+    }
+
+    /// All checks.
+    #[must_use]
+    pub fn guards(&self) -> Vec<Guard> {
+        self.arena.borrow().guards.clone()
+    }
+
+    /// The parameters that some nodes depend on.
+    #[must_use]
+    pub fn parameters_of(&self, nodes: &[NodeId]) -> BTreeSet<ParamId> {
+        let (mut open, mut seen, mut found) = (nodes.to_vec(), BTreeSet::new(), BTreeSet::new());
+        while let Some(node) = open.pop() {
+            if seen.insert(node) {
+                let op = self.op(node);
+                open.extend(op.operands());
+                if let Op::Symbol(Symbol::Parameter(param)) = op {
+                    found.insert(param);
+                }
+            }
+        }
+        found
     }
 
     /// The bounds of every node. Operands come before what reads them.

@@ -248,6 +248,15 @@ pub enum Condition<T = NodeId> {
 }
 
 impl<T: Copy> Condition<T> {
+    /// Whether values of the two sides satisfy it; NaN does not.
+    #[must_use]
+    pub fn holds<R: real::Real>(self, value: &R, limit: &R) -> bool {
+        match self {
+            Self::Above { .. } => value.above(limit),
+            Self::AtLeast { .. } => value.at_least(limit),
+        }
+    }
+
     /// The two sides.
     #[must_use]
     pub fn operands(self) -> [T; 2] {

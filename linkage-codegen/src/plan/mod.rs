@@ -22,12 +22,12 @@ pub use pivots::Pivots;
 pub use placement::Placement;
 pub use velocities::Motion;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::equations::System;
-use crate::graph::{Coordinate, Expr, NodeId, Op};
-use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
+use crate::graph::{Coordinate, Expr, NodeId, Op, Symbol};
+use crate::model::ids::{DriveId, GROUND, JointId, LinkId, ParamId};
 use crate::model::units::Kind;
 use crate::model::{End, Model, Pair};
 use crate::topology::{Group, Input, Topology};
@@ -134,6 +134,7 @@ impl Plan {
             force_rules: force_rules.iter().map(|rule| rule.class()).collect(),
         };
         check_possible(model, sink);
+        check_defaults(model, sink);
         sink.is_clean().then_some(plan)
     }
 }
@@ -313,6 +314,32 @@ fn check_possible(model: &Model, sink: &Sink) {
             Failure::Parameter { requirement } => Diagnostic::new(model.name.place(), requirement.clone()),
         };
         sink.report(found);
+    }
+}
+
+/// Defaults with which the linkage cannot be prepared.
+fn check_defaults(model: &Model, sink: &Sink) {
+    let graph = &model.graph;
+    let mut told = BTreeSet::new();
+    for guard in graph.guards() {
+        let crate::graph::Failure::Parameter { requirement } = &guard.failure else { continue };
+        let [value, limit] = guard.condition.operands();
+        let read = graph.parameters_of(&[value, limit]);
+        let default = |id: &ParamId| model.param(*id).default.and_then(|node| graph.constant_value(node));
+        let (Some(first), true) = (read.first(), read.iter().all(|id| default(id).is_some())) else { continue };
+        let known = |symbol| match symbol {
+            Symbol::Parameter(id) => default(&id).map_or(f64::NAN, |number| number.to_f64()),
+            _ => f64::NAN,
+        };
+        let mut done = HashMap::new();
+        let (value, limit) = (graph.evaluate(value, &known, &mut done), graph.evaluate(limit, &known, &mut done));
+        if !guard.condition.holds(&value, &limit) && told.insert(requirement.clone()) {
+            let name = &model.param(*first).name;
+            sink.report(
+                Diagnostic::new(name.place(), format!("{requirement}, which is not so with the default of `{name}`"))
+                    .help("change the default, or leave it out"),
+            );
+        }
     }
 }
 
