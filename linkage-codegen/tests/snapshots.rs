@@ -34,8 +34,8 @@ fn topology(linkage: &Linkage) -> String {
                 ("by", inputs.collect::<Vec<_>>().join(", ")),
             ];
             let parts = parts.into_iter().filter(|(_, names)| !names.is_empty());
-            let parts: String = parts.map(|(what, names)| format!("; {what} {names}")).collect();
-            let _ = writeln!(text, "  {}. {rule}: {}{parts}", index + 1, model.link_names(&group.links));
+            let parts: Vec<String> = parts.map(|(what, names)| format!("; {what} {names}")).collect();
+            let _ = writeln!(text, "  {}. {rule}: {}{}", index + 1, model.link_names(&group.links), parts.concat());
         }
     };
     list("motion", &linkage.topology.motion, &linkage.plan.motion_rules);

@@ -143,10 +143,8 @@ pub fn verify<T: RealField + Copy>(compared: &Compared<'_, T>) -> Result<Verific
     let singular = Error::DeadCentre { group: "the linkage", pivot: "determinant of the general equations" };
     let condition = equations.condition();
     // Beyond this the general solution has no digits.
-    if !(condition * T::default_epsilon() < T::one()) {
-        return Err(singular);
-    }
-    let general = equations.solve().ok_or(singular)?;
+    let regular = condition * T::default_epsilon() < T::one();
+    let general = equations.solve().filter(|_| regular).ok_or(singular)?;
     let efforts = equilibrium.len().saturating_sub(virtual_work.len());
     // The unknowns from `first` on, forces and moments each by their largest.
     let difference = |values: &[T], first: usize| {
