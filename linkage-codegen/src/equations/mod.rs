@@ -109,7 +109,7 @@ impl System {
             (0..model.unknowns.len()).map(|u| unknown_row(model, &model.graph, &dimensions, UnknownId::new(u)));
         let rows = joints.chain(unknowns).collect();
         let bodies = |link| Body::symbolic(&model.graph, link);
-        let cases = loads::cases(model)
+        let cases = loads::cases(&loads::Symbolic(model))
             .into_iter()
             .map(|(case, actions)| LoadCase {
                 case,
