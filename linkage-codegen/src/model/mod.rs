@@ -231,6 +231,8 @@ pub enum UnknownKind {
         /// In whose frame that is given.
         frame: LinkId,
     },
+    /// Opposite forces on two points along the line between them, positive where they push the points apart.
+    Thrust([End; 2]),
 }
 
 /// A chosen closure of a group.
@@ -449,6 +451,17 @@ impl Model {
     #[must_use]
     pub fn unknown(&self, id: UnknownId) -> &Unknown {
         &self.unknowns[id.index()]
+    }
+
+    /// The links on which an unknown acts.
+    #[must_use]
+    pub fn links_of(&self, unknown: UnknownId) -> Vec<LinkId> {
+        match self.unknown(unknown).kind {
+            UnknownKind::Drive(drive) => self.joint(self.drive(drive).joint).ends().map(|end| end.link).to_vec(),
+            UnknownKind::Torque(from, to) => vec![from, to],
+            UnknownKind::Force { at, .. } => vec![at.link],
+            UnknownKind::Thrust(ends) => ends.map(|end| end.link).to_vec(),
+        }
     }
 
     /// Coordinates of a point in its link's frame.

@@ -5,6 +5,7 @@
 
 mod assembly;
 mod balance;
+pub mod efforts;
 mod framed;
 mod half_angle;
 mod linear;

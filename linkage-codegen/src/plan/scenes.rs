@@ -401,7 +401,7 @@ fn reaction(balance: &Balance<'_, '_>, joint: JointId) -> Output {
 fn unknown_meaning(model: &Model, unknown: UnknownId) -> Meaning {
     match model.unknown(unknown).kind {
         UnknownKind::Torque(..) => Meaning::Moment,
-        UnknownKind::Force { .. } => Meaning::Force,
+        UnknownKind::Force { .. } | UnknownKind::Thrust(_) => Meaning::Force,
         UnknownKind::Drive(drive) => match model.joint(model.drive(drive).joint).kind {
             JointKind::Revolute => Meaning::Moment,
             JointKind::Prismatic { .. } => Meaning::Force,
@@ -420,6 +420,10 @@ pub(crate) fn unknown_doc(model: &Model, unknown: UnknownId) -> String {
         UnknownKind::Force { at, frame, .. } => {
             let turning = if frame == GROUND { String::new() } else { format!(", which turns with `{}`", name(frame)) };
             format!("Force on `{}` along its line{turning}, {force}.", model.end_name(at))
+        }
+        UnknownKind::Thrust([first, second]) => {
+            let (first, second) = (model.end_name(first), model.end_name(second));
+            format!("Thrust between `{first}` and `{second}`, {force}, positive where it pushes them apart.")
         }
         UnknownKind::Drive(drive) => {
             let joint = model.joint(model.drive(drive).joint);

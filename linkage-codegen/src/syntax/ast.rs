@@ -416,7 +416,7 @@ pub enum Effort {
     /// `force(link.P) along direction`
     Force(End, Box<Direction>),
     /// `thrust(a.P, b.Q)`
-    Thrust(Place),
+    Thrust([End; 2]),
 }
 
 /// A load.

@@ -374,7 +374,9 @@ impl Builder {
         if unknown_anywhere && self.random.chance(0.7) {
             let link = 1 + self.random.below(moving);
             let name = self.bodies[link].name.clone();
-            let line = if self.random.chance(0.5) {
+            let line = if self.random.chance(0.4) {
+                format!("unknown E: thrust({});\n", self.two_points())
+            } else if self.random.chance(0.5) {
                 let mut other = self.random.below(moving + 1);
                 if other == link {
                     other = 0;

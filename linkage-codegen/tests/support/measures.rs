@@ -194,7 +194,7 @@ fn is_moment(linkage: &Linkage, name: &str) -> bool {
     name.ends_with(".couple")
         || unknown.is_some_and(|unknown| match unknown.kind {
             UnknownKind::Torque(..) => true,
-            UnknownKind::Force { .. } => false,
+            UnknownKind::Force { .. } | UnknownKind::Thrust(_) => false,
             UnknownKind::Drive(drive) => {
                 matches!(linkage.model.joint(linkage.model.drive(drive).joint).kind, JointKind::Revolute)
             }
