@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use linkage_codegen::Linkage;
-use linkage_codegen::graph::{Op, Symbol};
 use linkage_codegen::model::LoadKind;
 use linkage_codegen::program::Fault;
 use support::linkages::{Kind, sample};
@@ -52,18 +51,22 @@ fn module(case: &Case) -> String {
     let Case { name, scalar, declaration, arguments, linkage } = case;
     let model = &linkage.model;
     let number = |value: f64| format!("({value:?}f64 as {scalar})");
-    let given = |node| matches!(model.graph.op(node), Op::Symbol(Symbol::Load(..)));
-    let loads: Vec<String> = model
-        .loads
-        .iter()
-        .zip(&arguments.loads)
-        .filter_map(|(load, [x, y])| match load.kind {
-            LoadKind::Moment { moment, .. } => given(moment).then(|| format!("{}: {}", load.name, number(*x))),
-            LoadKind::Force { force: pair, .. } | LoadKind::Gravity { acceleration: pair } => {
-                given(pair.x).then(|| format!("{}: Vector2::new({}, {})", load.name, number(*x), number(*y)))
+    let given = model.loads.iter().zip(&arguments.loads).filter(|(load, _)| load.kind.is_given_at_run_time(model));
+    let loads = given.map(|(load, values)| {
+        let value = match load.kind {
+            LoadKind::Moment { .. } | LoadKind::Thrust { .. } => number(values[0]),
+            LoadKind::Force { .. } | LoadKind::Gravity { .. } => {
+                format!("Vector2::new({}, {})", number(values[0]), number(values[1]))
             }
-        })
-        .collect();
+            LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
+                let place = |name| load.kind.values().iter().position(|(other, _)| *other == name).expect("a value");
+                let fields = load.kind.given(model).map(|name| format!("{name}: {}", number(values[place(name)])));
+                format!("sample::{} {{ {} }}", load.type_name(), fields.collect::<Vec<_>>().join(", "))
+            }
+        };
+        format!("{}: {value}", load.name)
+    });
+    let loads: Vec<String> = loads.collect();
     let params: Vec<String> = model
         .params
         .iter()

@@ -93,8 +93,8 @@ fn every_stage_of_every_example() {
     }
 }
 
-/// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives.
-const OTHERS: [(&str, &str); 3] = [
+/// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs.
+const OTHERS: [(&str, &str); 4] = [
     (
         "adjustable",
         "/// A crank-rocker whose dimensions are given at run time.
@@ -127,6 +127,22 @@ const OTHERS: [(&str, &str); 3] = [
         drive travel: run; drive turn: E;
         load W: gravity = 9.81m/s^2 @ -90deg; load lifted: force(arm.tip);
         scene held: equilibrium; scene work: virtual_work; scene place: position -> (E, arm.tip, arm.angle);",
+    ),
+    (
+        "balanced_arm",
+        "/// An arm whose weight a spring without free length balances at every angle, and a counter spring that does not.
+        pub mod balanced_arm; units { mm, N }
+        ground { O: (0, 0), P: (0, 200mm), Q: (-80mm, 0) } link arm { O -> tip: 400mm, M: (250mm, 0), K: (150mm, 0) }
+        mass arm: 1.2kg at M;
+        revolute O: ground -> arm; drive theta: O;
+        load W: gravity = 10m/s^2 @ -90deg;
+        load balance: spring(ground.P, arm.K) { rate: 0.1N/mm, free: 0 };
+        load counter: spring(arm.M, ground.Q) { rate: _, free: 60mm, preload: 5N };
+        load stop: torsion(ground -> arm) { rate: 3N*m/rad, free: 20deg };
+        load push: thrust(ground.Q, arm.tip);
+        scene balanced: equilibrium(W, balance) -> (effort_theta);
+        scene held: equilibrium; scene parts: superposition(counter, stop) -> (effort_theta, O);
+        scene work: virtual_work(balance, counter, stop, push); scene check: verify;",
     ),
 ];
 

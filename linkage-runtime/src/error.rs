@@ -56,6 +56,11 @@ pub enum Error {
         /// What vanishes there, such as `sin_mu_B`.
         pivot: &'static str,
     },
+    /// The two points between which a spring or a thrust acts coincide: its force has no direction.
+    CoincidentEnds {
+        /// The load or the unknown.
+        of: &'static str,
+    },
     /// A parameter is out of its range.
     Parameter {
         /// What is required.
@@ -78,6 +83,7 @@ impl fmt::Display for Error {
                 write!(f, "the outer joints of {group} coincide: the place of {joint} is undetermined")
             }
             Self::DeadCentre { group, pivot } => write!(f, "{group} is at a dead centre: {pivot} vanishes"),
+            Self::CoincidentEnds { of } => write!(f, "the ends of {of} coincide: it has no direction"),
             Self::Parameter { requirement } => f.write_str(requirement),
             Self::NotFinite { what } => write!(f, "{what} is not finite"),
         }

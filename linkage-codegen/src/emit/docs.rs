@@ -139,6 +139,9 @@ fn errors(program: &Program) -> Vec<String> {
                 Failure::DeadCentre { group, pivot } => {
                     add(format!("* [`Error::DeadCentre`]: {group} is at a dead centre, `{pivot}` vanishes."));
                 }
+                Failure::CoincidentEnds { of } => {
+                    add(format!("* [`Error::CoincidentEnds`]: the points between which `{of}` acts coincide."));
+                }
                 Failure::Parameter { requirement } => add(format!("* [`Error::Parameter`]: {requirement}.")),
             },
             Step::FiniteInput(_) => add("* [`Error::NotFinite`]: a drive is not a finite number.".into()),

@@ -1,5 +1,7 @@
 //! The derivation as text: free bodies, equilibrium equations, reduction, closed form.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::docs::blocks;
 use super::formula::{Formula, Nodes};
 use super::functions::{body, prepare_program};
@@ -7,7 +9,7 @@ use super::types::load_doc;
 use crate::Linkage;
 use crate::equations::joints::Component;
 use crate::equations::{Exerted, Source};
-use crate::graph::{NodeId, Op};
+use crate::graph::{NodeId, Op, Stage};
 use crate::model::ids::{LinkId, UnknownId};
 use crate::model::{JointKind, LoadKind, Method};
 use crate::plan::scenes::unknown_doc;
@@ -69,11 +71,18 @@ fn parts(linkage: &Linkage) -> String {
     });
     let loads = model.loads.iter().map(|load| {
         let value = match load.kind {
+            LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
+                let values = load.kind.values().into_iter();
+                let values = values.map(|(name, value)| format!("{name} {}", formula.of(value)));
+                format!(", {}", values.collect::<Vec<_>>().join(", "))
+            }
             _ if load.kind.is_given_at_run_time(model) => String::new(),
             LoadKind::Force { force: pair, .. } | LoadKind::Gravity { acceleration: pair } => {
                 format!(" = ({}, {})", formula.of(pair.x), formula.of(pair.y))
             }
-            LoadKind::Moment { moment, .. } => format!(" = {}", formula.of(moment)),
+            LoadKind::Moment { moment: value, .. } | LoadKind::Thrust { force: value, .. } => {
+                format!(" = {}", formula.of(value))
+            }
         };
         format!("  load      {}{value}: {}\n", load.name, plain(load_doc(model, &load.kind)))
     });
@@ -83,7 +92,7 @@ fn parts(linkage: &Linkage) -> String {
 /// The equilibrium equations of every moving link: `3(l − 1)` in all.
 fn free_bodies(linkage: &Linkage) -> String {
     let model = &linkage.model;
-    let mut text = String::from("Free bodies\n-----------\n\n");
+    let mut text = format!("Free bodies\n-----------\n\n{}", named_quantities(linkage));
     for link in model.moving_links() {
         let name = &model.link(link).name;
         let origin = origin_name(linkage, link);
@@ -96,6 +105,28 @@ fn free_bodies(linkage: &Linkage) -> String {
         text.push('\n');
     }
     text
+}
+
+/// What the loads at the links are made of, a line each.
+fn named_quantities(linkage: &Linkage) -> String {
+    let graph = &linkage.model.graph;
+    let rows = linkage.system.rows.iter().flat_map(|row| &row.exerts);
+    let exerted = rows.chain(linkage.system.cases.iter().flat_map(|case| &case.exerts));
+    let mut open: Vec<NodeId> = exerted.flat_map(|exerted| [exerted.x, exerted.y, exerted.moment]).collect();
+    let (mut seen, mut named) = (BTreeSet::new(), BTreeMap::new());
+    while let Some(node) = open.pop() {
+        if !seen.insert(node) || graph.stage(node) < Stage::Posed {
+            continue;
+        }
+        if let (Op::Quantity(inner), Some(label)) = (graph.op(node), graph.label(node)) {
+            named.insert(node, (label.name, inner));
+        }
+        open.extend(graph.op(node).operands());
+    }
+    let formula = Formula { model: &linkage.model, terms: Nodes(graph) };
+    let lines = named.into_values().map(|(name, inner)| format!("  {name} = {}\n", formula.of(inner)));
+    let lines: String = lines.collect();
+    if lines.is_empty() { lines } else { format!("what the loads are made of\n{lines}\n") }
 }
 
 /// What stands at the origin of a link's frame: a point of it, or the frame's origin itself.

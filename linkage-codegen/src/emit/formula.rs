@@ -1,6 +1,6 @@
 //! Expressions as text, in the notation of a textbook.
 
-use crate::graph::{Coordinate, Graph, Kernel, NodeId, Op, Symbol};
+use crate::graph::{Coordinate, Graph, Kernel, NodeId, Op, Stage, Symbol};
 use crate::model::Model;
 use crate::program::{Definition, Program, ValueId};
 
@@ -16,7 +16,7 @@ pub(super) trait Terms<T> {
 /// grows without bounds.
 const LENGTH: usize = 256;
 
-/// Nodes, written out in full.
+/// Nodes, written out down to the next names of what depends on the pose.
 pub(super) struct Nodes<'a>(pub(super) &'a Graph);
 
 impl Terms<NodeId> for Nodes<'_> {
@@ -25,6 +25,9 @@ impl Terms<NodeId> for Nodes<'_> {
     }
 
     fn name(&self, term: NodeId) -> Option<String> {
+        if let (Op::Quantity(_), Stage::Posed | Stage::Loaded) = (self.0.op(term), self.0.stage(term)) {
+            return self.0.label(term).map(|label| label.name);
+        }
         let mut open = vec![term];
         let mut operations = 0;
         while let Some(term) = open.pop() {
@@ -175,8 +178,8 @@ impl<S> Formula<'_, S> {
             Symbol::Drive(drive) => self.model.drive(drive).name.text.clone(),
             Symbol::Load(load, part) => {
                 let load = self.model.load(load);
-                let scalar = matches!(load.kind, crate::model::LoadKind::Moment { .. });
-                format!("{}{}", load.name, if scalar { "" } else { [".x", ".y"][usize::from(part.min(1))] })
+                let value = load.kind.values()[usize::from(part)].0;
+                format!("{}{}{value}", load.name, if value.is_empty() { "" } else { "." })
             }
             Symbol::Coordinate(link, coordinate) => {
                 let link = &self.model.link(link).name;

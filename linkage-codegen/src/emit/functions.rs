@@ -1,5 +1,7 @@
 //! The functions of a module.
 
+use std::collections::BTreeMap;
+
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -25,11 +27,7 @@ fn input_name(linkage: &Linkage, input: Input) -> String {
         Input::Symbol(Symbol::Parameter(param)) => model.param(param).name.text.clone(),
         Input::Symbol(Symbol::Load(load, part)) => {
             let load = model.load(load);
-            match (load.kind, part) {
-                (LoadKind::Moment { .. }, _) => load.name.text.clone(),
-                (_, 0) => format!("{}_x", load.name),
-                (_, _) => format!("{}_y", load.name),
-            }
+            load.value_name(load.kind.values()[usize::from(part)].0)
         }
         Input::Symbol(Symbol::Coordinate(..) | Symbol::Dimension(_)) => String::new(),
         Input::Kept(node) => {
@@ -62,21 +60,14 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
     let mut prepared = Vec::new();
     let mut kept = Vec::new();
     let mut statements = TokenStream::new();
-    let mut loads: Vec<(LoadId, [bool; 2])> = Vec::new();
+    let mut loads: BTreeMap<LoadId, Vec<u8>> = BTreeMap::new();
     for (_, input) in program.inputs() {
         let name = ident(&input_name(linkage, input));
         match input {
             Input::Prepared(_) => prepared.push(name),
             Input::Kept(_) => kept.push(name),
             Input::Symbol(Symbol::Drive(_)) if drives == Drives::Pose => kept.push(name),
-            Input::Symbol(Symbol::Load(load, part)) => match loads.iter_mut().find(|(other, _)| *other == load) {
-                Some((_, parts)) => parts[usize::from(part)] = true,
-                None => {
-                    let mut parts = [false; 2];
-                    parts[usize::from(part)] = true;
-                    loads.push((load, parts));
-                }
-            },
+            Input::Symbol(Symbol::Load(load, part)) => loads.entry(load).or_default().push(part),
             Input::Symbol(_) => {}
         }
     }
@@ -86,20 +77,29 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
     if !prepared.is_empty() {
         statements.extend(quote!(let Linkage { #(#prepared,)* .. } = *linkage;));
     }
-    loads.sort();
-    for (load, [x, y]) in loads {
+    for (load, read) in loads {
         let data = linkage.model.load(load);
         let name = ident(&data.name.text);
-        if matches!(data.kind, LoadKind::Moment { .. }) {
-            statements.extend(quote!(let #name = loads.#name;));
-            continue;
-        }
-        let part = |read: bool, part: u8| {
-            let name = ident(&input_name(linkage, Input::Symbol(Symbol::Load(load, part))));
-            if read { quote!(#name) } else { quote!(_) }
-        };
-        let (x, y) = (part(x, 0), part(y, 1));
-        statements.extend(quote!(let [[#x, #y]] = loads.#name.data.0;));
+        let local = |part: u8| ident(&input_name(linkage, Input::Symbol(Symbol::Load(load, part))));
+        statements.extend(match data.kind {
+            LoadKind::Moment { .. } | LoadKind::Thrust { .. } => quote!(let #name = loads.#name;),
+            LoadKind::Force { .. } | LoadKind::Gravity { .. } => {
+                let part = |part: u8| {
+                    let name = local(part);
+                    if read.contains(&part) { quote!(#name) } else { quote!(_) }
+                };
+                let (x, y) = (part(0), part(1));
+                quote!(let [[#x, #y]] = loads.#name.data.0;)
+            }
+            LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
+                let values = data.kind.values();
+                let each = read.iter().map(|part| {
+                    let (field, local) = (ident(values[usize::from(*part)].0), local(*part));
+                    quote!(let #local = loads.#name.#field;)
+                });
+                each.collect()
+            }
+        });
     }
     statements
 }

@@ -7,7 +7,7 @@ use super::literals::{ident, signed_literal};
 use crate::Linkage;
 use crate::model::ids::{GROUND, LoadId};
 use crate::model::units::Kind;
-use crate::model::{JointKind, LoadKind, Method, Model, type_name};
+use crate::model::{JointKind, Load, LoadKind, Method, Model, type_name};
 use crate::plan::Output;
 
 /// The scalar type.
@@ -28,6 +28,7 @@ pub(super) fn run_time_loads(model: &Model) -> Vec<LoadId> {
 /// `Loads`: a field for each load that is given at run time; none if there is none. Of a model that is not whole only names are sure.
 pub(super) fn loads(model: &Model, whole: bool) -> TokenStream {
     let scalar = scalar(model);
+    let mut springs = TokenStream::new();
     let fields: Vec<TokenStream> = run_time_loads(model)
         .into_iter()
         .map(|load| {
@@ -35,8 +36,13 @@ pub(super) fn loads(model: &Model, whole: bool) -> TokenStream {
             let name = ident(&load.name.text);
             let doc = if whole { format!(" {}", load_doc(model, &load.kind)) } else { String::new() };
             let ty = match load.kind {
-                LoadKind::Moment { .. } => quote!(#scalar),
+                LoadKind::Moment { .. } | LoadKind::Thrust { .. } => quote!(#scalar),
                 LoadKind::Force { .. } | LoadKind::Gravity { .. } => quote!(Vector2<#scalar>),
+                LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
+                    let ty = ident(&load.type_name());
+                    springs.extend(spring(model, load));
+                    quote!(#ty)
+                }
             };
             quote!(#[doc = #doc] pub #name: #ty)
         })
@@ -48,6 +54,31 @@ pub(super) fn loads(model: &Model, whole: bool) -> TokenStream {
         /// The loads that are given at run time.
         #[derive(Clone, Copy, Debug, Default, PartialEq)]
         pub struct Loads { #(#fields),* }
+        #springs
+    }
+}
+
+/// The type of what is given of a spring at run time.
+fn spring(model: &Model, load: &Load) -> TokenStream {
+    let (scalar, ty) = (scalar(model), ident(&load.type_name()));
+    let turns = matches!(load.kind, LoadKind::Torsion { .. });
+    let fields = load.kind.given(model).map(|value| {
+        let name = ident(value);
+        let (what, kind) = match (value, turns) {
+            ("rate", false) => ("Force per length", Kind::Stiffness),
+            ("rate", true) => ("Moment per angle", Kind::TorsionStiffness),
+            ("free", false) => ("Length without force, but for its preload", Kind::Length),
+            ("free", true) => ("Angle without moment", Kind::Angle),
+            _ => ("Tension at its free length", Kind::Force),
+        };
+        let doc = format!(" {what}, {}.", kind.unit(&model.units));
+        quote!(#[doc = #doc] pub #name: #scalar)
+    });
+    let doc = format!(" What is given of the spring `{}` at run time.", load.name);
+    quote! {
+        #[doc = #doc]
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        pub struct #ty { #(#fields),* }
     }
 }
 
@@ -62,6 +93,18 @@ pub(super) fn load_doc(model: &Model, kind: &LoadKind) -> String {
         LoadKind::Moment { on, from, .. } => {
             let by = from.map_or_else(String::new, |from| format!(" by `{}`", link(from)));
             format!("Moment on `{}`{by}, {}, counter-clockwise.", link(*on), Kind::Moment.unit(&model.units))
+        }
+        LoadKind::Thrust { ends: [first, second], .. } => format!(
+            "Thrust between `{}` and `{}`, {}, positive where it pushes them apart.",
+            model.end_name(*first),
+            model.end_name(*second),
+            Kind::Force.unit(&model.units)
+        ),
+        LoadKind::Spring { ends: [first, second], .. } => {
+            format!("Spring between `{}` and `{}`.", model.end_name(*first), model.end_name(*second))
+        }
+        LoadKind::Torsion { from, on, .. } => {
+            format!("Torsion spring on `{}`, reacted by `{}`.", link(*on), link(*from))
         }
         LoadKind::Gravity { .. } => {
             format!("Acceleration of gravity, {}, ground axes.", Kind::Acceleration.unit(&model.units))

@@ -109,7 +109,7 @@ impl System {
             (0..model.unknowns.len()).map(|u| unknown_row(model, &model.graph, &dimensions, UnknownId::new(u)));
         let rows = joints.chain(unknowns).collect();
         let bodies = |link| Body::symbolic(&model.graph, link);
-        let cases = loads::cases(model)
+        let cases = loads::cases(&loads::Symbolic(model))
             .into_iter()
             .map(|(case, actions)| LoadCase {
                 case,
@@ -157,6 +157,17 @@ pub fn unknown_row<'g>(model: &Model, graph: &'g Graph, dimensions: &dyn Dimensi
         UnknownKind::Force { at, along, frame } => {
             let force = bodies(frame).turned(along_in(model, graph, along));
             vec![loads::exerted_at(at.link, &bodies(at.link), dimensions.local(at), force)]
+        }
+        UnknownKind::Thrust(ends) => {
+            let [first, second] = ends.map(|end| bodies(end.link).point(dimensions.local(end)));
+            let name = &model.unknown(unknown).name;
+            let span = (second - first).named(&format!("{name}_span"), "");
+            let direction = graph.unit(span).named_direction(name, "");
+            let forces = ends.into_iter().zip([-direction, direction]).filter(|(end, _)| end.link != GROUND);
+            let exerts = |(end, force): (End, Vector<'g>)| {
+                loads::exerted_at(end.link, &bodies(end.link), dimensions.local(end), force)
+            };
+            forces.map(exerts).collect()
         }
     };
     Row { source, residual: None, exerts }

@@ -301,6 +301,11 @@ pub enum Failure<T = NodeId> {
         /// What vanishes.
         pivot: String,
     },
+    /// Two points coincide between which something acts.
+    CoincidentEnds {
+        /// What acts between them.
+        of: String,
+    },
     /// A parameter is out of its range.
     Parameter {
         /// What is wrong with it, as `crank: |A0 A| must be positive`.
@@ -326,6 +331,7 @@ impl<T: Copy> Failure<T> {
                 Failure::CoincidentPivots { group: group.clone(), joint: joint.clone() }
             }
             Self::DeadCentre { group, pivot } => Failure::DeadCentre { group: group.clone(), pivot: pivot.clone() },
+            Self::CoincidentEnds { of } => Failure::CoincidentEnds { of: of.clone() },
             Self::Parameter { requirement } => Failure::Parameter { requirement: requirement.clone() },
         }
     }

@@ -7,11 +7,11 @@ use super::ids::{GROUND, LinkId, LoadId, PointId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
 use super::units::Kind;
-use super::{End, Load, LoadKind, Model};
+use super::{End, Load, LoadKind, Model, Pair};
 use crate::diagnostics::{Diagnostic, Sink};
-use crate::graph::{Expr, Symbol, Vector};
+use crate::graph::{Expr, NodeId, Symbol, Vector};
 use crate::syntax::ast::{self, Ast, Item, Magnitude};
-use crate::syntax::is_constant;
+use crate::syntax::is_given_at_run_time;
 
 /// Loads; what is given at run time becomes a symbol.
 pub(super) fn loads(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
@@ -21,35 +21,55 @@ pub(super) fn loads(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         if let Some((broken, name)) = unread(item, Role::Load) {
             let word = broken.words().first().map_or(String::new(), |word| word.text.clone());
             let written: Vec<TokenTree> = broken.rest.clone().into_iter().collect();
-            let kind = stand_in(model, id, &word, is_constant(&word, &written));
+            let kind = stand_in(model, id, &word, &|value| is_given_at_run_time(&word, &written, value));
             model.loads.push(Load { name: name.clone(), kind });
         }
         let Item::Load(given) = item else { continue };
-        let kind = sink.absorb(kind(Scope { model, names }, given, id)).flatten();
+        let kind = kind(Scope { model, names }, given, id, sink);
+        let kind = sink.absorb(kind).flatten();
         if massless && matches!(given.kind, ast::LoadKind::Gravity) {
             sink.report(without_mass(model, given));
         }
-        let kind = kind.unwrap_or_else(|| {
-            let (word, constant) = match &given.kind {
-                ast::LoadKind::Force { .. } => ("force", given.magnitude.is_some()),
-                ast::LoadKind::Moment { .. } => ("moment", given.magnitude.is_some()),
-                ast::LoadKind::Gravity => ("gravity", given.magnitude.is_some()),
-                ast::LoadKind::Planned(word, constant) => (word.text.as_str(), *constant),
-            };
-            stand_in(model, id, word, constant)
-        });
+        let kind = kind.unwrap_or_else(|| refused(model, given, id));
         model.loads.push(Load { name: given.name.clone(), kind });
     }
 }
 
-/// A load that is refused still brings its name, its type, and whether it is given at run time.
-fn stand_in(model: &Model, id: LoadId, word: &str, constant: bool) -> LoadKind {
-    let part = |part| if constant { model.graph.zero() } else { model.graph.symbol(Symbol::Load(id, part)) };
-    let vector = Vector::new(part(0), part(1)).into();
+/// What stands for a load that is refused.
+fn refused(model: &Model, given: &ast::Load, id: LoadId) -> LoadKind {
+    let (word, fields) = match &given.kind {
+        ast::LoadKind::Force { .. } => ("force", None),
+        ast::LoadKind::Moment { .. } => ("moment", None),
+        ast::LoadKind::Gravity => ("gravity", None),
+        ast::LoadKind::Thrust(_) => ("thrust", None),
+        ast::LoadKind::Spring(_, fields) => ("spring", Some(fields)),
+        ast::LoadKind::Torsion { fields, .. } => ("torsion", Some(fields)),
+        ast::LoadKind::Planned(word) => (word.text.as_str(), None),
+    };
+    stand_in(model, id, word, &|value| match fields {
+        Some(fields) => fields.iter().any(|field| field.name.text == value && field.value.is_none()),
+        None => given.magnitude.is_none() && word != "inertia",
+    })
+}
+
+/// A load that is refused still brings its name, its type, and which of its values are given at run time.
+fn stand_in(model: &Model, id: LoadId, word: &str, given: &dyn Fn(&str) -> bool) -> LoadKind {
+    let value = |part: u8, name: &str| {
+        if given(name) { model.graph.symbol(Symbol::Load(id, part)) } else { model.graph.zero() }.id()
+    };
+    let vector = Pair { x: value(0, "x"), y: value(1, "y") };
+    let nowhere = End { link: GROUND, point: PointId::FIRST };
     match word {
-        "moment" | "thrust" | "torsion" => LoadKind::Moment { on: GROUND, from: None, moment: part(0).id() },
+        "moment" => LoadKind::Moment { on: GROUND, from: None, moment: value(0, "") },
         "gravity" => LoadKind::Gravity { acceleration: vector },
-        _ => LoadKind::Force { at: End { link: GROUND, point: PointId::FIRST }, force: vector, frame: GROUND },
+        "thrust" => LoadKind::Thrust { ends: [nowhere; 2], force: value(0, "") },
+        "spring" => {
+            let [rate, free, preload] =
+                [(0, "rate"), (1, "free"), (2, "preload")].map(|(part, name)| value(part, name));
+            LoadKind::Spring { ends: [nowhere; 2], rate, free, preload }
+        }
+        "torsion" => LoadKind::Torsion { from: GROUND, on: GROUND, rate: value(0, "rate"), free: value(1, "free") },
+        _ => LoadKind::Force { at: nowhere, force: vector, frame: GROUND },
     }
 }
 
@@ -69,7 +89,7 @@ fn without_mass(model: &Model, given: &ast::Load) -> Diagnostic {
         .help(format!("give one to a link, as in `mass {link}: 0.5kg at (0, 0);`, or leave `{}` out", given.name))
 }
 
-fn kind(scope: Scope<'_>, given: &ast::Load, id: LoadId) -> Result<Option<LoadKind>, Diagnostic> {
+fn kind(scope: Scope<'_>, given: &ast::Load, id: LoadId, sink: &Sink) -> Result<Option<LoadKind>, Diagnostic> {
     match &given.kind {
         ast::LoadKind::Force { at, frame } => {
             let Some(at_end) = end(scope, at, None)? else { return Ok(None) };
@@ -93,7 +113,7 @@ fn kind(scope: Scope<'_>, given: &ast::Load, id: LoadId) -> Result<Option<LoadKi
                 Some(name) => scope.names.find(Role::Link, name)?.map(LinkId::new),
                 None => None,
             };
-            let moment = scalar(scope, given, id)?;
+            let moment = scalar(scope, given, id, Kind::Moment)?;
             let Some(on_link) = on_link else { return Ok(None) };
             if Some(on_link) == from_link {
                 let place = from.as_ref().map_or(on.place(), |from| from.place().to(on.place()));
@@ -111,30 +131,118 @@ fn kind(scope: Scope<'_>, given: &ast::Load, id: LoadId) -> Result<Option<LoadKi
             let acceleration = vector(scope, given, id, Kind::Acceleration)?;
             Ok(Some(LoadKind::Gravity { acceleration: acceleration.into() }))
         }
-        ast::LoadKind::Planned(word, _) => {
-            let name = &given.name;
-            let (what, help) = match word.text.as_str() {
-                "thrust" => (
-                    "a thrust between two points is",
-                    format!("until then work it out, and give it as a force on each link: `load {name}1: force(…);`"),
-                ),
-                "spring" => (
-                    "springs and dampers between points are",
-                    format!("until then work their force out, and give it on each link: `load {name}1: force(…);`"),
-                ),
-                "torsion" => (
-                    "torsion springs and dampers are",
-                    format!("until then work their moment out, and give it: `load {name}: moment(ground -> crank);`"),
-                ),
-                _ => (
-                    "inertia forces are",
-                    format!(
-                        "until then give each as a force at the centre of mass and a moment: `load {name}1: force(…);`"
-                    ),
-                ),
-            };
-            Err(Diagnostic::new(word.place(), format!("{what} not supported yet")).help(help))
+        ast::LoadKind::Thrust(ends) => {
+            let ends = two_points(scope, ends)?;
+            let force = scalar(scope, given, id, Kind::Force)?.id();
+            Ok(ends.map(|ends| LoadKind::Thrust { ends, force }))
         }
+        ast::LoadKind::Spring(ends, fields) => {
+            let ends = two_points(scope, ends);
+            let [rate, free, preload] = spring_values(scope, given, fields, id, sink)?;
+            Ok(ends?.map(|ends| LoadKind::Spring { ends, rate, free, preload }))
+        }
+        ast::LoadKind::Torsion { from, on, fields } => {
+            let links = scope.names.find(Role::Link, from)?.zip(scope.names.find(Role::Link, on)?);
+            let [rate, free, _] = spring_values(scope, given, fields, id, sink)?;
+            if from.text == on.text {
+                return Err(Diagnostic::new(
+                    from.place().to(on.place()),
+                    format!("a torsion spring on `{on}` by itself"),
+                )
+                .help(format!("say which other link reacts it: `torsion(ground -> {on})`")));
+            }
+            Ok(links.map(|(from, on)| LoadKind::Torsion { from: LinkId::new(from), on: LinkId::new(on), rate, free }))
+        }
+        ast::LoadKind::Planned(word) => {
+            let name = &given.name;
+            Err(Diagnostic::new(word.place(), "inertia forces are not supported yet").help(format!(
+                "until then give each as a force at the centre of mass and a moment: `load {name}1: force(…);`"
+            )))
+        }
+    }
+}
+
+/// Two points between which something acts: points of two links.
+pub(super) fn two_points(scope: Scope<'_>, ends: &[ast::End; 2]) -> Result<Option<[End; 2]>, Diagnostic> {
+    let (Some(first), Some(second)) = (end(scope, &ends[0], None)?, end(scope, &ends[1], None)?) else {
+        return Ok(None);
+    };
+    if first.link == second.link {
+        let problem = format!("both points belong to `{}`: what acts between them does not move", ends[0].link);
+        return Err(
+            Diagnostic::new(ends[0].place().to(ends[1].place()), problem).help("name points of two different links")
+        );
+    }
+    Ok(Some([first, second]))
+}
+
+/// Rate, free length or angle, and preload of a spring.
+fn spring_values(
+    scope: Scope<'_>,
+    given: &ast::Load,
+    fields: &[ast::SpringField],
+    id: LoadId,
+    sink: &Sink,
+) -> Result<[NodeId; 3], Diagnostic> {
+    let turns = matches!(given.kind, ast::LoadKind::Torsion { .. });
+    let known: &[(&str, Kind)] = if turns {
+        &[("rate", Kind::TorsionStiffness), ("free", Kind::Angle)]
+    } else {
+        &[("rate", Kind::Stiffness), ("free", Kind::Length), ("preload", Kind::Force)]
+    };
+    let mut values: [Option<NodeId>; 3] = [None; 3];
+    for field in fields {
+        let name = &field.name;
+        let Some(part) = known.iter().position(|(word, _)| *word == name.text) else {
+            sink.report(unknown_field(name, turns, known));
+            continue;
+        };
+        if values[part].is_some() {
+            sink.report(Diagnostic::new(name.place(), format!("`{name}` is given twice")).help("keep one of the two"));
+        }
+        let value = match &field.value {
+            None => Some(scope.model.graph.symbol(Symbol::Load(id, [0, 1, 2][part]))),
+            Some(value) => {
+                let found = sink.absorb(scope.scalar(value, known[part].1));
+                let negative = found.is_some_and(|found| found.sign() == Some(-1));
+                if negative && (name.text == "rate" || !turns && name.text == "free") {
+                    let what = if name.text == "rate" { "the rate of a spring" } else { "a free length" };
+                    sink.report(Diagnostic::new(value.place, format!("{what} cannot be negative")));
+                }
+                found
+            }
+        };
+        // What could not be read is reported; it is not missing.
+        values[part] = Some(value.unwrap_or_else(|| scope.model.graph.one()).id());
+    }
+    let broken = fields.iter().any(|field| known.iter().all(|(word, _)| *word != field.name.text));
+    let name = &given.name;
+    let missing = |problem: String, help: &str| Err(Diagnostic::new(name.place(), problem).help(help));
+    match values {
+        [Some(rate), Some(free), preload] => Ok([rate, free, preload.unwrap_or(scope.model.graph.zero().id())]),
+        // A field that was meant to be this one has been reported.
+        _ if broken => Ok([scope.model.graph.one().id(); 3]),
+        [None, ..] if turns => missing(format!("the torsion spring `{name}` has no rate"), "say it: `rate: 3N*m/rad`"),
+        [None, ..] => missing(format!("the spring `{name}` has no rate"), "say it: `rate: 2N/mm`"),
+        _ if turns => missing(
+            format!("the torsion spring `{name}` has no free angle"),
+            "say at which angle it is slack: `free: 20deg`",
+        ),
+        _ => missing(
+            format!("the spring `{name}` has no free length"),
+            "say how long it is when slack: `free: 60mm`; `free: 0` where its force grows in proportion to its length",
+        ),
+    }
+}
+
+fn unknown_field(name: &ast::Name, turns: bool, known: &[(&str, Kind)]) -> Diagnostic {
+    match name.text.as_str() {
+        "damping" => Diagnostic::new(name.place(), "dampers are not supported yet")
+            .help("leave it out: in statics, where nothing moves, a damper exerts nothing"),
+        "preload" if turns => Diagnostic::new(name.place(), "a torsion spring has no preload of its own")
+            .help("let its free angle say so: it is where the moment is zero"),
+        other => Diagnostic::new(name.place(), format!("a spring has no `{name}`"))
+            .suggest(other, known.iter().map(|(word, _)| *word)),
     }
 }
 
@@ -152,31 +260,50 @@ fn vector<'m>(scope: Scope<'m>, given: &ast::Load, id: LoadId, kind: Kind) -> Re
     }
 }
 
-fn scalar<'m>(scope: Scope<'m>, given: &ast::Load, id: LoadId) -> Result<Expr<'m>, Diagnostic> {
+fn scalar<'m>(scope: Scope<'m>, given: &ast::Load, id: LoadId, kind: Kind) -> Result<Expr<'m>, Diagnostic> {
     match &given.magnitude {
         None => Ok(scope.model.graph.symbol(Symbol::Load(id, 0))),
-        Some(Magnitude::Scalar(value)) => scope.scalar(value, Kind::Moment),
-        Some(Magnitude::Vector(vector)) => {
+        Some(Magnitude::Scalar(value)) => scope.scalar(value, kind),
+        Some(Magnitude::Vector(vector)) if kind == Kind::Moment => {
             Err(Diagnostic::new(vector.place, "in the plane a moment is a single number")
-                .help(format!("write `{}`, positive counter-clockwise", Kind::Moment.example(&scope.model.units))))
+                .help(format!("write `{}`, positive counter-clockwise", kind.example(&scope.model.units))))
+        }
+        Some(Magnitude::Vector(vector)) => {
+            Err(Diagnostic::new(vector.place, "a thrust is a single number: its direction is that of its two points")
+                .help(format!("write `{}`, positive where it pushes them apart", kind.example(&scope.model.units))))
         }
     }
 }
 
 impl LoadKind {
-    /// Whether any of its values is given at run time.
+    /// Its values, each with its name behind that of the load: none where there is only one.
     #[must_use]
-    pub fn is_given_at_run_time(&self, model: &Model) -> bool {
-        let symbol = |id| matches!(model.graph.op(id), crate::graph::Op::Symbol(Symbol::Load(..)));
-        match self {
-            Self::Force { force: pair, .. } | Self::Gravity { acceleration: pair } => symbol(pair.x),
-            Self::Moment { moment, .. } => symbol(*moment),
+    pub fn values(&self) -> Vec<(&'static str, NodeId)> {
+        match *self {
+            Self::Force { force: Pair { x, y }, .. } | Self::Gravity { acceleration: Pair { x, y } } => {
+                vec![("x", x), ("y", y)]
+            }
+            Self::Moment { moment: value, .. } | Self::Thrust { force: value, .. } => vec![("", value)],
+            Self::Spring { rate, free, preload, .. } => vec![("rate", rate), ("free", free), ("preload", preload)],
+            Self::Torsion { rate, free, .. } => vec![("rate", rate), ("free", free)],
         }
     }
 
-    /// Where a force acts.
+    /// The values that are given at run time.
+    pub fn given(&self, model: &Model) -> impl Iterator<Item = &'static str> {
+        let symbol = |id| matches!(model.graph.op(id), crate::graph::Op::Symbol(Symbol::Load(..)));
+        self.values().into_iter().filter(move |(_, value)| symbol(*value)).map(|(name, _)| name)
+    }
+
+    /// Whether it is a spring: what is given of it at run time has a type of its own.
     #[must_use]
-    pub fn point(&self) -> Option<End> {
-        if let Self::Force { at, .. } = self { Some(*at) } else { None }
+    pub fn is_spring(&self) -> bool {
+        matches!(self, Self::Spring { .. } | Self::Torsion { .. })
+    }
+
+    /// Whether any of its values is given at run time.
+    #[must_use]
+    pub fn is_given_at_run_time(&self, model: &Model) -> bool {
+        self.given(model).next().is_some()
     }
 }

@@ -231,6 +231,8 @@ pub enum UnknownKind {
         /// In whose frame that is given.
         frame: LinkId,
     },
+    /// Opposite forces on two points along the line between them, positive where they push the points apart.
+    Thrust([End; 2]),
 }
 
 /// A chosen closure of a group.
@@ -287,6 +289,20 @@ pub struct Load {
     pub kind: LoadKind,
 }
 
+impl Load {
+    /// What one of its values is called in the generated functions.
+    #[must_use]
+    pub fn value_name(&self, value: &str) -> String {
+        if value.is_empty() { self.name.text.clone() } else { format!("{}_{value}", self.name) }
+    }
+
+    /// The type of what is given of a spring at run time.
+    #[must_use]
+    pub fn type_name(&self) -> String {
+        format!("Loads{}", type_name(&self.name.text))
+    }
+}
+
 /// What a load is; values that are given at run time are symbols.
 #[derive(Clone, Copy, Debug)]
 pub enum LoadKind {
@@ -312,6 +328,35 @@ pub enum LoadKind {
     Gravity {
         /// The acceleration, ground axes.
         acceleration: Pair,
+    },
+    /// Opposite forces on two points along the line between them, positive where they push the points apart.
+    Thrust {
+        /// The points.
+        ends: [End; 2],
+        /// How much.
+        force: NodeId,
+    },
+    /// A spring between two points: the tension `rate (length − free) + preload`.
+    Spring {
+        /// The points.
+        ends: [End; 2],
+        /// Force per length.
+        rate: NodeId,
+        /// The length without force but for the preload.
+        free: NodeId,
+        /// The tension at that length.
+        preload: NodeId,
+    },
+    /// A torsion spring between two links: on the second `−rate (angle − free)`, with its angle from the first.
+    Torsion {
+        /// It is reacted by this link.
+        from: LinkId,
+        /// It acts on this link.
+        on: LinkId,
+        /// Moment per angle.
+        rate: NodeId,
+        /// The angle without moment.
+        free: NodeId,
     },
 }
 
@@ -406,6 +451,17 @@ impl Model {
     #[must_use]
     pub fn unknown(&self, id: UnknownId) -> &Unknown {
         &self.unknowns[id.index()]
+    }
+
+    /// The links on which an unknown acts.
+    #[must_use]
+    pub fn links_of(&self, unknown: UnknownId) -> Vec<LinkId> {
+        match self.unknown(unknown).kind {
+            UnknownKind::Drive(drive) => self.joint(self.drive(drive).joint).ends().map(|end| end.link).to_vec(),
+            UnknownKind::Torque(from, to) => vec![from, to],
+            UnknownKind::Force { at, .. } => vec![at.link],
+            UnknownKind::Thrust(ends) => ends.map(|end| end.link).to_vec(),
+        }
     }
 
     /// Coordinates of a point in its link's frame.

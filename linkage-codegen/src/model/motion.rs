@@ -3,6 +3,7 @@
 use super::evaluate::Scope;
 use super::ids::{DriveId, GROUND, JointId, LinkId};
 use super::joints::end;
+use super::loads::two_points;
 use super::names::{Names, Role, unread};
 use super::units::Kind;
 use super::{Closure, Drive, JointKind, Model, Side, Unknown, UnknownKind};
@@ -152,13 +153,7 @@ fn effort(scope: Scope<'_>, unknown: &ast::Unknown) -> Result<UnknownKind, Diagn
             let along = scope.direction(direction, frame)?;
             Ok(UnknownKind::Force { at: at_end, along: along.into(), frame })
         }
-        Effort::Thrust(place) => Err(Diagnostic::new(
-            *place,
-            "an unknown thrust between two points is not supported yet",
-        )
-        .help(
-            "write a force at one of the points, as in `force(piston.B) along 180deg`, or a torque between two links",
-        )),
+        Effort::Thrust(ends) => Ok(two_points(scope, ends)?.map_or(nothing, UnknownKind::Thrust)),
     }
 }
 

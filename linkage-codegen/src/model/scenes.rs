@@ -363,12 +363,9 @@ fn check_values(model: &Model, sink: &Sink) {
     }
     let params = model.params.iter().map(|param| (&param.name, vec![param.name.text.clone()]));
     let drives = model.drives.iter().map(|drive| (&drive.name, vec![drive.name.text.clone()]));
-    let loads = model.loads.iter().filter(|load| load.kind.is_given_at_run_time(model)).map(|load| {
-        let parts = match load.kind {
-            LoadKind::Moment { .. } => vec![load.name.text.clone()],
-            _ => vec![format!("{}_x", load.name), format!("{}_y", load.name)],
-        };
-        (&load.name, parts)
+    let loads = model.loads.iter().map(|load| {
+        let values = load.kind.given(model).map(|value| load.value_name(value));
+        (&load.name, values.collect())
     });
     for (name, made) in params.chain(drives).chain(loads) {
         for made in made {
@@ -419,6 +416,12 @@ fn check_generated_names(model: &Model, sink: &Sink) {
         .chain(further)
         .map(|name| ((*name).to_owned(), "the module has that already".to_owned()))
         .collect();
+    for load in model.loads.iter().filter(|load| load.kind.is_spring() && load.kind.is_given_at_run_time(model)) {
+        let made = load.type_name();
+        if let Some(other) = types.insert(made.clone(), format!("the load `{}` has that", load.name)) {
+            clash(&load.name, format!("what is given of `{}` would be the type `{made}`, and {other}", load.name));
+        }
+    }
     for scene in &model.scenes {
         let own = format!("belongs to the scene `{}`", scene.name);
         let taken = [scene.name.text.clone(), format!("{}_at", scene.name)]

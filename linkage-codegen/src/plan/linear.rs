@@ -17,11 +17,13 @@ pub(super) const CORE: usize = 3;
 
 /// What a vanishing core is called.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Core<'a> {
+pub(super) struct Core<'a, 'm> {
     /// The name of its determinant.
     pub name: &'a str,
     /// The group, by its links.
     pub group: &'a str,
+    /// How much larger the rounding of its terms may be than that of products of unit vectors.
+    pub spread: Expr<'m>,
 }
 
 /// A step of elimination: which equation gave which unknown.
@@ -34,7 +36,7 @@ struct Eliminated<'m> {
 pub(super) fn solve<'m>(
     graph: &'m Graph,
     mut equations: Vec<Equation<'m>>,
-    core: Core<'_>,
+    core: Core<'_, 'm>,
 ) -> Result<Vec<Expr<'m>>, usize> {
     let count = equations.len();
     let mut eliminated: Vec<Eliminated<'m>> = Vec::new();
@@ -81,7 +83,7 @@ fn solve_core<'m>(
     graph: &'m Graph,
     equations: &[Equation<'m>],
     open: &[usize],
-    core: Core<'_>,
+    core: Core<'_, 'm>,
 ) -> Result<Vec<Expr<'m>>, usize> {
     let rows: Vec<(Vec<Expr<'m>>, Expr<'m>)> =
         equations.iter().map(|e| (open.iter().map(|column| e.coefficients[*column]).collect(), e.right)).collect();
@@ -101,7 +103,7 @@ fn solve_core<'m>(
         terms.iter().fold(graph.zero(), |sum, term| sum + *term).named(core.name, "determinant of the core");
     let size = terms.iter().fold(graph.zero(), |sum, term| sum + term.magnitude());
     let failure = || Failure::DeadCentre { group: core.group.into(), pivot: core.name.into() };
-    let rounding = graph.epsilons(8) * size;
+    let rounding = graph.epsilons(8) * size * core.spread;
     let checked = |value: Expr<'m>| value.require_above(determinant.abs(), rounding, failure());
     if let [(row, right)] = rows.as_slice() {
         return Ok(vec![*right / checked(row[0])]);

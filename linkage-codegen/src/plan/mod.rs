@@ -5,6 +5,7 @@
 
 mod assembly;
 mod balance;
+pub mod efforts;
 mod framed;
 mod half_angle;
 mod linear;
@@ -311,6 +312,15 @@ fn check_possible(model: &Model, sink: &Sink) {
             )
             .note("the unknown does no work on the motion that the loads drive, whatever the pose")
             .help("let it act on a coordinate that changes when the drive moves"),
+            Failure::CoincidentEnds { of } => {
+                let load = model.loads.iter().find(|load| load.name.text == *of).map(|load| load.name.place());
+                let unknown = model.unknowns.iter().find(|unknown| unknown.name == *of).map(|unknown| unknown.place);
+                Diagnostic::new(
+                    load.or(unknown).unwrap_or(model.name.place()),
+                    format!("the two points of `{of}` coincide at every pose: it has no direction"),
+                )
+                .help("let it act between points that are apart")
+            }
             Failure::Parameter { requirement } => Diagnostic::new(model.name.place(), requirement.clone()),
         };
         sink.report(found);

@@ -46,14 +46,21 @@ impl<'m> Pivots<'m> {
     #[must_use]
     pub fn dividing_sine(&self, from: Vector<'m>, to: Vector<'m>, name: &str, group: &str) -> Expr<'m> {
         let known = self.find(from, to, |k| k.sine, -1);
-        divisor(known.unwrap_or_else(|| significant(from.cross(to).named(name, ""))), name, group)
+        divisor(known.unwrap_or_else(|| significant(from.cross(to).named(name, ""), from.graph().one())), name, group)
     }
 
-    /// `from · to` as a divisor.
+    /// `from · to` as a divisor. `spread` is how much larger than that of a unit vector the rounding of the second may be.
     #[must_use]
-    pub fn dividing_cosine(&self, from: Vector<'m>, to: Vector<'m>, name: &str, group: &str) -> Expr<'m> {
+    pub fn dividing_cosine(
+        &self,
+        from: Vector<'m>,
+        to: Vector<'m>,
+        spread: Expr<'m>,
+        name: &str,
+        group: &str,
+    ) -> Expr<'m> {
         let known = self.find(from, to, |k| k.cosine, 1);
-        divisor(known.unwrap_or_else(|| significant(from.dot(to).named(name, ""))), name, group)
+        divisor(known.unwrap_or_else(|| significant(from.dot(to).named(name, ""), spread)), name, group)
     }
 
     /// What is known of the directions, in either order and of either sense. `swapped` is the sign that an exchange brings.
@@ -77,8 +84,8 @@ impl<'m> Pivots<'m> {
 }
 
 /// The value, or zero where it is no larger than the rounding of a product of unit vectors.
-fn significant(value: Expr<'_>) -> Expr<'_> {
-    value.where_above(value.abs(), value.graph().epsilons(ROUNDING))
+fn significant<'m>(value: Expr<'m>, spread: Expr<'m>) -> Expr<'m> {
+    value.where_above(value.abs(), value.graph().epsilons(ROUNDING) * spread)
 }
 
 /// A pivot as a divisor: zero is a dead centre.

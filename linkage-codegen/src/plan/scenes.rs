@@ -4,7 +4,7 @@ use super::rules::{Rule, RuleResult};
 use super::{Assembly, Balance, Comparison, Meaning, Motion, Output, PlacedLink, angle, heading, joint_name};
 use crate::diagnostics::Sink;
 use crate::equations::joints::Component;
-use crate::equations::loads::{Action, Case, cases_of};
+use crate::equations::loads::{Action, Case, Line, cases_of};
 use crate::equations::{Exerted, Source, System};
 use crate::graph::{Expr, Symbol};
 use crate::model::ids::{GROUND, JointId, LoadId, UnknownId};
@@ -19,6 +19,8 @@ struct Forces<'a, 'm> {
     groups: &'a [Group],
     rules: &'a [&'static dyn Rule],
     assembly: &'a Assembly<'m>,
+    /// The cases of each load.
+    cases: Vec<Vec<(Case, Vec<Action>)>>,
     sink: &'a Sink,
 }
 
@@ -30,7 +32,12 @@ pub(super) fn outputs(
     sink: &Sink,
 ) -> Vec<Output> {
     let model = assembly.model();
-    let forces = Forces { model, groups: &assembly.topology.forces, rules, assembly, sink };
+    let cases = (0..model.loads.len()).map(LoadId::new).map(|load| {
+        model.graph.begin_section(format!("Load {}", model.load(load).name));
+        cases_of(&assembly.placement, load)
+    });
+    let cases = cases.collect();
+    let forces = Forces { model, groups: &assembly.topology.forces, rules, assembly, cases, sink };
     model
         .scenes
         .iter()
@@ -92,9 +99,14 @@ impl<'m> Forces<'_, 'm> {
         }
     }
 
+    /// The cases of a load.
+    fn cases_of(&self, load: LoadId) -> &[(Case, Vec<Action>)] {
+        &self.cases[load.index()]
+    }
+
     /// All actions of some loads.
     fn actions(&self, loads: &[LoadId]) -> Vec<Action> {
-        loads.iter().flat_map(|load| cases_of(self.model, *load)).flat_map(|(_, actions)| actions).collect()
+        loads.iter().flat_map(|load| self.cases_of(*load)).flat_map(|(_, actions)| actions.clone()).collect()
     }
 
     fn equilibrium(&self, scene: &Scene) -> Output {
@@ -132,7 +144,7 @@ impl<'m> Forces<'_, 'm> {
     fn superposition(&self, scene: &Scene) -> Output {
         let fields = scene.loads.iter().map(|load| {
             let name = &self.model.load(*load).name;
-            let cases = cases_of(self.model, *load);
+            let cases = self.cases_of(*load);
             let one = |case: &Case, actions: &[Action]| {
                 let balance = self.balance(&case_prefix(self.model, case), actions);
                 Output::Record(self.results(&balance, &scene.results))
@@ -211,11 +223,10 @@ impl<'m> Forces<'_, 'm> {
         let unknowns = |balance: &Balance<'m, '_>| -> Vec<Expr<'m>> {
             system.rows.iter().map(|row| unknown_of(balance, row.source)).collect()
         };
-        let cases: Vec<(Case, Vec<Action>)> = scene.loads.iter().flat_map(|load| cases_of(self.model, *load)).collect();
         let balance = self.balance(&self.prefix_of(scene), &self.actions(&scene.loads));
         let equilibrium = unknowns(&balance);
         let mut superposition = vec![graph.zero(); equilibrium.len()];
-        for (case, actions) in &cases {
+        for (case, actions) in scene.loads.iter().flat_map(|load| self.cases_of(*load)) {
             let part = unknowns(&self.balance(&case_prefix(self.model, case), actions));
             superposition.iter_mut().zip(part).for_each(|(sum, part)| *sum = *sum + part);
         }
@@ -271,9 +282,10 @@ impl<'m> Forces<'_, 'm> {
 
     /// The term of a load; of gravity one for each link.
     fn terms(&self, motion: &Motion<'m, '_>, load: LoadId) -> Output {
-        let cases = cases_of(self.model, load);
+        let cases = self.cases_of(load);
         let load_name = &self.model.load(load).name;
-        match self.model.load(load).kind {
+        let kind = self.model.load(load).kind;
+        match kind {
             LoadKind::Gravity { .. } => {
                 let each = cases.iter().filter_map(|(case, actions)| {
                     let link = &self.model.link(case.link?).name;
@@ -281,24 +293,27 @@ impl<'m> Forces<'_, 'm> {
                     Some(Field {
                         name: link.text.clone(),
                         doc,
-                        value: term(motion, &format!("{}{load_name}_{link}", motion.prefix), actions),
+                        value: term(motion, &format!("{load_name}_{link}"), kind, actions),
                     })
                 });
                 Output::Record(each.collect())
             }
             _ => cases.first().map_or_else(
                 || Output::Record(Vec::new()),
-                |(_, actions)| term(motion, &format!("{}{load_name}", motion.prefix), actions),
+                |(_, actions)| term(motion, &load_name.text, kind, actions),
             ),
         }
     }
 }
 
-/// Velocity along the load, and the work: `v = v·F/|F|`, `F v`; of a moment the relative rate, `M ω`.
-fn term(motion: &Motion<'_, '_>, name: &str, actions: &[Action]) -> Output {
+/// Velocity along the load, and the work: `v = v·F/|F|`, `F v`; between two points the rate of their distance; of a moment the relative
+/// rate of rotation, `M ω`.
+fn term(motion: &Motion<'_, '_>, load: &str, kind: LoadKind, actions: &[Action]) -> Output {
     let graph = motion.graph();
-    match actions {
-        [Action::Force { link, at, force, frame }] => {
+    let name = format!("{}{load}", motion.prefix);
+    let work = || actions.iter().fold(graph.zero(), |sum, action| sum + motion.power(action));
+    match (kind, actions) {
+        (LoadKind::Force { .. } | LoadKind::Gravity { .. }, [Action::Force { link, at, force, frame }]) => {
             let velocity = motion.of_place(*link, motion.placement.carried(*link, at.vector(graph)));
             let velocity = velocity.along(motion.placement.direction(*frame));
             let velocity = velocity.named(&format!("v_{name}"), "velocity of its point, at unit rate");
@@ -306,14 +321,31 @@ fn term(motion: &Motion<'_, '_>, name: &str, actions: &[Action]) -> Output {
             let along = velocity.dot(graph.unit(force));
             Output::Term { velocity: along.id(), work: velocity.dot(force).id(), meaning: Meaning::ForceTerm }
         }
-        couples => {
-            let work = couples.iter().fold(graph.zero(), |sum, action| sum + motion.power(action));
-            let rate = couples.iter().fold((graph.zero(), 1), |(sum, sign), action| match action {
-                Action::Couple { link, .. } if sign > 0 => (sum + motion.rate(*link), -1),
-                Action::Couple { link, .. } => (sum - motion.rate(*link), -1),
-                Action::Force { .. } => (sum, sign),
+        (LoadKind::Thrust { ends, .. } | LoadKind::Spring { ends, .. }, _) => {
+            let [first, second] = ends.map(|end| motion.of_point(end));
+            let velocity = motion.difference(&second, &first).ground();
+            let velocity =
+                velocity.named(&format!("v_{name}"), "velocity of its second point from the first, at unit rate");
+            let along = velocity.dot(Line::between(motion.placement, load, ends).direction());
+            // The force on one of the points, taken for the second; on the ground there is no action.
+            let force = actions.iter().find_map(|action| match *action {
+                Action::Force { link, force, .. } if link == ends[1].link => Some(force.vector(graph)),
+                Action::Force { force, .. } if ends[1].link == GROUND => Some(-force.vector(graph)),
+                _ => None,
             });
-            Output::Term { velocity: rate.0.id(), work: work.id(), meaning: Meaning::MomentTerm }
+            let work = force.map_or_else(|| graph.zero(), |force| velocity.dot(force));
+            Output::Term { velocity: along.id(), work: work.id(), meaning: Meaning::ForceTerm }
+        }
+        (LoadKind::Moment { on, from, .. }, _) => {
+            let rate = from.map_or_else(|| motion.rate(on), |from| motion.rate(on) - motion.rate(from));
+            Output::Term { velocity: rate.id(), work: work().id(), meaning: Meaning::MomentTerm }
+        }
+        (LoadKind::Torsion { on, from, .. }, _) => {
+            let rate = motion.rate(on) - motion.rate(from);
+            Output::Term { velocity: rate.id(), work: work().id(), meaning: Meaning::MomentTerm }
+        }
+        (LoadKind::Force { .. } | LoadKind::Gravity { .. }, _) => {
+            Output::Term { velocity: graph.zero().id(), work: work().id(), meaning: Meaning::ForceTerm }
         }
     }
 }
@@ -369,7 +401,7 @@ fn reaction(balance: &Balance<'_, '_>, joint: JointId) -> Output {
 fn unknown_meaning(model: &Model, unknown: UnknownId) -> Meaning {
     match model.unknown(unknown).kind {
         UnknownKind::Torque(..) => Meaning::Moment,
-        UnknownKind::Force { .. } => Meaning::Force,
+        UnknownKind::Force { .. } | UnknownKind::Thrust(_) => Meaning::Force,
         UnknownKind::Drive(drive) => match model.joint(model.drive(drive).joint).kind {
             JointKind::Revolute => Meaning::Moment,
             JointKind::Prismatic { .. } => Meaning::Force,
@@ -388,6 +420,10 @@ pub(crate) fn unknown_doc(model: &Model, unknown: UnknownId) -> String {
         UnknownKind::Force { at, frame, .. } => {
             let turning = if frame == GROUND { String::new() } else { format!(", which turns with `{}`", name(frame)) };
             format!("Force on `{}` along its line{turning}, {force}.", model.end_name(at))
+        }
+        UnknownKind::Thrust([first, second]) => {
+            let (first, second) = (model.end_name(first), model.end_name(second));
+            format!("Thrust between `{first}` and `{second}`, {force}, positive where it pushes them apart.")
         }
         UnknownKind::Drive(drive) => {
             let joint = model.joint(model.drive(drive).joint);

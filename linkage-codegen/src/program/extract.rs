@@ -1,6 +1,6 @@
 //! Taking out of the graph what a function's results need.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::{Definition, Input, Program, Step, Value, ValueId};
 use crate::graph::{Graph, Guard, NodeId, Op, Stage, Symbol};
@@ -34,6 +34,7 @@ impl Extract<'_> {
             extract: self,
             program: Program { values: Vec::new(), steps: Vec::new(), outputs: Vec::new() },
             placed: BTreeMap::new(),
+            computed: HashMap::new(),
         };
         for node in &needed {
             if let Op::Symbol(Symbol::Drive(_)) = self.graph.op(*node) {
@@ -102,6 +103,8 @@ struct Building<'g> {
     program: Program,
     /// The value of each node that is placed.
     placed: BTreeMap<NodeId, ValueId>,
+    /// What is computed already. Without the names within, nodes may compute the same.
+    computed: HashMap<Op<ValueId>, ValueId>,
 }
 
 impl Building<'_> {
@@ -137,7 +140,13 @@ impl Building<'_> {
                     }
                     op => {
                         let op = op.map(|operand| self.value(operand));
-                        self.add(node, Definition::Computed(op))
+                        if let Some(same) = self.computed.get(&op) {
+                            self.placed.insert(node, *same);
+                            return *same;
+                        }
+                        let value = self.add(node, Definition::Computed(op.clone()));
+                        self.computed.insert(op, value);
+                        value
                     }
                 }
             }
@@ -146,9 +155,10 @@ impl Building<'_> {
 
     fn place(&mut self, node: NodeId) {
         let graph = self.extract.graph;
-        let known = self.placed.contains_key(&node);
+        let before = self.program.values.len();
         let value = self.value(node);
-        if known || self.extract.input(node).is_some() {
+        let known = value.index() < before;
+        if known && !matches!(graph.op(node), Op::Checked { .. }) || self.extract.input(node).is_some() {
             return;
         }
         match graph.op(node) {
@@ -172,6 +182,7 @@ impl Building<'_> {
             .collect();
         let report: Vec<ValueId> = report;
         self.placed.retain(|_, value| !report.contains(value));
+        self.computed.retain(|_, value| !report.contains(value));
         let guard = Guard { condition, failure };
         let repeated =
             self.program.steps.iter().any(|step| matches!(step, Step::Check { guard: other, .. } if *other == guard));

@@ -416,7 +416,7 @@ pub enum Effort {
     /// `force(link.P) along direction`
     Force(End, Box<Direction>),
     /// `thrust(a.P, b.Q)`
-    Thrust(Place),
+    Thrust([End; 2]),
 }
 
 /// A load.
@@ -449,8 +449,30 @@ pub enum LoadKind {
     },
     /// `gravity`
     Gravity,
-    /// A kind that is not carried out yet, by its keyword, and whether its value is known now.
-    Planned(Name, bool),
+    /// `thrust(a.P, b.Q)`
+    Thrust([End; 2]),
+    /// `spring(a.P, b.Q) { … }`
+    Spring([End; 2], Vec<SpringField>),
+    /// `torsion(a -> b) { … }`
+    Torsion {
+        /// What reacts it.
+        from: Name,
+        /// What feels it.
+        on: Name,
+        /// What is said of it.
+        fields: Vec<SpringField>,
+    },
+    /// A kind that is not carried out yet, by its keyword.
+    Planned(Name),
+}
+
+/// `rate: 2N/mm` of a spring.
+#[derive(Clone, Debug)]
+pub struct SpringField {
+    /// Its name.
+    pub name: Name,
+    /// How much; `None` for `_`, a value that is given at run time.
+    pub value: Option<Value>,
 }
 
 /// A scene.

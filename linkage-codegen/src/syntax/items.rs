@@ -334,8 +334,11 @@ fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
             Effort::Force(at, Box::new(direction(input)?))
         }
         _ => {
-            while take(&content).is_some() {}
-            Effort::Thrust(word.place())
+            let ends = loads::two_ends(&content)?;
+            if !content.is_empty() {
+                return Err(content.error("expected `)`"));
+            }
+            Effort::Thrust(ends)
         }
     };
     let place = place_of(&between(&begin, input)).unwrap_or(name_.place());

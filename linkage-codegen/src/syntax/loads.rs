@@ -2,13 +2,13 @@
 
 use proc_macro2::TokenTree;
 use syn::parse::ParseStream;
-use syn::token::Paren;
+use syn::token::{Brace, Paren};
 use syn::{Error, Result, Token};
 
-use super::ast::{Item, Load, LoadKind, words};
+use super::ast::{End, Item, Load, LoadKind, Name, SpringField, words};
 use super::items::{end, rest};
-use super::quantity::magnitude;
-use super::tokens::{between, eat_word, name};
+use super::quantity::{magnitude, value};
+use super::tokens::{comma_list, eat_word, name, peek_word, take};
 use crate::diagnostics::{Diagnostic, Sink, closest};
 
 const KINDS: [&str; 7] = ["force", "moment", "gravity", "thrust", "spring", "torsion", "inertia"];
@@ -33,11 +33,20 @@ pub(super) fn load(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         }
         "moment" => in_parentheses(input, "moment(rocker)", moment)?,
         "gravity" => LoadKind::Gravity,
+        "thrust" => LoadKind::Thrust(in_parentheses(input, "thrust(ground.P, boom.Q)", two_ends)?),
+        "spring" => {
+            let ends = in_parentheses(input, "spring(ground.P, boom.Q)", two_ends)?;
+            let fields = spring_fields(input, &name_, "{ rate: 2N/mm, free: 60mm }")?;
+            return Ok(Item::Load(Load { name: name_, kind: LoadKind::Spring(ends, fields), magnitude: None }));
+        }
+        "torsion" => {
+            let (from, on) = in_parentheses(input, "torsion(ground -> crank)", two_links)?;
+            let fields = spring_fields(input, &name_, "{ rate: 3N*m/rad, free: 20deg }")?;
+            return Ok(Item::Load(Load { name: name_, kind: LoadKind::Torsion { from, on, fields }, magnitude: None }));
+        }
         _ => {
-            let begin = input.fork();
             rest(input);
-            let constant = is_constant(&word.text, &between(&begin, input));
-            return Ok(Item::Load(Load { name: name_, kind: LoadKind::Planned(word, constant), magnitude: None }));
+            return Ok(Item::Load(Load { name: name_, kind: LoadKind::Planned(word), magnitude: None }));
         }
     };
     let magnitude = if input.peek(Token![=]) {
@@ -49,15 +58,17 @@ pub(super) fn load(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     Ok(Item::Load(Load { name: name_, kind, magnitude }))
 }
 
-/// Whether a load of this kind that is written so has its value already.
-pub(crate) fn is_constant(kind: &str, written: &[TokenTree]) -> bool {
+/// Whether a value of a load of this kind, of a spring the named one, is given at run time if the load is written so.
+pub(crate) fn is_given_at_run_time(kind: &str, written: &[TokenTree], value: &str) -> bool {
     match kind {
-        "inertia" => true,
-        "spring" | "torsion" => !written.iter().any(|token| match token {
-            TokenTree::Group(group) => words(group.stream()).iter().any(|word| word.text == "_"),
+        "inertia" => false,
+        "spring" | "torsion" => written.iter().any(|token| match token {
+            TokenTree::Group(group) => {
+                words(group.stream()).windows(2).any(|pair| pair[0].text == value && pair[1].text == "_")
+            }
             _ => false,
         }),
-        _ => written.iter().any(|token| matches!(token, TokenTree::Punct(p) if p.as_char() == '=')),
+        _ => !written.iter().any(|token| matches!(token, TokenTree::Punct(p) if p.as_char() == '=')),
     }
 }
 
@@ -68,6 +79,52 @@ fn moment(input: ParseStream<'_>) -> Result<LoadKind> {
     }
     input.parse::<Token![->]>()?;
     Ok(LoadKind::Moment { from: Some(first), on: name(input)? })
+}
+
+/// `a.P, b.Q`
+pub(super) fn two_ends(input: ParseStream<'_>) -> Result<[End; 2]> {
+    let first = end(input)?;
+    if !input.peek(Token![,]) {
+        let help = "name the two points between which it acts: `ground.P, boom.Q`";
+        return Err(Error::new(first.link.span, format!("it acts between two points, and one is given\nhelp: {help}")));
+    }
+    input.parse::<Token![,]>()?;
+    let second = end(input)?;
+    if input.peek(Token![,]) {
+        input.parse::<Token![,]>()?;
+    }
+    Ok([first, second])
+}
+
+fn two_links(input: ParseStream<'_>) -> Result<(Name, Name)> {
+    let from = name(input)?;
+    if !input.peek(Token![->]) {
+        let help = format!("name both: `ground -> {from}`, on the second by the first");
+        return Err(Error::new(from.span, format!("a torsion spring acts between two links\nhelp: {help}")));
+    }
+    input.parse::<Token![->]>()?;
+    Ok((from, name(input)?))
+}
+
+/// `{ rate: 2N/mm, free: _ }`
+fn spring_fields(input: ParseStream<'_>, of: &Name, example: &str) -> Result<Vec<SpringField>> {
+    if !input.peek(Brace) {
+        let problem = format!("of the spring `{of}` only its place is said");
+        return Err(Error::new(of.span, format!("{problem}\nhelp: say behind it how stiff it is: `{example}`")));
+    }
+    let content;
+    let _ = syn::braced!(content in input);
+    comma_list(&content, |input| {
+        let name = name(input)?;
+        input.parse::<Token![:]>()?;
+        let value = if peek_word(input).as_deref() == Some("_") {
+            take(input);
+            None
+        } else {
+            Some(value(input)?)
+        };
+        Ok(SpringField { name, value })
+    })
 }
 
 fn in_parentheses<T>(input: ParseStream<'_>, example: &str, inside: fn(ParseStream<'_>) -> Result<T>) -> Result<T> {

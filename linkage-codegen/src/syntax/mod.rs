@@ -16,7 +16,7 @@ use syn::Token;
 use syn::parse::discouraged::Speculative;
 use syn::parse::{ParseStream, Parser};
 
-pub(crate) use loads::is_constant;
+pub(crate) use loads::is_given_at_run_time;
 pub(crate) use scenes::{METHODS, PLANNED as PLANNED_METHODS};
 
 use ast::{Ast, Item};

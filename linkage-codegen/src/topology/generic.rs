@@ -204,8 +204,10 @@ fn places(model: &Model, random: &mut Random) -> Vec<(End, [f64; 2])> {
         }
     }
     for unknown in &model.unknowns {
-        if let UnknownKind::Force { at, .. } = unknown.kind {
-            join(&[at]);
+        match unknown.kind {
+            UnknownKind::Force { at, .. } => join(&[at]),
+            UnknownKind::Thrust(ends) => ends.iter().for_each(|end| join(&[*end])),
+            UnknownKind::Drive(_) | UnknownKind::Torque(..) => {}
         }
     }
     classes

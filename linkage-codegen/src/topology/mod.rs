@@ -124,11 +124,7 @@ fn links_of(model: &Model, input: Input) -> Vec<LinkId> {
     let driven = |drive: DriveId| model.joint(model.drive(drive).joint).ends().map(|end| end.link).to_vec();
     match input {
         Input::Drive(drive) => driven(drive),
-        Input::Unknown(unknown) => match model.unknown(unknown).kind {
-            UnknownKind::Drive(drive) => driven(drive),
-            UnknownKind::Torque(from, to) => vec![from, to],
-            UnknownKind::Force { at, .. } => vec![at.link],
-        },
+        Input::Unknown(unknown) => model.links_of(unknown),
     }
 }
 
@@ -227,6 +223,10 @@ fn powerless(model: &Model, unknown: &Unknown, links: &[&str]) -> Diagnostic {
         }
         UnknownKind::Force { at, .. } => {
             format!("the linkage moves without moving `{}` along its line", model.end_name(at))
+        }
+        UnknownKind::Thrust([first, second]) => {
+            let (first, second) = (model.end_name(first), model.end_name(second));
+            format!("the linkage moves without changing the distance of `{first}` and `{second}`")
         }
         UnknownKind::Drive(_) => "the linkage moves without it".to_owned(),
     };

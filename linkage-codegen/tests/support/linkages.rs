@@ -358,6 +358,11 @@ impl Builder {
             self.items.push_str(&line);
             arguments.push(value);
         }
+        for number in 0..self.random.below(3) {
+            let (line, values) = self.between(number);
+            self.items.push_str(&line);
+            arguments.push(values);
+        }
         if self.bodies.iter().any(|body| body.mass.is_some()) {
             if self.random.chance(0.5) {
                 self.items.push_str("load W: gravity = 9.81m/s^2 @ -90deg;\n");
@@ -369,7 +374,9 @@ impl Builder {
         if unknown_anywhere && self.random.chance(0.7) {
             let link = 1 + self.random.below(moving);
             let name = self.bodies[link].name.clone();
-            let line = if self.random.chance(0.5) {
+            let line = if self.random.chance(0.4) {
+                format!("unknown E: thrust({});\n", self.two_points())
+            } else if self.random.chance(0.5) {
                 let mut other = self.random.below(moving + 1);
                 if other == link {
                     other = 0;
@@ -386,6 +393,62 @@ impl Builder {
             self.items.push_str(&line);
         }
         arguments
+    }
+
+    /// Two points of two links, as they are written.
+    fn two_points(&mut self) -> String {
+        let moving = self.bodies.len() - 1;
+        let link = 1 + self.random.below(moving);
+        let mut other = self.random.below(moving + 1);
+        if other == link {
+            other = 0;
+        }
+        let mut ends = [(other, self.place()), (link, self.place())];
+        while size(minus(ends[0].1, ends[1].1)) < 0.3 {
+            ends[1].1 = self.place();
+        }
+        if self.random.chance(0.5) {
+            ends.reverse();
+        }
+        let ends = ends.map(|(link, at)| {
+            let point = self.fresh('p');
+            self.bodies[link].points.push((point.clone(), at));
+            format!("{}.{point}", self.bodies[link].name)
+        });
+        ends.join(", ")
+    }
+
+    /// What acts between two links: a thrust, a spring, a torsion spring; and its values if they are given at run time.
+    fn between(&mut self, number: usize) -> (String, [f64; 2]) {
+        let given = self.random.chance(0.5);
+        let kind = self.random.below(4);
+        if kind == 0 {
+            let force = self.random.range(-50.0, 50.0);
+            let constant = if given { String::new() } else { format!(" = {force:?}N") };
+            return (format!("load B{number}: thrust({}){constant};\n", self.two_points()), [force, 0.0]);
+        }
+        let (rate, free) = (self.random.range(1.0, 50.0), self.random.range(0.0, 3.0));
+        if kind == 1 {
+            let moving = self.bodies.len() - 1;
+            let link = 1 + self.random.below(moving);
+            let other = self.random.below(link);
+            let (from, on) = self.arrow(link, other);
+            let (from, on) = (&self.bodies[from].name, &self.bodies[on].name);
+            let fields =
+                if given { "rate: _, free: _".to_owned() } else { format!("rate: {rate:?}N*m/rad, free: {free:?}rad") };
+            return (format!("load B{number}: torsion({from} -> {on}) {{ {fields} }}\n"), [rate, free]);
+        }
+        // Among them such as have no free length.
+        let free = if kind == 2 { 0.0 } else { free };
+        let preload = if self.random.chance(0.3) { self.random.range(-20.0, 20.0) } else { 0.0 };
+        let length = if kind == 2 { "0".to_owned() } else { format!("{free:?}m") };
+        let fields = match (given, self.random.chance(0.5)) {
+            (true, true) => "rate: _, free: _".to_owned(),
+            (true, false) => format!("rate: _, free: {length}"),
+            _ => format!("rate: {rate:?}N/m, free: {length}"),
+        };
+        let fields = if preload == 0.0 { fields } else { format!("{fields}, preload: {preload:?}N") };
+        (format!("load B{number}: spring({}) {{ {fields} }};\n", self.two_points()), [rate, free])
     }
 
     fn finish(self, (drive, at): (String, f64), loads: Vec<[f64; 2]>, kind: Kind) -> Sample {

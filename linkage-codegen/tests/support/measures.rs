@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use linkage_codegen::Linkage;
 use linkage_codegen::equations::Source;
 use linkage_codegen::equations::joints::Component;
-use linkage_codegen::equations::loads::Action;
+use linkage_codegen::equations::loads::{self, Action};
 use linkage_codegen::graph::NodeId;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::model::LoadKind;
@@ -194,7 +194,7 @@ fn is_moment(linkage: &Linkage, name: &str) -> bool {
     name.ends_with(".couple")
         || unknown.is_some_and(|unknown| match unknown.kind {
             UnknownKind::Torque(..) => true,
-            UnknownKind::Force { .. } => false,
+            UnknownKind::Force { .. } | UnknownKind::Thrust(_) => false,
             UnknownKind::Drive(drive) => {
                 matches!(linkage.model.joint(linkage.model.drive(drive).joint).kind, JointKind::Revolute)
             }
@@ -242,9 +242,7 @@ fn free_body(
         sums.iter_mut().zip(&part).for_each(|(sum, part)| *sum = sum.add(part));
         column = columns.end;
     }
-    for ((case, exerted), (_, actions)) in
-        general.cases.iter().zip(linkage_codegen::equations::loads::cases(&linkage.model))
-    {
+    for ((case, exerted), (_, actions)) in general.cases.iter().zip(loads::cases(&loads::Symbolic(&linkage.model))) {
         let LoadKind::Force { at, .. } = linkage.model.load(case.load).kind else { continue };
         if at.link != link {
             continue;

@@ -2,12 +2,20 @@
 
 mod force;
 mod gravity;
+mod line;
 mod moment;
+mod posture;
+mod spring;
+mod thrust;
+mod torsion;
+
+pub use line::Line;
+pub use posture::{Posture, Symbolic};
 
 use super::{Body, Exerted};
 use crate::graph::{NodeId, Vector};
 use crate::model::ids::{LinkId, LoadId};
-use crate::model::{LoadKind, Model, Pair};
+use crate::model::{LoadKind, Pair};
 
 /// A load that is solved by itself: the whole load, or of gravity the weight of one link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -43,17 +51,35 @@ pub enum Action {
 
 /// All load cases, in the order of declaration.
 #[must_use]
-pub fn cases(model: &Model) -> Vec<(Case, Vec<Action>)> {
-    (0..model.loads.len()).map(LoadId::new).flat_map(|load| cases_of(model, load)).collect()
+pub fn cases<'m>(posture: &dyn Posture<'m>) -> Vec<(Case, Vec<Action>)> {
+    (0..posture.model().loads.len()).map(LoadId::new).flat_map(|load| cases_of(posture, load)).collect()
 }
 
 /// The cases of a load.
 #[must_use]
-pub fn cases_of(model: &Model, load: LoadId) -> Vec<(Case, Vec<Action>)> {
+pub fn cases_of<'m>(posture: &dyn Posture<'m>, load: LoadId) -> Vec<(Case, Vec<Action>)> {
+    let model = posture.model();
+    let graph = &model.graph;
     let whole = Case { load, link: None };
+    let name = &model.load(load).name.text;
     match model.load(load).kind {
         LoadKind::Force { at, force, frame } => vec![(whole, force::actions(model, at, force, frame))],
-        LoadKind::Moment { on, from, moment } => vec![(whole, moment::actions(model, on, from, moment))],
+        LoadKind::Moment { on, from, moment } => vec![(whole, moment::actions(on, from, graph.expr(moment)))],
+        LoadKind::Thrust { ends, force } => {
+            let line = Line::between(posture, name, ends);
+            vec![(whole, thrust::actions(&line, graph.expr(force)))]
+        }
+        LoadKind::Spring { ends, rate, free, preload } => {
+            let line = Line::between(posture, name, ends);
+            let [rate, free, preload] = [rate, free, preload].map(|value| graph.expr(value));
+            vec![(whole, spring::actions(&line, rate, free, preload))]
+        }
+        LoadKind::Torsion { from, on, rate, free } => {
+            let meaning = format!("angle of {} from {} − free angle", model.link(on).name, model.link(from).name);
+            let wound = posture::wound(posture, [from, on], graph.expr(free));
+            let wound = wound.named(format!("{name}_wound"), meaning);
+            vec![(whole, torsion::actions(from, on, graph.expr(rate), wound))]
+        }
         LoadKind::Gravity { acceleration } => gravity::weights(model, acceleration)
             .into_iter()
             .map(|(link, action)| (Case { load, link: Some(link) }, vec![action]))

@@ -11,9 +11,10 @@ use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
-use crate::model::{JointKind, Model, UnknownKind};
+use crate::model::{JointKind, Model};
 use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
+use crate::plan::efforts::{self, Unit};
 use crate::plan::framed::Framed;
 use crate::plan::linear::{Core, Equation, solve};
 use crate::plan::placement::Placement;
@@ -60,6 +61,15 @@ enum Act<'m> {
     Couple(LinkId, Expr<'m>),
     /// On the pin between two members.
     Pin(JointId, Framed<'m>),
+}
+
+impl<'m> From<efforts::Act<'m>> for Act<'m> {
+    fn from(act: efforts::Act<'m>) -> Self {
+        match act {
+            efforts::Act::Force(link, at, force) => Self::Force(link, at, force),
+            efforts::Act::Couple(link, moment) => Self::Couple(link, moment),
+        }
+    }
 }
 
 /// A group taken apart.
@@ -199,31 +209,21 @@ impl<'p, 'm> Parts<'p, 'm> {
                     (true, _) => vec![Act::Couple(second, graph.one()), Act::Couple(first, -graph.one())],
                 }
             }
-            Unknown::Effort(effort) => self.unit_of_effort(effort),
+            Unknown::Effort(effort) => self.unit_of_effort(effort).acts.into_iter().map(Act::from).collect(),
         }
     }
 
-    fn unit_of_effort(&self, effort: UnknownId) -> Vec<Act<'m>> {
-        let graph = self.placement.graph();
-        if let Some((from, to)) = super::crank::torque_links(self.model, effort) {
-            return vec![Act::Couple(to, graph.one()), Act::Couple(from, -graph.one())];
-        }
-        match self.model.unknown(effort).kind {
-            UnknownKind::Force { at, along, frame } => {
-                let components = self.placement.carried(frame, along.vector(graph));
-                let force = Framed { components, axes: self.placement.direction(frame) };
-                vec![Act::Force(at.link, self.placement.point(at), force)]
-            }
-            UnknownKind::Drive(drive) => {
-                let joint = self.model.drive(drive).joint;
-                let data = self.model.joint(joint);
-                let axes = self.placement.slide_direction(joint);
-                let force = Framed { components: Vector::new(graph.one(), graph.zero()), axes };
-                let on = |link: LinkId, force| Act::Force(link, self.place(joint, link), force);
-                vec![on(data.to.link, force), on(data.from.link, force.opposite())]
-            }
-            UnknownKind::Torque(..) => Vec::new(),
-        }
+    fn unit_of_effort(&self, effort: UnknownId) -> Unit<'m> {
+        Unit::of(self.placement, effort)
+    }
+
+    /// How much larger than that of declared directions the rounding of the efforts' directions may be.
+    fn spread(&self) -> Expr<'m> {
+        let one = self.placement.graph().one();
+        self.unknowns.iter().fold(one, |spread, unknown| match unknown {
+            Unknown::Effort(effort) => spread * self.unit_of_effort(*effort).spread,
+            _ => spread,
+        })
     }
 
     /// The place about which a carrier's moments are taken: its first joint.
@@ -291,7 +291,7 @@ fn members(model: &Model, group: &Group) -> Vec<Member> {
             .filter(|joint| model.joint(*joint).end_on(*link).is_some())
             .collect();
         let acted_on = group.inputs.iter().any(|input| match input {
-            Input::Unknown(unknown) => acts_on(model, *unknown, *link),
+            Input::Unknown(unknown) => model.links_of(*unknown).contains(link),
             Input::Drive(_) => false,
         });
         let [a, b] = joints.as_slice() else { continue };
@@ -307,14 +307,6 @@ fn members(model: &Model, group: &Group) -> Vec<Member> {
         }
     }
     members
-}
-
-fn acts_on(model: &Model, unknown: UnknownId, link: LinkId) -> bool {
-    match model.unknown(unknown).kind {
-        UnknownKind::Torque(from, to) => from == link || to == link,
-        UnknownKind::Force { at, .. } => at.link == link,
-        UnknownKind::Drive(drive) => model.joint(model.drive(drive).joint).end_on(link).is_some(),
-    }
 }
 
 impl Rule for Block {
@@ -358,7 +350,7 @@ impl Rule for Block {
         let equations = (0..known.len())
             .map(|row| Equation { coefficients: columns.iter().map(|c| c[row]).collect(), right: -known[row] })
             .collect();
-        let values = solve(graph, equations, Core { name: &determinant, group: &links })
+        let values = solve(graph, equations, Core { name: &determinant, group: &links, spread: parts.spread() })
             .map_err(|size| too_large(model, group, size))?;
         for (unknown, value) in parts.unknowns.iter().zip(&values) {
             match *unknown {
@@ -377,7 +369,7 @@ impl Rule for Block {
                     let name = &model.unknown(effort).name;
                     let value = value.named(balance.name(name), format!("from the equilibrium of {links}"));
                     balance.found(effort, value);
-                    put_effort(balance, &parts, group, effort, value);
+                    parts.unit_of_effort(effort).exert_outside(balance, value, &group.links);
                 }
             }
         }
@@ -401,7 +393,7 @@ impl Rule for Block {
                 Equation { coefficients: column.clone(), right: own - outside }
             })
             .collect();
-        let values = solve(graph, equations, Core { name: &determinant, group: &links })
+        let values = solve(graph, equations, Core { name: &determinant, group: &links, spread: parts.spread() })
             .map_err(|size| too_large(parts.model, group, size))?;
         let ground = parts.ground();
         let mut row = 0;
@@ -562,24 +554,5 @@ fn put_joint<'m>(
         let force = Framed { components: Vector::new(first, second), axes: parts.ground() };
         let force = balance.pin(joint, data.to.link, force);
         balance.push(data.to.link, parts.place(joint, data.to.link), force);
-    }
-}
-
-/// What an effort does to links outside the group.
-fn put_effort<'m>(
-    balance: &mut Balance<'m, '_>,
-    parts: &Parts<'_, 'm>,
-    group: &Group,
-    effort: UnknownId,
-    value: Expr<'m>,
-) {
-    for act in parts.unit_of_effort(effort) {
-        match act {
-            Act::Force(link, at, force) if !group.links.contains(&link) => {
-                balance.push(link, at, Framed { components: force.components.scaled(value), axes: force.axes });
-            }
-            Act::Couple(link, moment) if !group.links.contains(&link) => balance.couple(link, moment * value),
-            _ => {}
-        }
     }
 }

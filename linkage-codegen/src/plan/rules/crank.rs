@@ -5,10 +5,11 @@
 
 use super::{Rule, RuleResult};
 use crate::graph::{Expr, Vector};
-use crate::model::ids::{JointId, LinkId, UnknownId};
-use crate::model::{JointKind, Model, UnknownKind};
+use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
+use crate::model::{JointKind, Model};
 use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
+use crate::plan::efforts::{Unit, point_on};
 use crate::plan::framed::Framed;
 use crate::plan::half_angle::{HalfAngle, first_dyad_on};
 use crate::plan::pivots::divisor;
@@ -74,29 +75,20 @@ impl Rule for Crank {
         let moment = balance.moment(link, about, one);
         let effort = &model.unknown(unknown).name;
         let total = balance.total(link);
-        match torque_links(model, unknown) {
-            Some((from, to)) => {
-                let torque = if to == link { -moment } else { moment };
-                let torque = torque.named(
-                    balance.name(effort),
-                    format!("{}ΣM({point}) of what acts on {name}", if to == link { "−" } else { "" }),
-                );
-                balance.found(unknown, torque);
-                let (other, on_other) = if to == link { (from, -torque) } else { (to, torque) };
-                balance.couple(other, on_other);
-                balance.pin(pin, link, total.opposite());
-            }
-            None => {
-                let Some((along, arm)) = line_of_force(balance.placement, unknown, about) else { return Ok(()) };
-                let arm = significant_arm(model, unknown, arm, pin, name.text.as_str());
-                let force =
-                    (-moment / arm).named(balance.name(effort), format!("−ΣM({point})/arm of what acts on {name}"));
-                balance.found(unknown, force);
-                let along = Framed { components: along.components.scaled(force), axes: along.axes };
-                let ground = balance.placement.direction(crate::model::ids::GROUND);
-                balance.pin(pin, link, total.plus(&along, ground).opposite());
-            }
-        }
+        let unit = Unit::of(balance.placement, unknown);
+        let arm = significant_arm(balance.placement, unknown, &unit, pin, link);
+        let (sign, over) = match arm.sign() {
+            None => ("−", "/arm"),
+            Some(sign) => (if sign > 0 { "−" } else { "" }, ""),
+        };
+        let value =
+            (-moment / arm).named(balance.name(effort), format!("{sign}ΣM({point}){over} of what acts on {name}"));
+        balance.found(unknown, value);
+        unit.exert_outside(balance, value, &[link]);
+        let ground = balance.placement.direction(GROUND);
+        let own = unit.force_on(link, ground);
+        let own = Framed { components: own.components.scaled(value), axes: own.axes };
+        balance.pin(pin, link, total.plus(&own, ground).opposite());
         Ok(())
     }
 
@@ -107,61 +99,35 @@ impl Rule for Crank {
         let (Some(near), Some(far)) = (data.end_on(link), data.end_off(link)) else { return Ok(()) };
         let about = motion.placement.point(near);
         let velocity = motion.of_point(far);
-        let own_rate = motion.rate_of(unknown);
         let name = &model.link(link).name;
-        let rate = match torque_links(model, unknown) {
-            Some((from, to)) => {
-                if to == link {
-                    motion.rate(from) + own_rate
-                } else {
-                    motion.rate(to) - own_rate
-                }
-            }
-            None => {
-                let Some((along, arm)) = line_of_force(motion.placement, unknown, about) else { return Ok(()) };
-                let arm = significant_arm(model, unknown, arm, pin, name.text.as_str());
-                (own_rate - velocity.along(along.axes).dot(along.components)) / arm
-            }
-        };
+        let unit = Unit::of(motion.placement, unknown);
+        let arm = significant_arm(motion.placement, unknown, &unit, pin, link);
+        // The power of the unit on all links is the rate of its coordinate.
+        let own = unit.force_on(link, motion.placement.direction(GROUND));
+        let carried = velocity.along(own.axes).dot(own.components);
+        let rate = (motion.rate_of(unknown) - unit.power_outside(motion, &[link]) - carried) / arm;
         let rate = rate.named(motion.name(&format!("rate_{name}")), format!("rate of rotation of {name}"));
         motion.found(link, Twist { rate, at: about, velocity });
         Ok(())
     }
 }
 
-/// The links between which an unknown torque acts.
-pub(super) fn torque_links(model: &Model, unknown: UnknownId) -> Option<(LinkId, LinkId)> {
-    match model.unknown(unknown).kind {
-        UnknownKind::Torque(from, to) => Some((from, to)),
-        UnknownKind::Drive(drive) => {
-            let joint = model.joint(model.drive(drive).joint);
-            matches!(joint.kind, JointKind::Revolute).then_some((joint.from.link, joint.to.link))
-        }
-        UnknownKind::Force { .. } => None,
-    }
-}
-
-/// The direction of an unknown force, and its lever arm about a place of the link on which it acts.
-fn line_of_force<'m>(
+/// The moment of the unit about the pin as a divisor. A lever arm that is too small beside the distance of its points is none.
+fn significant_arm<'m>(
     placement: &Placement<'m>,
     unknown: UnknownId,
-    about: Vector<'m>,
-) -> Option<(Framed<'m>, Expr<'m>)> {
-    let UnknownKind::Force { at, along, frame } = placement.model.unknown(unknown).kind else { return None };
-    let along = along.vector(placement.graph());
-    let along = Framed { components: placement.carried(frame, along), axes: placement.direction(frame) };
-    let arm = (placement.point(at) - about).cross(along.along(placement.direction(at.link)));
-    Some((along, arm))
-}
-
-/// The lever arm as a divisor: too small beside the distance of its points, it is none.
-fn significant_arm<'m>(model: &'m Model, unknown: UnknownId, arm: Expr<'m>, pin: JointId, link: &str) -> Expr<'m> {
-    let name = format!("arm_{}", model.unknown(unknown).name);
+    unit: &Unit<'m>,
+    pin: JointId,
+    link: LinkId,
+) -> Expr<'m> {
+    let model = placement.model;
+    let near = model.joint(pin).end_on(link).unwrap_or(model.joint(pin).from);
+    let arm = unit.moment_on(link, placement, placement.point(near));
+    let Some(at) = point_on(model, unknown, link) else { return arm };
     let (effort, point) = (&model.unknown(unknown).name, &model.joint(pin).name);
+    let name = format!("arm_{effort}");
     let arm = arm.named(name.clone(), format!("lever arm of {effort} about {point}"));
-    let UnknownKind::Force { at, .. } = model.unknown(unknown).kind else { return arm };
-    let near = model.joint(pin).end_on(at.link).unwrap_or(at);
-    let size = model.distance(at.link, near.point, at.point);
-    let rounding = model.graph.epsilons(8) * size;
-    divisor(arm.where_above(arm.abs(), rounding), &name, link)
+    let size = model.distance(link, near.point, at.point);
+    let rounding = model.graph.epsilons(8) * size * unit.spread;
+    divisor(arm.where_above(arm.abs(), rounding), &name, model.link(link).name.text.as_str())
 }

@@ -125,7 +125,7 @@ impl Rule for Rrp {
         let side = if across.is_zero() && along_slide.is_zero() {
             balance.graph().zero()
         } else {
-            let cosine = balance.pivots.dividing_cosine(u, e, &dyad.pivot_name(), &dyad.group_name());
+            let cosine = balance.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
             let needed = across - along_slide * balance.pivots.sine(u, e);
             (needed / cosine).named(
                 balance.name(&format!("{inner}_across_slide")),
@@ -165,7 +165,7 @@ impl Rule for Rrp {
         let outer_end = model.joint(dyad.outer).end_off(dyad.rod).unwrap_or(model.joint(dyad.outer).from);
         let outer = motion.of_point(outer_end);
         let gap = motion.difference(&carried, &outer);
-        let cosine = motion.pivots.dividing_cosine(u, e, &dyad.pivot_name(), &dyad.group_name());
+        let cosine = motion.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
         let rod = dyad.link_name(dyad.rod);
         let across = motion.part(&gap, e.perp());
         let rate = if across.is_zero() { across } else { (across / cosine) / dyad.length() };

@@ -9,7 +9,9 @@ use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
 use crate::model::{JointKind, Model, UnknownKind};
 use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
+use crate::plan::efforts::{Act, Unit};
 use crate::plan::framed::Framed;
+use crate::plan::pivots::Pivots;
 use crate::plan::placement::Placement;
 use crate::plan::velocities::{Motion, Twist};
 use crate::topology::{Group, Input};
@@ -53,28 +55,23 @@ impl Rule for Slide {
         let direction = balance.placement.slide_direction(slide);
         let total = balance.total(link).along(direction);
         let (name, effort) = (&model.link(link).name, &model.unknown(unknown).name);
-        let equation =
-            format!("{}ΣF of what acts on {name} along the slide {}", if second { "−" } else { "" }, joint.name);
-        let across = match force_on(balance.placement, unknown) {
-            None => {
-                // The effort acts along the slide: on the second link forwards, on the first one backwards.
-                let value = if second { -total.x } else { total.x }.named(balance.name(effort), equation);
-                balance.found(unknown, value);
-                let (far, on_far) = if second { (joint.from.link, -value) } else { (joint.to.link, value) };
-                let along = Vector::new(on_far, balance.graph().zero());
-                let at = balance.placement.slide_point(slide, far);
-                balance.push(far, at, Framed { components: along, axes: direction });
-                total.y
-            }
-            Some((at, along)) => {
-                let pivot = format!("cos_{effort}");
-                let cosine = balance.pivots.dividing_cosine(direction, along.ground(), &pivot, &name.text);
-                let value = (-total.x / cosine).named(balance.name(effort), equation);
-                balance.found(unknown, value);
-                let force = Framed { components: along.components.scaled(value), axes: along.axes };
-                balance.push(link, at, force);
-                total.y + force.along(direction).y
-            }
+        let sum = format!("ΣF of what acts on {name} along the slide {}", joint.name);
+        let unit = Unit::of(balance.placement, unknown);
+        let across = if let UnknownKind::Drive(_) = model.unknown(unknown).kind {
+            // The effort acts along the slide: on the second link forwards, on the first one backwards. It turns nothing.
+            let (value, sign) = if second { (-total.x, "−") } else { (total.x, "") };
+            let value = value.named(balance.name(effort), format!("{sign}{sum}"));
+            balance.found(unknown, value);
+            unit.exert_outside(balance, value, &[link]);
+            total.y
+        } else {
+            let along = unit.force_on(link, balance.placement.direction(GROUND));
+            let cosine = dividing_cosine(balance.placement, balance.pivots, unknown, &unit, slide, link);
+            let value = (-total.x / cosine).named(balance.name(effort), format!("−{sum}, over the cosine"));
+            balance.found(unknown, value);
+            unit.exert_outside(balance, value, &[]);
+            let force = Framed { components: along.components.scaled(value), axes: along.axes };
+            total.y + force.along(direction).y
         };
         let own = balance.placement.point(balance.end(slide, link));
         guide(balance, slide, link, across, own);
@@ -93,23 +90,21 @@ impl Rule for Slide {
         let carried = motion.of_place(far, motion.placement.slide_point(slide, far));
         let own = motion.rate_of(unknown);
         let ground = motion.placement.direction(GROUND);
-        let sliding = match force_on(motion.placement, unknown) {
-            None => {
-                if joint.to.link == link {
-                    own
-                } else {
-                    -own
+        let unit = Unit::of(motion.placement, unknown);
+        let sliding = if let UnknownKind::Drive(_) = model.unknown(unknown).kind {
+            if joint.to.link == link { own } else { -own }
+        } else {
+            let cosine = dividing_cosine(motion.placement, motion.pivots, unknown, &unit, slide, link);
+            // The power of the unit on all links is the rate of its coordinate: on this one, as if it did not slide.
+            let at_rest = unit.on(link).fold(motion.graph().zero(), |sum, act| match *act {
+                Act::Force(_, place, force) => {
+                    let turning = (place - at).perp().scaled(rate);
+                    let turning = Framed { components: turning, axes: motion.placement.direction(link) };
+                    sum + carried.plus(&turning, ground).along(force.axes).dot(force.components)
                 }
-            }
-            Some((place, along)) => {
-                let pivot = format!("cos_{}", model.unknown(unknown).name);
-                let cosine =
-                    motion.pivots.dividing_cosine(direction, along.ground(), &pivot, &model.link(link).name.text);
-                let turning = (place - at).perp().scaled(rate);
-                let turning = Framed { components: turning, axes: motion.placement.direction(link) };
-                let before = carried.plus(&turning, ground);
-                (own - before.along(along.axes).dot(along.components)) / cosine
-            }
+                Act::Couple(_, moment) => sum + moment * rate,
+            });
+            (own - unit.power_outside(motion, &[link]) - at_rest) / cosine
         };
         let meaning = format!("speed of {} along the slide {}", model.link(link).name, joint.name);
         let sliding = sliding.named(motion.name(&format!("speed_{}", joint.name)), meaning);
@@ -147,9 +142,17 @@ pub(super) fn guide<'m>(
     balance.slide(slide, link, force, couple);
 }
 
-/// The place and the direction of an unknown force; `None` for the effort at the slide itself.
-fn force_on<'m>(placement: &Placement<'m>, unknown: UnknownId) -> Option<(Vector<'m>, Framed<'m>)> {
-    let UnknownKind::Force { at, along, frame } = placement.model.unknown(unknown).kind else { return None };
-    let components = placement.carried(frame, along.vector(placement.graph()));
-    Some((placement.point(at), Framed { components, axes: placement.direction(frame) }))
+/// The cosine between a slide and an unknown force on its link, as a divisor.
+fn dividing_cosine<'m>(
+    placement: &Placement<'m>,
+    pivots: &Pivots<'m>,
+    unknown: UnknownId,
+    unit: &Unit<'m>,
+    slide: JointId,
+    link: LinkId,
+) -> Expr<'m> {
+    let model = placement.model;
+    let along = unit.force_on(link, placement.direction(GROUND)).ground();
+    let (pivot, name) = (format!("cos_{}", model.unknown(unknown).name), &model.link(link).name.text);
+    pivots.dividing_cosine(placement.slide_direction(slide), along, unit.spread, &pivot, name)
 }
