@@ -30,8 +30,14 @@ fn cases() -> Vec<Case> {
     let of = |seed: u64| {
         let scalar = if seed.is_multiple_of(3) { "f32" } else { "f64" };
         let dyads = usize::try_from(seed % 4).expect("small");
-        let kind =
-            Kind { dyads, sliders: true, unknown_anywhere: seed.is_multiple_of(2), params: seed % 5 == 4, scalar };
+        let kind = Kind {
+            dyads,
+            sliders: true,
+            joints: seed % 4 == 1,
+            unknown_anywhere: seed.is_multiple_of(2),
+            params: seed % 5 == 4,
+            scalar,
+        };
         let sample = sample(seed, kind);
         // With its unknown anywhere a linkage may be one that is refused.
         let linkage = linkage_codegen::analyse(sample.text.parse().expect("tokens")).ok()?;

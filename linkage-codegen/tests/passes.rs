@@ -29,6 +29,7 @@ fn passes_keep_the_results() {
         let kind = Kind {
             dyads: 1 + usize::try_from(seed % 3).unwrap(),
             sliders: true,
+            joints: false,
             unknown_anywhere: false,
             params: false,
             scalar: "f64",
@@ -68,7 +69,8 @@ fn passes_keep_the_results() {
 #[test]
 fn a_scene_from_a_pose_goes_on_where_the_pose_ends() {
     for seed in 0..40 {
-        let kind = Kind { dyads: 2, sliders: true, unknown_anywhere: false, params: false, scalar: "f64" };
+        let kind =
+            Kind { dyads: 2, sliders: true, joints: true, unknown_anywhere: false, params: false, scalar: "f64" };
         let sample = sample(seed, kind);
         let linkage = compile(&sample.text);
         for (index, functions) in linkage.functions.scenes.iter().enumerate() {

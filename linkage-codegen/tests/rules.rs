@@ -9,7 +9,7 @@ use support::numbers::Extended;
 use support::{Arguments, Number, compile, scene};
 
 /// A linkage for each class of groups, with the class named, drives at which it closes, and how the rule is used.
-const CASES: [(&str, &[f64], &str); 9] = [
+const CASES: [(&str, &[f64], &str); 25] = [
     // Motion and forces of a crank, its arrow either way, with an inclined dyad.
     (
         "link on a pin",
@@ -82,6 +82,147 @@ const CASES: [(&str, &[f64], &str); 9] = [
         "ground { O: (0, 0), G: (0, 0.2m) } link crank { O -> A: 1m } link rod { A -> B: 3m, P: (1m, 1m) } link piston { B: (0.1m, 0.3m), G, P: (1m, 1m) }
          revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> piston; prismatic G: piston -> ground along 10deg; drive q: O;
          unknown E: force(rod.P) along 70deg of crank; assemble B: ahead(A); load M: moment(crank) = 5N*m; load F: force(piston.P) = (1N, 2N);",
+    ),
+    // An arm welded to a rocker by a turned arrow, another one to the ground's side of the crank.
+    (
+        "welded link",
+        &[0.4, 2.0],
+        "ground { O: (0, 0), Q: (3m, 0.5m) } link crank { O -> A: 1m } link b { A -> B: 3m } link c { Q -> B: 2.5m, W: (1m, 1m) }
+         link arm { W: (0.3m, 0.2m), P: (1m, -1m) } link tip { P: (0.1m, 0), E: (1m, 1m) }
+         revolute O: ground -> crank; revolute A: crank -> b; revolute B: b -> c; revolute Q: ground -> c; weld W: arm -> c, angle 50deg;
+         weld P: arm -> tip, angle -20deg; drive q: O; assemble B: left(A -> Q);
+         load F: force(tip.E) = (3N, -2N); load H: force(arm.P) in b = (1N, 4N); load M: moment(crank -> tip) = 2N*m;",
+    ),
+    // A rocker held at the arm that is welded to it: the weld's group of forces is none of motion.
+    (
+        "welded link",
+        &[0.4, 2.0],
+        "ground { O: (0, 0), Q: (3m, 0.5m) } link crank { O -> A: 1m } link b { A -> B: 3m } link c { Q -> B: 2.5m, W: (1m, 1m) }
+         link arm { W: (0.3m, 0.2m), P: (1m, -1m) } link tip { P: (0.1m, 0), E: (1m, 1m) }
+         revolute O: ground -> crank; revolute A: crank -> b; revolute B: b -> c; revolute Q: ground -> c; weld W: c -> arm, angle 50deg;
+         weld P: tip -> arm, angle -20deg; drive q: O; unknown E: force(arm.P) along 30deg of b; assemble B: left(A -> Q);
+         load F: force(tip.E) = (3N, -2N); load H: moment(crank) = 3N*m;",
+    ),
+    // A lever with a slot in line with its pin, driven by a crank: a crank shaper with its ram.
+    (
+        "slot and pin",
+        &[0.5, 2.0, -1.0],
+        "ground { O: (0, 0), Q: (0, -0.35m), R: (0, 0.33m) } link crank { O -> A: 0.14m } link lever { Q -> B: 0.72m } link rod { B -> C: 0.28m }
+         link ram { C: (0, 0), T: (-0.2m, -0.06m) } revolute O: ground -> crank; revolute Q: ground -> lever; slot S: lever.Q -> crank.A along 0deg of lever;
+         revolute B: lever -> rod; revolute C: rod -> ram; prismatic R: ground.R -> ram.C along 0deg; drive q: O;
+         assemble S: ahead(Q); assemble C: behind(B); load F: force(ram.T) = (-30N, 4N); load M: moment(lever) = 2N*m;",
+    ),
+    // The slot beside the pin, its point far along it, the pin behind; the arrow the other way.
+    (
+        "slot and pin",
+        &[0.5, 2.0, 1.2],
+        "ground { O: (1m, 0.5m), Q: (0, -1m) } link crank { O -> A: 0.7m } link lever { Q: (0.2m, 0.3m), S: (3m, 2m), P: (1m, 1m) }
+         revolute O: ground -> crank; revolute Q: lever -> ground; slot S: crank.A -> lever.S along 70deg of lever; drive q: O;
+         assemble S: behind(Q); load F: force(lever.P) = (3N, -2N); load H: force(crank.A) in lever = (1N, 4N);",
+    ),
+    // A link whose end runs in the slot of the ground, and of a moving link.
+    (
+        "slot and pin",
+        &[0.4, 2.0],
+        "ground { O: (0, 0), G: (1m, 0.2m), Q: (-3m, 0) } link crank { O -> A: 1m } link rod { A -> B: 3m, P: (1m, 1m), C: (2m, -0.5m) }
+         link c { Q -> D: 5m, P: (0.5m, 1m) } revolute O: ground -> crank; revolute A: crank -> rod; slot B: rod.B -> ground.G along 10deg;
+         revolute Q: c -> ground; slot C: c.Q -> rod.C along D -> Q of c; drive q: O; assemble B: ahead(A); assemble C: behind(Q);
+         load F: force(rod.P) = (3N, -2N); load H: force(c.P) in rod = (1N, 4N);",
+    ),
+    // The crank of a shaper that is held at its ram.
+    (
+        "slot and pin",
+        &[0.5, 2.0],
+        "ground { O: (0, 0), Q: (0, -0.35m), R: (0, 0.33m) } link crank { O: (0.1m, 0), A: (0, 0.14m) } link lever { Q -> B: 0.72m, S: (0.1m, 0.01m) } link rod { B -> C: 0.28m }
+         link ram { C: (0, 0), T: (-0.2m, -0.06m) } revolute O: ground -> crank; revolute Q: ground -> lever; slot S: lever -> crank.A along 1deg of lever;
+         revolute B: lever -> rod; revolute C: rod -> ram; prismatic R: ground.R -> ram.C along 0deg; drive q: O; unknown E: force(ram.T) along 20deg;
+         assemble S: ahead(Q); assemble C: behind(B); load F: force(crank.A) = (-30N, 4N); load M: moment(lever) = 2N*m;",
+    ),
+    // A Scotch yoke with its slot inclined, and a slider with a pin in the slot of a turning link.
+    (
+        "slot and slide",
+        &[0.4, 2.0],
+        "ground { O: (0, 0), G: (1m, 0.2m) } link crank { O -> A: 1m, C: (0.4m, 0.2m) } link yoke { G: (0.3m, 0.2m), S: (0.5m, 1m), P: (1m, 1m) }
+         link shoe { D: (0.1m, 0.2m), E: (0.4m, 0.3m) } revolute O: ground -> crank; prismatic G: yoke -> ground along 10deg, angle 30deg;
+         slot S: crank.A -> yoke.S along 100deg of yoke; prismatic D: ground.G -> shoe.D along 80deg, angle 15deg; slot E: crank.C -> shoe.E along (1, 2) of crank;
+         drive q: O; load F: force(yoke.P) = (3N, -2N); load H: force(shoe.D) in crank = (1N, 4N); load M: moment(shoe) = 1N*m;",
+    ),
+    // The same guided by a turning link, and held at the yoke: there the crank has pin and slot.
+    (
+        "slot and slide",
+        &[0.4, 1.0],
+        "ground { O: (0, 0), Q: (1m, 0) } link crank { O -> A: 0.5m } link arm { Q -> G: 2m } link yoke { G: (0.3m, 0.2m), S: (0.5m, 1m), P: (1m, 1m) }
+         revolute O: ground -> crank; revolute Q: ground -> arm; prismatic G: arm -> yoke along 10deg of yoke, angle 30deg;
+         slot S: yoke -> crank.A along 100deg of yoke; drive q: O; drive r: Q; unknown E: force(yoke.P) along 30deg of arm;
+         unknown T: torque(ground -> arm); load F: force(crank.A) = (3N, -2N); load H: force(yoke.S) in crank = (1N, 4N);",
+    ),
+    // A wheel that a crank's wheel turns, in five turns.
+    (
+        "gear train",
+        &[0.4, 31.0],
+        "ground { O: (0, 0), Q: (0.3m, 0.4m) } link a { O -> A: 1m } link b { Q: (0.1m, 0.1m), B: (1m, 0) } revolute O: ground -> a; revolute Q: b -> ground;
+         gear G: a.O -> b.Q, radii (0.2m, 0.3m), phase 0.05m, pressure_angle 20deg, flank left; drive q: O;
+         load F: force(b.B) = (3N, -2N); load H: force(a.A) in b = (1N, 4N); load M: moment(b) = 2N*m;",
+    ),
+    // A pinion in a ring that swings, the arrows the other way.
+    (
+        "gear train",
+        &[0.4, 2.0],
+        "ground { O: (0, 0), Q: (3m, 0.5m), R: (3.1m, 0.5m) } link crank { O -> A: 1m } link b { A -> B: 3m } link c { Q -> B: 2.5m, W: (1m, 1m) } link p { R: (0.1m, 0), P: (1m, 1m) }
+         revolute O: ground -> crank; revolute A: crank -> b; revolute B: b -> c; revolute Q: ground -> c; revolute R: p -> ground;
+         gear G: c.Q -> p.R, radii (0.3m, 0.2m), internal, phase 5mm, pressure_angle 25deg, flank right; drive q: O; assemble B: left(A -> Q);
+         load F: force(p.P) = (3N, -2N); load H: force(p.R) in b = (1N, 4N);",
+    ),
+    // A planetary train: sun, carrier and planet in a fixed ring, and a dyad behind the planet.
+    (
+        "gear train",
+        &[0.4, 15.0],
+        "ground { O: (0, 0), Q: (2m, 0) } link sun { O -> k: 0.2m } link carrier { O -> C: 0.375m } link planet { C: (0, 0), p: (0.1m, 0) }
+         revolute Os: ground.O -> sun.O; revolute Oc: ground.O -> carrier.O; revolute C: carrier -> planet;
+         gear Gs: sun.O -> planet.C, radii (0.25m, 0.125m), pressure_angle 0.35rad, flank left; gear Gr: ground.O -> planet.C, radii (0.5m, 0.125m), internal;
+         link b { p -> B: 2m } link c { Q -> B: 2.5m } revolute p: planet -> b; revolute B: b -> c; revolute Q: ground -> c; assemble B: left(p -> Q);
+         drive q: Os; load F: force(c.B) = (3N, -2N); load H: force(b.B) in planet = (1N, 4N); load M: moment(carrier) = 2N*m;",
+    ),
+    // A differential: sun and carrier turned by their own drives, a wheel beside the planet's arm.
+    (
+        "gear train",
+        &[0.4, 2.0],
+        "ground { O: (0, 0) } link sun { O -> k: 0.2m } link carrier { O -> C: 0.375m } link planet { C: (0, 0), p: (0.1m, 0) }
+         revolute Os: ground.O -> sun.O; revolute Oc: ground.O -> carrier.O; revolute C: carrier -> planet; gear Gs: planet.C -> sun.O, radii (0.125m, 0.25m), phase 3mm;
+         drive q: Os; drive r: C; load F: force(planet.p) = (3N, -2N); load H: force(carrier.C) in planet = (1N, 4N); load M: moment(sun) = 2N*m;",
+    ),
+    // A geared five-bar.
+    (
+        "gear train",
+        &[2.375, -1.0],
+        "ground { O: (0, 0), Q: (0.5625m, 0) } link a { O -> A: 0.223607m } link b { Q -> B: 0.382631m } link c { A -> C: 0.763217m } link d { B -> C: 0.743303m, T: (1.06282m, -0.0201802m) }
+         revolute O: ground -> a; revolute Q: ground -> b; gear G: a.O -> b.Q, radii (0.3125m, 0.25m), phase 0.861053075216m;
+         revolute A: a -> c; revolute B: b -> d; revolute C: c -> d; drive q: O; assemble C: left(A -> B); load F: force(d.T) = (3N, -2N);",
+    ),
+    // The same held at its coupler: gear and pins in one group of forces.
+    (
+        "block",
+        &[2.375, -1.0],
+        "ground { O: (0, 0), Q: (0.5625m, 0) } link a { O -> A: 0.223607m } link b { Q -> B: 0.382631m } link c { A -> C: 0.763217m } link d { B -> C: 0.743303m, T: (1.06282m, -0.0201802m) }
+         revolute O: ground -> a; revolute Q: ground -> b; gear G: b.Q -> a.O, radii (0.25m, 0.3125m), phase 0.861053075216m, pressure_angle 20deg, flank right;
+         revolute A: a -> c; revolute B: b -> d; revolute C: c -> d; drive q: O; unknown E: torque(ground -> d); assemble C: left(A -> B); load F: force(d.T) = (3N, -2N);",
+    ),
+    // A torque on an arm that is welded to the coupler: a weld in the group of forces.
+    (
+        "block",
+        &[0.4, 2.0],
+        "ground { O: (0, 0), Q: (3m, 0.5m) } link crank { O -> A: 1m } link b { A -> B: 3m, W: (1m, 1m) } link c { Q -> B: 2.5m } link arm { W: (0.3m, 0.2m), P: (1m, -1m) }
+         revolute O: ground -> crank; revolute A: crank -> b; revolute B: b -> c; revolute Q: ground -> c; weld W: b -> arm, angle 50deg;
+         drive q: O; unknown E: torque(ground -> arm); assemble B: left(A -> Q); load F: force(arm.P) = (3N, -2N); load H: moment(crank) = 3N*m;",
+    ),
+    // A torque between crank and rod of a shaper: slot, pins, slide and effort in one group.
+    (
+        "block",
+        &[0.5, 2.0],
+        "ground { O: (0, 0), Q: (0, -0.35m), R: (0, 0.33m) } link crank { O -> A: 0.14m } link lever { Q -> B: 0.72m, P: (0.3m, 0.2m) } link rod { B -> C: 0.28m }
+         link ram { C: (0, 0), T: (-0.2m, -0.06m) } revolute O: ground -> crank; revolute Q: ground -> lever; slot S: lever.Q -> crank.A along 0deg of lever;
+         revolute B: lever -> rod; revolute C: rod -> ram; prismatic R: ground.R -> ram.C along 0deg; drive q: O; unknown E: torque(crank -> rod);
+         assemble S: ahead(Q); assemble C: behind(B); load F: force(ram.T) = (-30N, 4N); load M: moment(crank) = 2N*m;",
     ),
 ];
 

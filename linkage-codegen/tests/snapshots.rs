@@ -93,8 +93,9 @@ fn every_stage_of_every_example() {
     }
 }
 
-/// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs.
-const OTHERS: [(&str, &str); 4] = [
+/// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs, slots,
+/// welds and gears.
+const OTHERS: [(&str, &str); 7] = [
     (
         "adjustable",
         "/// A crank-rocker whose dimensions are given at run time.
@@ -143,6 +144,37 @@ const OTHERS: [(&str, &str); 4] = [
         scene balanced: equilibrium(W, balance) -> (effort_theta);
         scene held: equilibrium; scene parts: superposition(counter, stop) -> (effort_theta, O);
         scene work: virtual_work(balance, counter, stop, push); scene check: verify;",
+    ),
+    (
+        "shaper",
+        "/// A crank shaper: the crank's pin swings the slotted lever, which draws the ram.
+        pub mod shaper; units { mm, N }
+        ground { O2: (0, 0), O4: (0, -350mm), R: (0, 330mm) } link crank { O2 -> A: 140mm } link lever { O4 -> B: 720mm }
+        link rod { B -> C: 280mm } link ram { C: (0, 0), tool: (-200mm, -60mm) }
+        revolute O2: ground -> crank; revolute O4: ground -> lever; slot A: lever.O4 -> crank.A along 0deg of lever;
+        revolute B: lever -> rod; revolute C: rod -> ram; prismatic R: ground.R -> ram.C along 0deg;
+        drive theta: O2; assemble A: ahead(O4); assemble C: behind(B);
+        load cut: force(ram.tool); scene held: equilibrium; scene torque: virtual_work;",
+    ),
+    (
+        "scotch_yoke",
+        "/// A Scotch yoke with an arm welded to it.
+        pub mod scotch_yoke; units { mm, N }
+        ground { O: (0, 0) } link crank { O -> A: 80mm } link yoke { Y: (0, 0), W: (300mm, 0) } link arm { W -> tip: 100mm }
+        revolute O: ground -> crank; prismatic Y: ground.O -> yoke along 0deg; slot A: yoke.Y -> crank.A along 90deg of yoke;
+        weld W: yoke -> arm, angle 90deg;
+        drive theta: O; load F: force(arm.tip); scene held: equilibrium; scene torque: virtual_work;",
+    ),
+    (
+        "gears",
+        "/// A wheel turned by a pinion, and a planetary train: sun, carrier, and a planet in a fixed ring.
+        pub mod gears; units { mm, N }
+        ground { O: (0, 0), P: (0, -450mm) } link pinion { P } link sun { O } link carrier { O -> C: 375mm } link planet { C }
+        revolute P: ground -> pinion; revolute Os: ground.O -> sun.O; revolute Oc: ground.O -> carrier.O; revolute C: carrier -> planet;
+        gear G: pinion.P -> sun.O, radii (150mm, 300mm), phase 5mm, pressure_angle 20deg, flank left;
+        gear Gs: sun.O -> planet.C, radii (250mm, 125mm); gear Gr: ground.O -> planet.C, radii (500mm, 125mm), internal;
+        drive theta: P; load M: moment(carrier); scene held: equilibrium; scene torque: virtual_work;
+        scene angles: position -> (sun.angle, carrier.angle, planet.angle, Gs);",
     ),
 ];
 

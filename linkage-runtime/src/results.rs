@@ -37,6 +37,113 @@ pub struct SliderReaction<T: Scalar> {
     pub couple: T,
 }
 
+/// The reaction of a weld on its second link.
+///
+/// ```
+/// use linkage_runtime::{Vector2, linkage};
+///
+/// linkage! {
+///     /// A lever with an arm welded to it at a right angle.
+///     mod bell_crank;
+///     units { mm, N }
+///     ground     { O: (0, 0) }
+///     link lever { O -> W: 100mm }
+///     link arm   { W -> P: 50mm }
+///     revolute O: ground -> lever;
+///     weld W: lever -> arm, angle 90deg;
+///     drive theta: O;
+///     load F: force(arm.P);
+///     scene held: equilibrium;
+/// }
+///
+/// let loads = bell_crank::Loads { F: Vector2::new(8.0, 0.0) };
+/// let held = bell_crank::held_at(0.0, &loads)?;
+/// // The lever pulls the arm back, and keeps it from turning clockwise.
+/// assert_eq!((held.W.force, held.W.couple, held.effort_theta), (Vector2::new(-8.0, 0.0), 400.0, 400.0));
+/// # Ok::<(), linkage_runtime::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WeldReaction<T: Scalar> {
+    /// The force, ground axes.
+    pub force: Vector2<T>,
+    /// The couple about the weld's point, counter-clockwise.
+    pub couple: T,
+}
+
+/// The reaction of a pin in a slot on its second link, whether that is the pin's or the slot's.
+///
+/// Along the slot there is no force, as slots are smooth: `force` is `normal` times the slot's direction turned by +90°.
+///
+/// ```
+/// use linkage_runtime::{Vector2, linkage};
+///
+/// linkage! {
+///     /// A crank whose pin drives a yoke along a guide.
+///     mod scotch_yoke;
+///     units { mm, N }
+///     ground     { O: (0, 0) }
+///     link crank { O -> A: 80mm }
+///     link yoke  { Y: (0, 0) }
+///     revolute O: ground -> crank;
+///     prismatic Y: ground.O -> yoke along 0deg;
+///     slot A: crank.A -> yoke.Y along 90deg of yoke;
+///     drive theta: O;
+///     load F: force(yoke.Y);
+///     scene held: equilibrium;
+/// }
+///
+/// let loads = scotch_yoke::Loads { F: Vector2::new(-50.0, 0.0) };
+/// let held = scotch_yoke::held_at(0.0, &loads)?;
+/// // The slot points upwards, its direction turned by +90° to the left: against the force of the crank.
+/// assert_eq!((held.A.force, held.A.normal), (Vector2::new(50.0, 0.0), -50.0));
+/// assert_eq!(held.effort_theta, 0.0);
+/// # Ok::<(), linkage_runtime::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlotReaction<T: Scalar> {
+    /// The force at the pin, ground axes.
+    pub force: Vector2<T>,
+    /// Its signed size along the slot's direction turned by +90°.
+    pub normal: T,
+}
+
+/// The reaction of a gear pair on its second wheel, where the wheels touch.
+///
+/// With u the direction from the first centre to the second and t this direction turned by +90°, `force` is `tangential` times
+/// `t + tan α u` on the left flank, `t − tan α u` on the right one, α being the pressure angle.
+///
+/// ```
+/// use linkage_runtime::{Vector2, linkage};
+///
+/// linkage! {
+///     /// A pinion of 20 mm turns a wheel of 40 mm.
+///     mod drive;
+///     units { mm, N }
+///     ground      { O: (0, 0), P: (60mm, 0) }
+///     link pinion { O }
+///     link wheel  { P }
+///     revolute O: ground -> pinion;
+///     revolute P: ground -> wheel;
+///     gear G: pinion.O -> wheel.P, radii (20mm, 40mm), pressure_angle 45deg, flank left;
+///     drive theta: O;
+///     load M: moment(wheel);
+///     scene held: equilibrium;
+/// }
+///
+/// let held = drive::held_at(0.3, &drive::Loads { M: 800.0 })?;
+/// // The tooth holds the wheel at its left end, upwards, and pushes it away to the right.
+/// assert_eq!((held.G.tangential, held.G.force.y, held.effort_theta), (20.0, 20.0, 400.0));
+/// assert!((held.G.force.x - 20.0).abs() < 1e-12);
+/// # Ok::<(), linkage_runtime::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GearReaction<T: Scalar> {
+    /// The force, ground axes.
+    pub force: Vector2<T>,
+    /// Its signed part across the line of centres.
+    pub tangential: T,
+}
+
 /// The term of a load in the principle of virtual work.
 ///
 /// ```

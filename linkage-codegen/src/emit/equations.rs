@@ -53,16 +53,26 @@ fn parts(linkage: &Linkage) -> String {
     let model = &linkage.model;
     let formula = Formula { model, terms: Nodes(&model.graph) };
     let joints = model.joints.iter().map(|joint| {
-        let (kind, line) = match joint.kind {
-            JointKind::Revolute => ("revolute", String::new()),
-            JointKind::Prismatic { carrier, axis, angle, .. } => {
-                let carrier = &model.link(carrier).name;
-                let (x, y) = (formula.of(axis.x), formula.of(axis.y));
-                ("prismatic", format!(" along ({x}, {y}) of {carrier}, at the angle {}", formula.of(angle)))
-            }
-        };
-        let ends = format!("{} -> {}", model.end_name(joint.from), model.end_name(joint.to));
-        format!("  {kind:<9} {}: {ends}{line}\n", joint.name)
+        let mut text = format!(
+            "  {:<9} {}: {} -> {}",
+            joint.kind.word(),
+            joint.name,
+            model.end_name(joint.from),
+            model.end_name(joint.to)
+        );
+        if let Some((carrier, axis)) = joint.kind.line() {
+            let (x, y) = (formula.of(axis.x), formula.of(axis.y));
+            text.push_str(&format!(" along ({x}, {y}) of {}", model.link(carrier).name));
+        }
+        if let Some((_, angle)) = joint.kind.turn() {
+            text.push_str(&format!(", at the angle {}", formula.of(angle)));
+        }
+        if let JointKind::Gear(gear) = joint.kind {
+            let [first, second] = gear.radii.map(|radius| formula.of(radius));
+            let (phase, arm) = (formula.of(gear.phase), &model.link(gear.arm[0].link).name);
+            text.push_str(&format!(", radii {first} and {second}, phase {phase}, held apart by {arm}"));
+        }
+        format!("{text}\n")
     });
     let plain = |sentence: String| sentence.replace('`', "");
     let unknowns = (0..model.unknowns.len()).map(UnknownId::new);
@@ -175,12 +185,7 @@ fn equation(linkage: &Linkage, link: LinkId, part: usize) -> String {
 }
 
 fn reaction_name(joint: &str, component: Component) -> String {
-    match component {
-        Component::X => format!("{joint}.x"),
-        Component::Y => format!("{joint}.y"),
-        Component::Normal => format!("{joint}.normal"),
-        Component::Couple => format!("{joint}.couple"),
-    }
+    format!("{joint}.{}", component.name())
 }
 
 /// A coefficient times an unknown, or a load's own term; the sign apart.

@@ -9,8 +9,8 @@ use syn::ext::IdentExt;
 use super::literals::ident;
 use super::types::{loads, results, run_time_loads, scalar};
 use crate::graph::NodeId;
-use crate::model::{JointKind, LoadKind, Method, Model, OWN_TYPES, Scene, Wanted, type_name};
-use crate::plan::{Field, Meaning, Output};
+use crate::model::{LoadKind, Method, Model, OWN_TYPES, Scene, Wanted, type_name};
+use crate::plan::{Field, Meaning, Output, reaction_type};
 
 /// The names of a module. Where several things would have one name, the first has it.
 #[must_use]
@@ -45,7 +45,7 @@ pub fn module(mut model: Model) -> TokenStream {
     quote! {
         #[allow(warnings, clippy::all, clippy::pedantic, reason = "stands in for a declaration that has errors")]
         #visibility mod #name {
-            use #runtime::{Error, SliderReaction, Vector2, WorkTerm};
+            use #runtime::{Error, GearReaction, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm};
             pub const EQUATIONS: &str = "";
             pub const OPERATIONS: &str = "";
             pub const SOURCE: &str = "";
@@ -231,11 +231,14 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
     };
     match wanted {
         Some(Wanted::Joint(joint)) => {
-            let slides = model.joints.get(joint.index()).map(|joint| joint.kind);
-            if matches!(slides, Some(JointKind::Prismatic { .. })) && scene.method != Method::Position {
-                return Output::Slider { force: [zero, zero], normal: zero, couple: zero };
+            let ty = model.joints.get(joint.index()).and_then(|joint| reaction_type(&joint.kind));
+            match ty.filter(|_| scene.method != Method::Position) {
+                Some((ty, components)) => {
+                    let parts = components.iter().map(|component| (component.name(), zero)).collect();
+                    Output::Reaction { ty, force: [zero, zero], parts }
+                }
+                None => vector,
             }
-            vector
         }
         Some(Wanted::Load(load)) => match model.loads.get(load.index()).map(|load| load.kind) {
             Some(LoadKind::Gravity { .. }) => per_link(model, &terms),

@@ -125,9 +125,14 @@ fn result(
             let (x, y) = (next(), next());
             quote!(Vector2::new(#x, #y))
         }
-        Output::Slider { .. } => {
-            let (x, y, normal, couple) = (next(), next(), next(), next());
-            quote!(SliderReaction { force: Vector2::new(#x, #y), normal: #normal, couple: #couple })
+        Output::Reaction { ty, parts, .. } => {
+            let (x, y) = (next(), next());
+            let parts = parts.iter().map(|(part, _)| {
+                let (part, value) = (ident(part), next());
+                quote!(#part: #value)
+            });
+            let (ty, parts) = (ident(ty), parts.collect::<Vec<_>>());
+            quote!(#ty { force: Vector2::new(#x, #y), #(#parts),* })
         }
         Output::Term { .. } => {
             let (velocity, work) = (next(), next());

@@ -86,7 +86,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
         )]
         #visibility mod #name {
             use #runtime::__private::#math as math;
-            use #runtime::{Error, SliderReaction, Vector2, WorkTerm};
+            use #runtime::{Error, GearReaction, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm};
             #reference
 
             /// The derivation: free bodies, equilibrium equations, reduction, closed forms.

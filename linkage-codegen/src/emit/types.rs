@@ -7,7 +7,7 @@ use super::literals::{ident, signed_literal};
 use crate::Linkage;
 use crate::model::ids::{GROUND, LoadId};
 use crate::model::units::Kind;
-use crate::model::{JointKind, Load, LoadKind, Method, Model, type_name};
+use crate::model::{Load, LoadKind, Method, Model, type_name};
 use crate::plan::Output;
 
 /// The scalar type.
@@ -196,13 +196,11 @@ pub(super) fn drive_doc(model: &Model, name: &str) -> String {
     let Some(drive) = model.drives.iter().find(|d| d.name.text == name) else { return String::new() };
     let joint = model.joint(drive.joint);
     let (from, to) = (&model.link(joint.from.link).name, &model.link(joint.to.link).name);
-    match joint.kind {
-        JointKind::Revolute => format!("Angle of `{to}` from `{from}` at `{}`, rad, counter-clockwise.", joint.name),
-        JointKind::Prismatic { .. } => format!(
-            "Travel of `{to}` from `{from}` along the slide `{}`, {}.",
-            joint.name,
-            Kind::Length.unit(&model.units)
-        ),
+    if drive.turns {
+        format!("Angle of `{to}` from `{from}` at `{}`, rad, counter-clockwise.", joint.name)
+    } else {
+        let (what, unit) = (joint.kind.noun(), Kind::Length.unit(&model.units));
+        format!("Travel of `{to}` from `{from}` along the {what} `{}`, {unit}.", joint.name)
     }
 }
 
@@ -212,7 +210,10 @@ pub(super) fn output_type(model: &Model, output: &Output, record: &str) -> Token
     match output {
         Output::Scalar(..) => quote!(#scalar),
         Output::Vector(..) => quote!(Vector2<#scalar>),
-        Output::Slider { .. } => quote!(SliderReaction<#scalar>),
+        Output::Reaction { ty, .. } => {
+            let ty = ident(ty);
+            quote!(#ty<#scalar>)
+        }
         Output::Term { .. } => quote!(WorkTerm<#scalar>),
         Output::Verification(_) => quote!(Verification<#scalar>),
         Output::Record(_) => {
@@ -325,10 +326,15 @@ fn total(base: &str, ty: &Ident, output: &Output) -> TokenStream {
                 let (x, y) = (sum(&quote!(.#name.x)), sum(&quote!(.#name.y)));
                 quote!(Vector2::new(#x, #y))
             }
-            Output::Slider { .. } => {
+            Output::Reaction { ty, parts, .. } => {
                 let (x, y) = (sum(&quote!(.#name.force.x)), sum(&quote!(.#name.force.y)));
-                let (normal, couple) = (sum(&quote!(.#name.normal)), sum(&quote!(.#name.couple)));
-                quote!(SliderReaction { force: Vector2::new(#x, #y), normal: #normal, couple: #couple })
+                let parts = parts.iter().map(|(part, _)| {
+                    let part = ident(part);
+                    let sum = sum(&quote!(.#name.#part));
+                    quote!(#part: #sum)
+                });
+                let ty = ident(ty);
+                quote!(#ty { force: Vector2::new(#x, #y), #(#parts),* })
             }
             _ => sum(&quote!(.#name)),
         };

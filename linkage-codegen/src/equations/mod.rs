@@ -9,12 +9,12 @@ pub mod joints;
 pub mod loads;
 
 pub use bodies::Body;
-use joints::{Component, Ends, Shape};
+use joints::{Component, Ends, Shape, Teeth};
 use loads::{Action, Case};
 
 use crate::graph::{Coordinate, Expr, Graph, NodeId, Vector};
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId, UnknownId};
-use crate::model::{End, JointKind, Model, UnknownKind};
+use crate::model::{Drive, End, JointKind, Model, UnknownKind};
 
 /// The equations of a linkage.
 #[derive(Debug)]
@@ -95,6 +95,18 @@ impl<'m> Dimensions<'m> for Declared<'m> {
                 axis: axis.vector(graph),
                 angle: graph.expr(angle),
             },
+            JointKind::Weld { angle, .. } => Shape::Weld { angle: graph.expr(angle) },
+            JointKind::Slot { carrier, axis } => {
+                Shape::Slot { carried_by_first: carrier == model.joint(joint).from.link, axis: axis.vector(graph) }
+            }
+            JointKind::Gear(gear) => Shape::Gear(Teeth {
+                radii: gear.radii.map(|radius| graph.expr(radius)),
+                phase: graph.expr(gear.phase),
+                incline: graph.expr(gear.incline),
+                arm: Body::symbolic(graph, gear.arm[0].link),
+                centres: gear.centres(model),
+                distance: gear.distance(model),
+            }),
         }
     }
 }
@@ -184,8 +196,8 @@ fn along_in<'g>(model: &Model, graph: &'g Graph, along: crate::model::Pair) -> V
 
 /// The coordinate of a driven joint, and what a unit of effort there exerts: the coordinate's gradient.
 pub fn drive_row<'g>(model: &Model, graph: &'g Graph, dimensions: &dyn Dimensions<'g>, drive: DriveId) -> Row {
-    let joint = model.drive(drive).joint;
-    let coordinate = joints::coordinate(dimensions.shape(joint), &ends(model, graph, dimensions, joint));
+    let Drive { joint, turns, .. } = *model.drive(drive);
+    let coordinate = joints::coordinate(dimensions.shape(joint), turns, &ends(model, graph, dimensions, joint));
     Row {
         source: Source::Drive(drive),
         residual: Some(coordinate.id()),

@@ -1,30 +1,31 @@
 //! Joints.
 
+mod gears;
+
 use super::evaluate::Scope;
 use super::ids::{GROUND, LinkId, PointId};
 use super::names::{Names, Role, unread};
 use super::units::Kind;
-use super::{End, Joint, JointKind, Model};
+use super::{End, Joint, JointKind, Model, Pair};
 use crate::diagnostics::{Diagnostic, Sink, closest, list};
+use crate::graph::NodeId;
 use crate::syntax::ast::{self, Ast, Item, Name};
 
-const NOWHERE: End = End { link: GROUND, point: PointId::FIRST };
+pub(super) const NOWHERE: End = End { link: GROUND, point: PointId::FIRST };
 
 /// Joints, with both ends on points of two links.
-pub(super) fn joints(model: &mut Model, ast: &Ast, names: &mut Names, sink: &Sink) {
+pub(super) fn joints(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
     for item in &ast.items {
         if let Some((broken, name)) = unread(item, Role::Joint) {
-            let kind = stand_in(model, broken.is("prismatic"));
+            let word = ["prismatic", "weld", "slot", "gear"].into_iter().find(|word| broken.is(word));
+            let kind = stand_in(model, word.unwrap_or_default());
             model.joints.push(Joint { name: name.clone(), from: NOWHERE, to: NOWHERE, kind });
         }
         let Item::Joint(given) = item else { continue };
         let scope = Scope { model, names };
         let ends = [&given.from, &given.to].map(|e| sink.absorb(end(scope, e, Some(&given.name))).flatten());
         let kind = sink.absorb(kind(scope, given, ends));
-        let kind = kind.unwrap_or_else(|| stand_in(model, given.keyword.text == "prismatic"));
-        if matches!(given.keyword.text.as_str(), "slot" | "weld" | "gear") {
-            names.distrust(&given.name);
-        }
+        let kind = kind.unwrap_or_else(|| stand_in(model, &given.keyword.text));
         if let [Some(from), Some(to)] = ends
             && from.link == to.link
         {
@@ -37,15 +38,19 @@ pub(super) fn joints(model: &mut Model, ast: &Ast, names: &mut Names, sink: &Sin
         let [from, to] = ends.map(|end| end.unwrap_or(NOWHERE));
         model.joints.push(Joint { name: given.name.clone(), from, to, kind });
     }
+    gears::arms(model, ast, sink);
 }
 
 /// The kind of a joint of which only this is known.
-fn stand_in(model: &Model, slides: bool) -> JointKind {
-    if !slides {
-        return JointKind::Revolute;
+fn stand_in(model: &Model, word: &str) -> JointKind {
+    let (along, angle) = (model.graph.zero().direction().into(), model.graph.zero().id());
+    match word {
+        "prismatic" => JointKind::Prismatic { carrier: GROUND, axis: along, turn: along, angle },
+        "weld" => JointKind::Weld { turn: along, angle },
+        "slot" => JointKind::Slot { carrier: GROUND, axis: along },
+        "gear" => gears::stand_in(model),
+        _ => JointKind::Revolute,
     }
-    let along = model.graph.zero().direction().into();
-    JointKind::Prismatic { carrier: GROUND, axis: along, turn: along, angle: model.graph.zero().id() }
 }
 
 /// A point on a link; the one of the joint's name, if none is said. `None` if the link could not be read.
@@ -87,22 +92,37 @@ fn without_point(model: &Model, link: LinkId, end: &ast::End, joint: &Name) -> D
 }
 
 fn kind(scope: Scope<'_>, given: &ast::Joint, ends: [Option<End>; 2]) -> Result<JointKind, Diagnostic> {
-    let place = given.keyword.place().to(given.to.place());
-    let planned = |what: &str| Diagnostic::new(place, format!("{what} are not supported yet"));
-    let (from, to) = (&given.from.link, &given.to.link);
     match given.keyword.text.as_str() {
-        "slot" => Err(planned("pins in slots").help(
-            "put a link between, as in `link block { S }`: `revolute` to the pin's link, and `prismatic` in the slot's",
-        )),
-        "weld" => Err(planned("welds").help(format!("declare `{from}` and `{to}` as one link"))),
-        "gear" => Err(planned("gear pairs")),
-        "prismatic" => prismatic(scope, given, ends),
+        "prismatic" => {
+            let (carrier, axis) = line(scope, given, ends)?;
+            let (turn, angle) = turn(scope, given)?;
+            Ok(JointKind::Prismatic { carrier, axis, turn, angle })
+        }
+        "weld" => {
+            let (turn, angle) = turn(scope, given)?;
+            Ok(JointKind::Weld { turn, angle })
+        }
+        "slot" => {
+            let (carrier, axis) = line(scope, given, ends)?;
+            Ok(JointKind::Slot { carrier, axis })
+        }
+        "gear" => gears::gear(scope, given, ends),
         _ => Ok(JointKind::Revolute),
     }
 }
 
-fn prismatic(scope: Scope<'_>, given: &ast::Joint, ends: [Option<End>; 2]) -> Result<JointKind, Diagnostic> {
-    let unread = || stand_in(scope.model, true);
+/// The fixed angle between the links, zero if it is not said.
+fn turn(scope: Scope<'_>, given: &ast::Joint) -> Result<(Pair, NodeId), Diagnostic> {
+    let angle = match &given.angle {
+        Some(value) => scope.scalar(value, Kind::Angle)?,
+        None => scope.model.graph.zero(),
+    };
+    Ok((angle.direction().into(), angle.id()))
+}
+
+/// The line of a slide or a slot, and the link that carries it.
+fn line(scope: Scope<'_>, given: &ast::Joint, ends: [Option<End>; 2]) -> Result<(LinkId, Pair), Diagnostic> {
+    let unread = || (GROUND, scope.model.graph.zero().direction().into());
     let ([Some(from), Some(to)], Some(along)) = (ends, &given.along) else { return Ok(unread()) };
     let links = [from.link, to.link];
     let carrier = match &along.of {
@@ -123,10 +143,5 @@ fn prismatic(scope: Scope<'_>, given: &ast::Joint, ends: [Option<End>; 2]) -> Re
                 .help(format!("write `of {}` or `of {}` behind the direction", given.from.link, given.to.link)));
         }
     };
-    let axis = scope.direction(along, carrier)?;
-    let angle = match &given.angle {
-        Some(value) => scope.scalar(value, Kind::Angle)?,
-        None => scope.model.graph.zero(),
-    };
-    Ok(JointKind::Prismatic { carrier, axis: axis.into(), turn: angle.direction().into(), angle: angle.id() })
+    Ok((carrier, scope.direction(along, carrier)?.into()))
 }

@@ -161,11 +161,14 @@ impl Joint {
         self.ends().into_iter().find(|end| end.link == link)
     }
 
-    /// Where the joint is: of a slide its runner, the point on the line that the other link carries. Its couple is about this point.
+    /// Where the joint is: of a slide its runner, the point on the line that the other link carries, of a slot its pin, of a gear pair
+    /// the second centre. The couple of the reaction is about this point.
     #[must_use]
     pub fn place(&self) -> End {
         match self.kind {
-            JointKind::Prismatic { carrier, .. } if carrier == self.to.link => self.from,
+            JointKind::Prismatic { carrier, .. } | JointKind::Slot { carrier, .. } if carrier == self.to.link => {
+                self.from
+            }
             _ => self.to,
         }
     }
@@ -193,6 +196,103 @@ pub enum JointKind {
         /// The same as an angle.
         angle: NodeId,
     },
+    /// The two points coincide; the angle between the links is fixed.
+    Weld {
+        /// Angle of the second link minus angle of the first, a direction.
+        turn: Pair,
+        /// The same as an angle.
+        angle: NodeId,
+    },
+    /// The point of one link, a pin, lies on a line of the other.
+    Slot {
+        /// The link that has the slot.
+        carrier: LinkId,
+        /// Its direction in that link's frame.
+        axis: Pair,
+    },
+    /// The links are wheels about the two points, and roll on each other.
+    Gear(Gear),
+}
+
+impl JointKind {
+    /// Its word.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Revolute => "revolute",
+            Self::Prismatic { .. } => "prismatic",
+            Self::Weld { .. } => "weld",
+            Self::Slot { .. } => "slot",
+            Self::Gear(_) => "gear",
+        }
+    }
+
+    /// What it is called among the field's words.
+    #[must_use]
+    pub fn noun(&self) -> &'static str {
+        match self {
+            Self::Revolute => "pin",
+            Self::Prismatic { .. } => "slide",
+            Self::Weld { .. } => "weld",
+            Self::Slot { .. } => "slot",
+            Self::Gear(_) => "gear pair",
+        }
+    }
+
+    /// Of a slide or a slot the line: the link that carries it, and its direction in that link's frame.
+    #[must_use]
+    pub fn line(&self) -> Option<(LinkId, Pair)> {
+        match *self {
+            Self::Prismatic { carrier, axis, .. } | Self::Slot { carrier, axis } => Some((carrier, axis)),
+            Self::Revolute | Self::Weld { .. } | Self::Gear(_) => None,
+        }
+    }
+
+    /// Where the links do not turn against each other, the angle of the second minus that of the first: as a direction and as an angle.
+    #[must_use]
+    pub fn turn(&self) -> Option<(Pair, NodeId)> {
+        match *self {
+            Self::Prismatic { turn, angle, .. } | Self::Weld { turn, angle } => Some((turn, angle)),
+            Self::Revolute | Self::Slot { .. } | Self::Gear(_) => None,
+        }
+    }
+}
+
+/// A gear pair.
+#[derive(Clone, Copy, Debug)]
+pub struct Gear {
+    /// The radii; the second is negative where the first wheel is a ring.
+    pub radii: [NodeId; 2],
+    /// `r₁ (θ₁ − ψ) + r₂ (θ₂ − ψ)`, with ψ the direction from the first centre to the second.
+    pub phase: NodeId,
+    /// The tangent of the pressure angle, negative on the right flank.
+    pub incline: NodeId,
+    /// The centres on the link that keeps their distance, the first and the second.
+    pub arm: [End; 2],
+}
+
+impl Gear {
+    /// The distance of the centres.
+    #[must_use]
+    pub fn distance<'m>(&self, model: &'m Model) -> Expr<'m> {
+        let [first, second] = self.arm;
+        model.distance(first.link, first.point, second.point)
+    }
+
+    /// The direction from the first centre to the second, in the frame of the arm.
+    #[must_use]
+    pub fn centres<'m>(&self, model: &'m Model) -> Vector<'m> {
+        let ([first, second], distance) = (self.arm, self.distance(model));
+        let way = model.local(second) - model.local(first);
+        Vector::new(way.x / distance, way.y / distance)
+    }
+
+    /// The radii of the circles that touch: in the ratio of the wheels' own, they fill the distance of the centres.
+    #[must_use]
+    pub fn rolling_radii<'m>(&self, model: &'m Model) -> [Expr<'m>; 2] {
+        let [first, second] = self.radii.map(|radius| model.graph.expr(radius));
+        [first, second].map(|radius| radius * self.distance(model) / (first + second))
+    }
 }
 
 /// A known motion.
@@ -202,6 +302,8 @@ pub struct Drive {
     pub name: Name,
     /// The joint whose coordinate it is.
     pub joint: JointId,
+    /// Whether that is the angle between its links; otherwise it is the travel along its line.
+    pub turns: bool,
 }
 
 /// What balances the loads.
@@ -540,7 +642,7 @@ pub fn resolve(ast: &Ast, sink: &Sink) -> Model {
     links::params(&mut model, ast, &mut names, sink);
     links::links(&mut model, ast, &names, sink);
     links::masses(&mut model, ast, &names, sink);
-    joints::joints(&mut model, ast, &mut names, sink);
+    joints::joints(&mut model, ast, &names, sink);
     motion::drives(&mut model, ast, &names, sink);
     motion::unknowns(&mut model, ast, &names, sink);
     motion::closures(&mut model, ast, &names, sink);

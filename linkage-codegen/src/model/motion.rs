@@ -14,13 +14,11 @@ use crate::syntax::ast::{self, Ast, Effort, Item, Name};
 pub(super) fn drives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
     for item in &ast.items {
         if let Some((_, name)) = unread(item, Role::Drive) {
-            model.drives.push(Drive { name: name.clone(), joint: JointId::new(model.joints.len()) });
+            model.drives.push(Drive { name: name.clone(), joint: JointId::new(model.joints.len()), turns: true });
         }
         let Item::Drive(given) = item else { continue };
         let joint = sink.absorb(names.find(Role::Joint, &given.joint)).flatten().map(JointId::new);
-        if let Some(joint) = joint {
-            check_drive(model, given, joint, sink);
-        }
+        let turns = joint.is_none_or(|joint| turns(model, given, joint, sink));
         if let Some(place) = given.motion {
             sink.report(
                 Diagnostic::new(place, "a motion that is known at compile time is not supported yet")
@@ -29,11 +27,12 @@ pub(super) fn drives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         }
         // No joint, if none could be found: no other drive is on the same one.
         let joint = joint.unwrap_or(JointId::new(model.joints.len()));
-        model.drives.push(Drive { name: given.name.clone(), joint });
+        model.drives.push(Drive { name: given.name.clone(), joint, turns });
     }
 }
 
-fn check_drive(model: &Model, given: &ast::Drive, joint: JointId, sink: &Sink) {
+/// Whether the coordinate of a drive is an angle.
+fn turns(model: &Model, given: &ast::Drive, joint: JointId, sink: &Sink) -> bool {
     let target = model.joint(joint);
     if let Some(first) = model.drives.iter().find(|d| d.joint == joint) {
         let problem = format!("the joint `{}` is driven by `{}` already", target.name, first.name);
@@ -43,17 +42,33 @@ fn check_drive(model: &Model, given: &ast::Drive, joint: JointId, sink: &Sink) {
                 .help("drive another joint, or leave one of them out"),
         );
     }
-    let Some(coordinate) = &given.coordinate else { return };
-    let (kind, has) = match target.kind {
-        JointKind::Revolute => ("revolute", "angle"),
-        JointKind::Prismatic { .. } => ("prismatic", "travel"),
+    let (coordinate, kind) = (given.coordinate.as_ref(), target.kind.word());
+    let asked = coordinate.map(|coordinate| coordinate.text.as_str());
+    let place = coordinate.map_or(given.joint.place(), |coordinate| given.joint.place().to(coordinate.place()));
+    let has = match target.kind {
+        JointKind::Revolute => "angle",
+        JointKind::Prismatic { .. } => "travel",
+        JointKind::Slot { .. } => {
+            if !matches!(asked, Some("angle" | "travel")) {
+                let problem = format!("the slot `{}` has an angle and a travel", target.name);
+                let help = format!("say which one it is: `drive {}: {}.travel;`", given.name, given.joint);
+                sink.report(Diagnostic::new(place, problem).help(help));
+            }
+            return asked == Some("angle");
+        }
+        JointKind::Weld { .. } | JointKind::Gear(_) => {
+            let what = target.kind.noun();
+            let problem = format!("the {what} `{}` has no coordinate of its own", target.name);
+            sink.report(Diagnostic::new(place, problem).help("drive a joint that turns or slides"));
+            return true;
+        }
     };
-    if coordinate.text != has {
+    if let Some(coordinate) = coordinate.filter(|coordinate| coordinate.text != has) {
         let problem = format!("the {kind} joint `{}` has an {has}, and no {coordinate}", target.name);
         let problem = if has == "travel" { problem.replace(" an ", " a ") } else { problem };
-        let place = given.joint.place().to(coordinate.place());
         sink.report(Diagnostic::new(place, problem).help(format!("write `drive {}: {};`", given.name, given.joint)));
     }
+    has == "angle"
 }
 
 /// Unknowns: as declared, or the efforts at the driven joints.

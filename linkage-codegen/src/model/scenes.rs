@@ -343,8 +343,20 @@ pub fn type_name(name: &str) -> String {
 }
 
 /// Types of the generated module and names that it takes from elsewhere.
-pub(crate) const OWN_TYPES: [&str; 9] =
-    ["Pose", "Loads", "Params", "Linkage", "Error", "Result", "Vector2", "SliderReaction", "WorkTerm"];
+pub(crate) const OWN_TYPES: [&str; 12] = [
+    "Pose",
+    "Loads",
+    "Params",
+    "Linkage",
+    "Error",
+    "Result",
+    "Vector2",
+    "SliderReaction",
+    "WeldReaction",
+    "SlotReaction",
+    "GearReaction",
+    "WorkTerm",
+];
 /// The same, where there are parameters, and where there is something to verify.
 const FURTHER_TYPES: [&str; 2] = ["Default", "Verification"];
 

@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 use super::framed::Framed;
 use super::pivots::Pivots;
 use super::placement::Placement;
+use super::reactions;
+use crate::equations::joints::Component;
 use crate::equations::loads::Action;
 use crate::graph::{Expr, Graph, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
@@ -19,12 +21,12 @@ struct Wrench<'m> {
     couple: Expr<'m>,
 }
 
-/// The reaction of a joint on its second link; of a slide at its runner.
+/// The reaction of a joint on its second link, at the joint's place on it; of a gear pair where the wheels touch.
 #[derive(Clone, Copy, Debug)]
 pub struct Reaction<'m> {
     /// The force.
     pub force: Framed<'m>,
-    /// The couple of a slide.
+    /// The couple of a slide or a weld.
     pub couple: Option<Expr<'m>>,
 }
 
@@ -174,6 +176,28 @@ impl<'m, 'p> Balance<'m, 'p> {
         let at = self.placement.slide_point(joint, far);
         self.push(far, at, force);
         self.couple(far, couple);
+    }
+
+    /// The reaction of a joint, a number for each of its parts; both links get what it exerts.
+    pub fn react(&mut self, joint: JointId, values: &[Expr<'m>]) {
+        let data = self.model().joint(joint);
+        let parts = reactions::parts(self.placement, joint);
+        let graph = self.graph();
+        let mut force = self.ground_force(graph.zero_vector());
+        let mut couple = None;
+        for (part, value) in parts.iter().zip(values) {
+            let own = Framed { components: part.force.components.scaled(*value), axes: part.force.axes };
+            force = force.plus(&own, self.placement.direction(GROUND));
+            if part.component == Component::Couple {
+                couple = Some(*value);
+            }
+            for (end, couple) in data.ends().into_iter().zip(part.couples) {
+                self.couple(end.link, couple * *value);
+            }
+        }
+        self.push(data.to.link, self.placement.slide_point(joint, data.to.link), force);
+        self.push(data.from.link, self.placement.slide_point(joint, data.from.link), force.opposite());
+        self.reactions.insert(joint, Reaction { force, couple });
     }
 
     /// An unknown effort is found.

@@ -7,7 +7,7 @@ use super::velocities::Motion;
 use crate::equations::loads::Line;
 use crate::graph::{Expr, Vector};
 use crate::model::ids::{GROUND, LinkId, UnknownId};
-use crate::model::{End, JointKind, Model, UnknownKind};
+use crate::model::{End, Model, UnknownKind};
 
 /// A force or a couple on a link.
 #[derive(Clone, Copy, Debug)]
@@ -148,7 +148,7 @@ fn torque_links(model: &Model, unknown: UnknownId) -> Option<(LinkId, LinkId)> {
         UnknownKind::Torque(from, to) => Some((from, to)),
         UnknownKind::Drive(drive) => {
             let joint = model.joint(model.drive(drive).joint);
-            matches!(joint.kind, JointKind::Revolute).then_some((joint.from.link, joint.to.link))
+            model.drive(drive).turns.then_some((joint.from.link, joint.to.link))
         }
         UnknownKind::Force { .. } | UnknownKind::Thrust(_) => None,
     }

@@ -12,6 +12,7 @@ mod linear;
 mod output;
 mod pivots;
 mod placement;
+mod reactions;
 pub mod rules;
 pub(crate) mod scenes;
 mod velocities;
@@ -21,6 +22,7 @@ pub use balance::Balance;
 pub use output::{Comparison, Field, Meaning, Output};
 pub use pivots::Pivots;
 pub use placement::Placement;
+pub(crate) use scenes::reaction_type;
 pub use velocities::Motion;
 
 use std::collections::{BTreeSet, HashMap};
@@ -28,7 +30,7 @@ use std::collections::{BTreeSet, HashMap};
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::equations::System;
 use crate::graph::{Coordinate, Expr, NodeId, Op, Symbol};
-use crate::model::ids::{DriveId, GROUND, JointId, LinkId, ParamId};
+use crate::model::ids::{DriveId, JointId, LinkId, ParamId};
 use crate::model::units::Kind;
 use crate::model::{End, Model, Pair};
 use crate::topology::{Group, Input, Topology};
@@ -169,7 +171,7 @@ fn unsupported(model: &Model, group: &Group, what: &str) -> Diagnostic {
     let class = "its class is not supported yet";
     Diagnostic::new(place, format!("there is no rule to {what} the group of {}: {class}", list(&links)))
         .note(format!("its joints are {} ({letters})", list(&joints)))
-        .help("supported are links on one pin or one slide, and RRR and RRP dyads: another drive or unknown may split the linkage so")
+        .help("supported are links on one pin or one slide, welded links, levers and sliders with a slot, gear trains on pins, and RRR and RRP dyads: another drive or unknown may split the linkage so")
 }
 
 /// The heading of a group's steps.
@@ -184,7 +186,7 @@ fn placed_links(assembly: &Assembly<'_>) -> Vec<PlacedLink> {
     let place = |link: LinkId| PlacedLink {
         origin: placement.origin(link).into(),
         direction: placement.frame(link).into(),
-        angle: angle(assembly, link).id(),
+        angle: placement.angle(link).id(),
     };
     (0..assembly.model().links.len()).map(LinkId::new).map(place).collect()
 }
@@ -208,7 +210,15 @@ fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
     for (joint, travel) in assembly.placement.travels() {
         let name = &model.joint(joint).name;
         let unit = Kind::Length.unit(&model.units);
-        keep(format!("travel_{name}"), format!("travel of the slide `{name}`, {unit}"), travel);
+        let what = model.joint(joint).kind.noun();
+        keep(format!("travel_{name}"), format!("travel of the {what} `{name}`, {unit}"), travel);
+    }
+    for (slot, arm) in assembly.placement.arms() {
+        let (name, unit) = (&model.joint(slot).name, Kind::Length.unit(&model.units));
+        let meaning = format!(
+            "lever arm of the slot `{name}` about its link's pin, {unit}, zero where it is no larger than its rounding"
+        );
+        keep(format!("arm_{name}"), meaning, arm);
     }
     for dyad in &assembly.dyads {
         let name = &model.joint(dyad.joint).name;
@@ -240,7 +250,7 @@ fn accessors(assembly: &Assembly<'_>) -> Vec<Accessor> {
     for joint in model.joint_ids() {
         let name = &model.joint(joint).name;
         let meaning = format!("Place of the joint `{name}`, {unit}, ground axes.");
-        let output = Output::vector(placement.place(model.joint(joint).place()), Meaning::Place);
+        let output = Output::vector(placement.joint_place(joint), Meaning::Place);
         all.push(Accessor { name: name.text.clone(), meaning, output });
     }
     for link in model.moving_links() {
@@ -264,26 +274,6 @@ fn accessors(assembly: &Assembly<'_>) -> Vec<Accessor> {
         all.push(Accessor { name: format!("sin_mu_{name}"), meaning, output });
     }
     all
-}
-
-/// The angle of a link: of one that is driven from the ground the drive's own value, of others from the direction of its frame.
-fn angle<'m>(assembly: &Assembly<'m>, link: LinkId) -> Expr<'m> {
-    let model = assembly.model();
-    let driven =
-        assembly.topology.motion.iter().find_map(|group| match (group.links.as_slice(), group.inputs.as_slice()) {
-            ([own], [Input::Drive(drive)]) if *own == link => {
-                let joint = model.joint(model.drive(*drive).joint);
-                let from_ground = matches!(joint.kind, crate::model::JointKind::Revolute)
-                    && joint.end_off(link).is_some_and(|end| end.link == GROUND);
-                let value = assembly.coordinate(*drive);
-                from_ground.then_some(if joint.to.link == link { value } else { -value })
-            }
-            _ => None,
-        });
-    driven.unwrap_or_else(|| {
-        let frame = assembly.placement.frame(link);
-        assembly.graph().atan2(frame.y, frame.x)
-    })
 }
 
 /// A check that fails whatever is given stands for a linkage that works at no pose.

@@ -34,14 +34,14 @@ pub enum Output {
     Scalar(NodeId, Meaning),
     /// A vector.
     Vector([NodeId; 2], Meaning),
-    /// The reaction of a slide.
-    Slider {
+    /// A reaction that is more than a vector.
+    Reaction {
+        /// Its type in the run-time crate.
+        ty: &'static str,
         /// The force in ground axes.
         force: [NodeId; 2],
-        /// Its signed size along the slide's normal.
-        normal: NodeId,
-        /// The couple.
-        couple: NodeId,
+        /// What it has beside the force, each with the name of its field.
+        parts: Vec<(&'static str, NodeId)>,
     },
     /// A term of virtual work.
     Term {
@@ -145,11 +145,10 @@ impl Output {
                 leaf("x", *x);
                 leaf("y", *y);
             }
-            Self::Slider { force: [x, y], normal, couple } => {
+            Self::Reaction { force: [x, y], parts, .. } => {
                 leaf("force.x", *x);
                 leaf("force.y", *y);
-                leaf("normal", *normal);
-                leaf("couple", *couple);
+                parts.iter().for_each(|(part, node)| leaf(part, *node));
             }
             Self::Term { velocity, work, .. } => {
                 leaf("velocity", *velocity);

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use crate::equations::loads::Posture;
 use crate::graph::{Expr, Graph, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
-use crate::model::{End, JointKind, Model};
+use crate::model::{End, Gear, JointKind, Model};
 
 /// The direction that a link carries.
 #[derive(Clone, Copy, Debug)]
@@ -69,6 +69,8 @@ pub struct Placement<'m> {
     pub model: &'m Model,
     orientations: Vec<Option<Orientation<'m>>>,
     travels: BTreeMap<JointId, Expr<'m>>,
+    angles: BTreeMap<LinkId, Expr<'m>>,
+    arms: BTreeMap<[JointId; 2], Expr<'m>>,
     placed: BTreeSet<JointId>,
 }
 
@@ -79,7 +81,8 @@ impl<'m> Placement<'m> {
         let x_axis = Vector::new(model.graph.one(), model.graph.zero());
         let mut orientations = vec![None; model.links.len()];
         orientations[GROUND.index()] = Some(Orientation { direction: x_axis, axis: x_axis });
-        Self { model, orientations, travels: BTreeMap::new(), placed: BTreeSet::new() }
+        let angles = BTreeMap::from([(GROUND, model.graph.zero())]);
+        Self { model, orientations, travels: BTreeMap::new(), angles, arms: BTreeMap::new(), placed: BTreeSet::new() }
     }
 
     /// All expressions.
@@ -99,21 +102,44 @@ impl<'m> Placement<'m> {
         self.placed.insert(joint);
     }
 
-    /// The travel of a slide is known. A pose keeps it.
+    /// The travel of a slide, or of the pin in a slot, is known. A pose keeps it.
     pub fn set_travel(&mut self, joint: JointId, travel: Expr<'m>) {
         self.travels.insert(joint, travel.held());
         self.placed.insert(joint);
     }
 
-    /// The travel of a slide: of its second point from its first, along its direction.
+    /// The travel of a slide or a slot: of its second point from its first, along its direction.
     #[must_use]
     pub fn travel(&self, joint: JointId) -> Expr<'m> {
         self.travels.get(&joint).copied().unwrap_or_else(|| self.graph().zero())
     }
 
-    /// All slides with their travels.
+    /// All slides and slots with their travels.
     pub fn travels(&self) -> impl Iterator<Item = (JointId, Expr<'m>)> {
         self.travels.iter().map(|(joint, travel)| (*joint, *travel))
+    }
+
+    /// The lever arm of a slot's normal about a pin of the same link is known, zero where it is no larger than its rounding: made of
+    /// what a pose keeps.
+    pub fn set_arm(&mut self, slot: JointId, pin: JointId, arm: Expr<'m>) {
+        self.arms.insert([slot, pin], arm);
+    }
+
+    /// The lever arm of a slot's normal about a pin of the same link, if its position told it.
+    #[must_use]
+    pub fn arm(&self, slot: JointId, pin: JointId) -> Option<Expr<'m>> {
+        self.arms.get(&[slot, pin]).copied()
+    }
+
+    /// All slots with the lever arms of their normals about pins.
+    pub fn arms(&self) -> impl Iterator<Item = (JointId, Expr<'m>)> {
+        self.arms.iter().map(|([slot, _], arm)| (*slot, *arm))
+    }
+
+    /// Whether a link is placed.
+    #[must_use]
+    pub fn is_placed(&self, link: LinkId) -> bool {
+        self.orientations[link.index()].is_some()
     }
 
     /// The direction of a link. A link whose group is not solved yet has that of the ground; no rule asks for it.
@@ -162,31 +188,34 @@ impl<'m> Placement<'m> {
         axis.conjugate().turned_by(direction)
     }
 
-    /// The direction along which a slide goes, in ground axes.
+    /// The direction along which a slide or a slot goes, in ground axes.
     #[must_use]
     pub fn slide_direction(&self, joint: JointId) -> Vector<'m> {
-        match self.model.joint(joint).kind {
-            JointKind::Prismatic { carrier, axis, .. } => self.turned(carrier, axis.vector(self.graph())),
-            JointKind::Revolute => self.direction(GROUND),
-        }
+        let line = self.model.joint(joint).kind.line();
+        line.map_or(self.direction(GROUND), |(carrier, axis)| self.turned(carrier, axis.vector(self.graph())))
+    }
+
+    /// The direction from the centre of a gear pair's first wheel to that of the second, in ground axes.
+    #[must_use]
+    pub fn centre_line(&self, gear: &Gear) -> Vector<'m> {
+        self.turned(gear.arm[0].link, gear.centres(self.model))
     }
 
     /// The direction of a slide along and across the direction that its links carry: the same vector for both.
     #[must_use]
     pub fn slide_along(&self, joint: JointId) -> Vector<'m> {
-        match self.model.joint(joint).kind {
-            JointKind::Prismatic { carrier, axis, .. } => self.carried(carrier, axis.vector(self.graph())),
-            JointKind::Revolute => self.direction(GROUND),
-        }
+        let line = self.model.joint(joint).kind.line();
+        line.map_or(self.direction(GROUND), |(carrier, axis)| self.carried(carrier, axis.vector(self.graph())))
     }
 
-    /// The place of a slide's runner on one of its links, along and across that link's direction.
+    /// The place of a joint on one of its links, along and across that link's direction: of a slide its runner, of a slot its pin, of
+    /// a gear pair the wheel's centre.
     #[must_use]
     pub fn slide_point(&self, joint: JointId, link: LinkId) -> Vector<'m> {
         let data = self.model.joint(joint);
-        match data.kind {
-            JointKind::Prismatic { carrier, .. } if carrier == link => {
-                let along = self.slide_along(joint);
+        match data.kind.line() {
+            Some((carrier, axis)) if carrier == link => {
+                let along = self.carried(carrier, axis.vector(self.graph()));
                 let travel = self.travel(joint);
                 let (own, travel) = if data.from.link == link { (data.from, travel) } else { (data.to, -travel) };
                 self.point(own) + along.scaled(travel)
@@ -212,6 +241,54 @@ impl<'m> Placement<'m> {
         }
     }
 
+    /// The place of a joint in ground axes: of a gear pair the point where the wheels touch.
+    #[must_use]
+    pub fn joint_place(&self, joint: JointId) -> Vector<'m> {
+        let data = self.model.joint(joint);
+        let place = self.place(data.place());
+        let JointKind::Gear(gear) = data.kind else { return place };
+        let [_, radius] = gear.rolling_radii(self.model);
+        place - self.centre_line(&gear).scaled(radius)
+    }
+
+    /// The angle of a link is known, with all its turns.
+    pub fn set_angle(&mut self, link: LinkId, angle: Expr<'m>) {
+        self.angles.insert(link, angle);
+    }
+
+    /// The angle of a link with all its turns, if it follows from the drives alone: that of a driven link or a wheel, or of a link that
+    /// does not turn against one.
+    #[must_use]
+    pub fn unwrapped_angle(&self, link: LinkId) -> Option<Expr<'m>> {
+        let mut reached = BTreeMap::from([(link, self.graph().zero())]);
+        let mut open = VecDeque::from([link]);
+        while let Some(at) = open.pop_front() {
+            let ahead = reached[&at];
+            if let Some(angle) = self.angles.get(&at) {
+                return Some(*angle + ahead);
+            }
+            for joint in self.placed.iter().map(|joint| self.model.joint(*joint)) {
+                let (Some((_, turn)), Some(far)) = (joint.kind.turn(), joint.end_off(at)) else { continue };
+                let turn = self.graph().expr(turn);
+                let turn = if joint.to.link == at { turn } else { -turn };
+                reached.entry(far.link).or_insert_with(|| {
+                    open.push_back(far.link);
+                    ahead + turn
+                });
+            }
+        }
+        None
+    }
+
+    /// The angle of a link: with all its turns if it follows from the drives alone, of others that of the direction of its frame.
+    #[must_use]
+    pub fn angle(&self, link: LinkId) -> Expr<'m> {
+        self.unwrapped_angle(link).unwrap_or_else(|| {
+            let frame = self.frame(link);
+            self.graph().atan2(frame.y, frame.x)
+        })
+    }
+
     /// The origin of a link's frame in ground axes.
     #[must_use]
     pub fn origin(&self, link: LinkId) -> Vector<'m> {
@@ -222,10 +299,10 @@ impl<'m> Placement<'m> {
         self.place(point) - self.turned(link, self.model.local(point))
     }
 
-    /// The orientation of a link that a slide joins to a placed one: they turn together.
+    /// The orientation of a link that a slide or a weld joins to a placed one: they turn together.
     #[must_use]
     pub fn along_slide(&self, joint: JointId, link: LinkId) -> Orientation<'m> {
-        let JointKind::Prismatic { turn, .. } = self.model.joint(joint).kind else { return self.orientation(link) };
+        let Some((turn, _)) = self.model.joint(joint).kind.turn() else { return self.orientation(link) };
         let turn = turn.vector(self.graph());
         let joint = self.model.joint(joint);
         let other = if joint.from.link == link { joint.to.link } else { joint.from.link };
@@ -244,7 +321,7 @@ impl<'m> Placement<'m> {
             let joint_data = self.model.joint(joint);
             let (Some(near), Some(far)) = (joint_data.end_on(at.link), joint_data.end_off(at.link)) else { continue };
             push_segment(&mut segments, self.within(at, near));
-            if let JointKind::Prismatic { .. } = joint_data.kind {
+            if joint_data.kind.line().is_some() {
                 let travel = self.travel(joint);
                 let signed = if joint_data.from == near { travel } else { -travel };
                 push_segment(&mut segments, self.slid(joint, signed));
@@ -266,9 +343,9 @@ impl<'m> Placement<'m> {
         }
     }
 
-    /// Along a slide.
+    /// Along a slide or a slot.
     fn slid(&self, joint: JointId, travel: Expr<'m>) -> Segment<'m> {
-        let JointKind::Prismatic { carrier, axis, .. } = self.model.joint(joint).kind else {
+        let Some((carrier, axis)) = self.model.joint(joint).kind.line() else {
             return Segment {
                 direction: self.direction(GROUND),
                 along: self.graph().zero_vector(),

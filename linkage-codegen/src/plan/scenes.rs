@@ -1,7 +1,7 @@
 //! The results of every scene, by its method.
 
 use super::rules::{Rule, RuleResult};
-use super::{Assembly, Balance, Comparison, Meaning, Motion, Output, PlacedLink, angle, heading, joint_name};
+use super::{Assembly, Balance, Comparison, Meaning, Motion, Output, PlacedLink, heading, joint_name};
 use crate::diagnostics::Sink;
 use crate::equations::joints::Component;
 use crate::equations::loads::{Action, Case, Line, cases_of};
@@ -59,7 +59,7 @@ fn position(forces: &Forces<'_, '_>, scene: &Scene) -> Output {
         Wanted::Joint(joint) => Some(Field {
             name: joint_name(model, joint).into(),
             doc: format!("Place of the joint `{}`, {unit}, ground axes.", joint_name(model, joint)),
-            value: Output::vector(placement.place(model.joint(joint).place()), Meaning::Place),
+            value: Output::vector(placement.joint_place(joint), Meaning::Place),
         }),
         Wanted::Point(end) => Some(Field {
             name: model.end_name(end).replace('.', "_"),
@@ -72,7 +72,7 @@ fn position(forces: &Forces<'_, '_>, scene: &Scene) -> Output {
                 "Angle of the x axis of the frame of `{}`, rad, counter-clockwise from the ground's.",
                 model.link(link).name
             ),
-            value: Output::scalar(angle(forces.assembly, link), Meaning::Angle),
+            value: Output::scalar(placement.angle(link), Meaning::Angle),
         }),
         Wanted::Unknown(_) | Wanted::Load(_) => None,
     });
@@ -353,17 +353,24 @@ fn term(motion: &Motion<'_, '_>, load: &str, kind: LoadKind, actions: &[Action])
 /// A scalar unknown of the unreduced equations, as a load case's solution has it.
 fn unknown_of<'m>(balance: &Balance<'m, '_>, source: Source) -> Expr<'m> {
     match source {
-        Source::Joint(joint, component) => {
-            let reaction = balance.reaction(joint);
-            match component {
-                Component::X => reaction.force.ground().x,
-                Component::Y => reaction.force.ground().y,
-                Component::Normal => reaction.force.along(balance.placement.slide_direction(joint)).y,
-                Component::Couple => reaction.couple.unwrap_or_else(|| balance.graph().zero()),
-            }
-        }
+        Source::Joint(joint, component) => component_of(balance, joint, component),
         Source::Unknown(unknown) => balance.effort(unknown),
         Source::Drive(_) => balance.graph().zero(),
+    }
+}
+
+/// A component of a joint's reaction.
+fn component_of<'m>(balance: &Balance<'m, '_>, joint: JointId, component: Component) -> Expr<'m> {
+    let reaction = balance.reaction(joint);
+    match component {
+        Component::X => reaction.force.ground().x,
+        Component::Y => reaction.force.ground().y,
+        Component::Normal => reaction.force.along(balance.placement.slide_direction(joint)).y,
+        Component::Tangential => match balance.model().joint(joint).kind {
+            JointKind::Gear(gear) => reaction.force.along(balance.placement.centre_line(&gear)).y,
+            _ => balance.graph().zero(),
+        },
+        Component::Couple => reaction.couple.unwrap_or_else(|| balance.graph().zero()),
     }
 }
 
@@ -388,24 +395,29 @@ fn reaction(balance: &Balance<'_, '_>, joint: JointId) -> Output {
     let name = balance.name(joint_name(balance.model(), joint));
     let reaction = balance.reaction(joint);
     let force = reaction.force.ground().named(&name, &format!("{name} in ground axes"));
-    match balance.model().joint(joint).kind {
-        JointKind::Revolute => Output::vector(force, Meaning::Force),
-        JointKind::Prismatic { .. } => {
-            let normal = reaction.force.along(balance.placement.slide_direction(joint)).y;
-            let couple = reaction.couple.unwrap_or_else(|| balance.graph().zero());
-            Output::Slider { force: [force.x.id(), force.y.id()], normal: normal.id(), couple: couple.id() }
-        }
+    let Some((ty, components)) = reaction_type(&balance.model().joint(joint).kind) else {
+        return Output::vector(force, Meaning::Force);
+    };
+    let parts = components.iter().map(|c| (c.name(), component_of(balance, joint, *c).id())).collect();
+    Output::Reaction { ty, force: [force.x.id(), force.y.id()], parts }
+}
+
+/// The type of a reaction that is more than a vector, and what it has beside the force.
+pub(crate) fn reaction_type(kind: &JointKind) -> Option<(&'static str, &'static [Component])> {
+    match kind {
+        JointKind::Revolute => None,
+        JointKind::Prismatic { .. } => Some(("SliderReaction", &[Component::Normal, Component::Couple])),
+        JointKind::Weld { .. } => Some(("WeldReaction", &[Component::Couple])),
+        JointKind::Slot { .. } => Some(("SlotReaction", &[Component::Normal])),
+        JointKind::Gear(_) => Some(("GearReaction", &[Component::Tangential])),
     }
 }
 
 fn unknown_meaning(model: &Model, unknown: UnknownId) -> Meaning {
     match model.unknown(unknown).kind {
         UnknownKind::Torque(..) => Meaning::Moment,
-        UnknownKind::Force { .. } | UnknownKind::Thrust(_) => Meaning::Force,
-        UnknownKind::Drive(drive) => match model.joint(model.drive(drive).joint).kind {
-            JointKind::Revolute => Meaning::Moment,
-            JointKind::Prismatic { .. } => Meaning::Force,
-        },
+        UnknownKind::Drive(drive) if model.drive(drive).turns => Meaning::Moment,
+        UnknownKind::Force { .. } | UnknownKind::Thrust(_) | UnknownKind::Drive(_) => Meaning::Force,
     }
 }
 
@@ -428,13 +440,10 @@ pub(crate) fn unknown_doc(model: &Model, unknown: UnknownId) -> String {
         UnknownKind::Drive(drive) => {
             let joint = model.joint(model.drive(drive).joint);
             let (from, to) = (name(joint.from.link), name(joint.to.link));
-            match joint.kind {
-                JointKind::Revolute => {
-                    format!("Torque on `{to}` by `{from}` at `{}`, {moment}, counter-clockwise.", joint.name)
-                }
-                JointKind::Prismatic { .. } => {
-                    format!("Force on `{to}` by `{from}` along the slide `{}`, {force}.", joint.name)
-                }
+            if model.drive(drive).turns {
+                format!("Torque on `{to}` by `{from}` at `{}`, {moment}, counter-clockwise.", joint.name)
+            } else {
+                format!("Force on `{to}` by `{from}` along the {} `{}`, {force}.", joint.kind.noun(), joint.name)
             }
         }
     }
@@ -446,11 +455,17 @@ fn reaction_doc(model: &Model, joint: JointId) -> String {
     let (from, to) = (&model.link(data.from.link).name, &model.link(data.to.link).name);
     match data.kind {
         JointKind::Revolute => format!("Force on `{to}` by `{from}`, {force}, ground axes."),
-        JointKind::Prismatic { .. } => {
+        JointKind::Prismatic { .. } | JointKind::Weld { .. } => {
             format!(
                 "Force ({force}, ground axes) and couple ({moment}) on `{to}` by `{from}`, about `{}`.",
                 model.end_name(data.place())
             )
+        }
+        JointKind::Slot { .. } => {
+            format!("Force on `{to}` by `{from}` at `{}`, {force}, ground axes.", model.end_name(data.place()))
+        }
+        JointKind::Gear(_) => {
+            format!("Force on `{to}` by `{from}` where the wheels touch, {force}, ground axes.")
         }
     }
 }

@@ -356,6 +356,23 @@ pub struct Joint {
     pub along: Option<Direction>,
     /// `angle …`
     pub angle: Option<Value>,
+    /// What a gear pair has beside.
+    pub gear: Box<Gear>,
+}
+
+/// `radii (20mm, 30mm), internal, phase 5mm, pressure_angle 20deg, flank left`
+#[derive(Clone, Debug, Default)]
+pub struct Gear {
+    /// The radii of the first and the second wheel.
+    pub radii: Option<[Value; 2]>,
+    /// Whether the first wheel is a ring.
+    pub internal: bool,
+    /// `phase …`
+    pub phase: Option<Value>,
+    /// `pressure_angle …`
+    pub pressure_angle: Option<Value>,
+    /// `flank left` or `flank right`
+    pub flank: Option<Name>,
 }
 
 /// `drive NAME: JOINT;`

@@ -6,7 +6,7 @@ use syn::token::{Brace, Paren};
 use syn::{Error, Result, Token};
 
 use super::ast::{
-    Assemble, Distances, Drive, Effort, End, Item, Joint, Link, Mass, Name, Param, PointPlace, PointRef, Smooth,
+    Assemble, Distances, Drive, Effort, End, Gear, Item, Joint, Link, Mass, Name, Param, PointPlace, PointRef, Smooth,
     Unknown, words,
 };
 use super::quantity::{at_pair, direction, value, vector};
@@ -45,8 +45,7 @@ pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
             link(input, &keyword, Some(name), slips)
         }
         "mass" => mass(input),
-        "revolute" | "prismatic" => joint(input, keyword),
-        "slot" | "weld" | "gear" => planned_joint(input, keyword),
+        "revolute" | "prismatic" | "slot" | "weld" | "gear" => joint(input, keyword),
         "drive" => drive(input),
         "assemble" => assemble(input, &keyword),
         "start" => {
@@ -212,36 +211,64 @@ fn joint(input: ParseStream<'_>, keyword: Name) -> Result<Item> {
     input.parse::<Token![->]>()?;
     let to = end(input)?;
     let along = if eat_word(input, "along") { Some(direction(input)?) } else { None };
-    let mut angle = None;
-    if input.peek(Token![,]) {
+    let mut joint = Joint { name, keyword, from, to, along, angle: None, gear: Box::default() };
+    while input.peek(Token![,]) {
         input.parse::<Token![,]>()?;
-        expect_word(input, "angle")?;
-        angle = Some(value(input)?);
+        if joint.keyword.text == "gear" {
+            gear_option(input, &mut joint.gear)?;
+        } else {
+            expect_word(input, "angle")?;
+            joint.angle = Some(value(input)?);
+        }
     }
-    let slides = keyword.text == "prismatic";
-    if slides && along.is_none() {
-        return Err(Error::new(
-            name.span,
-            format!(
-                "the prismatic joint `{name}` has no direction\nhelp: say along which line it slides: `along 0deg`"
-            ),
-        ));
-    }
-    if !slides && (along.is_some() || angle.is_some()) {
-        let what = if along.is_some() { "slides along nothing" } else { "has no fixed angle" };
-        return Err(Error::new(name.span, format!("the revolute joint `{name}` {what}")));
-    }
-    Ok(Item::Joint(Joint { name, keyword, from, to, along, angle }))
+    let problem = match joint.keyword.text.as_str() {
+        "prismatic" if joint.along.is_none() => {
+            "has no direction\nhelp: say along which line it slides: `along 0deg`".to_owned()
+        }
+        "slot" if joint.along.is_none() => {
+            let help =
+                format!("say along which line of which link the pin slides: `along 0deg of {}`", joint.from.link);
+            format!("has no direction\nhelp: {help}")
+        }
+        "gear" if joint.gear.radii.is_none() => {
+            "has no radii\nhelp: give those of both wheels behind the links: `, radii (20mm, 30mm)`".to_owned()
+        }
+        "revolute" | "weld" | "gear" if joint.along.is_some() => "slides along nothing".to_owned(),
+        "revolute" | "slot" if joint.angle.is_some() => "has no fixed angle".to_owned(),
+        _ => return Ok(Item::Joint(joint)),
+    };
+    let what = match joint.keyword.text.as_str() {
+        "slot" | "weld" => joint.keyword.text.clone(),
+        "gear" => "gear pair".to_owned(),
+        kind => format!("{kind} joint"),
+    };
+    Err(Error::new(joint.name.span, format!("the {what} `{}` {problem}", joint.name)))
 }
 
-/// A joint that is not carried out yet: its ends are read, so that the links count as connected.
-fn planned_joint(input: ParseStream<'_>, keyword: Name) -> Result<Item> {
-    let name = colon_name(input)?;
-    let from = end(input)?;
-    input.parse::<Token![->]>()?;
-    let to = end(input)?;
-    rest(input);
-    Ok(Item::Joint(Joint { name, keyword, from, to, along: None, angle: None }))
+fn gear_option(input: ParseStream<'_>, gear: &mut Gear) -> Result<()> {
+    const OPTIONS: [&str; 5] = ["radii", "internal", "phase", "pressure_angle", "flank"];
+    let word = name(input)?;
+    match word.text.as_str() {
+        "radii" => {
+            let content;
+            let _ = syn::parenthesized!(content in input);
+            let first = value(&content)?;
+            content.parse::<Token![,]>()?;
+            let second = value(&content)?;
+            optional_comma(&content)?;
+            gear.radii = Some([first, second]);
+        }
+        "internal" => gear.internal = true,
+        "phase" => gear.phase = Some(value(input)?),
+        "pressure_angle" => gear.pressure_angle = Some(value(input)?),
+        "flank" => gear.flank = Some(name(input)?),
+        other => {
+            let help = closest(other, OPTIONS)
+                .map_or_else(|| format!("it has {}", OPTIONS.join(", ")), |meant| format!("did you mean `{meant}`?"));
+            return Err(Error::new(word.span, format!("a gear pair has no `{word}`\nhelp: {help}")));
+        }
+    }
+    Ok(())
 }
 
 fn drive(input: ParseStream<'_>) -> Result<Item> {

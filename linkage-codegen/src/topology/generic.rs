@@ -6,8 +6,8 @@
 use std::collections::HashMap;
 
 use super::{Group, Input};
-use crate::equations::joints::Shape;
-use crate::equations::{Dimensions, Row, drive_row, joint_rows, unknown_row};
+use crate::equations::joints::{Shape, Teeth};
+use crate::equations::{Body, Dimensions, Row, drive_row, joint_rows, unknown_row};
 use crate::graph::{Coordinate, Graph, Symbol, Vector};
 use crate::model::ids::JointId;
 use crate::model::{End, JointKind, Model, UnknownKind};
@@ -68,7 +68,7 @@ struct Free<'m, 'g> {
     graph: &'g Graph,
 }
 
-/// What a free dimension stands for: a point's coordinate, or a slide's direction.
+/// What a free dimension stands for: a point's coordinate, a line's direction, or the radii of wheels.
 fn point_symbol(end: End, axis: u32) -> Symbol {
     Symbol::Dimension((u32::try_from(end.link.index() << 12 | end.point.index() << 1).unwrap_or(0)) | axis)
 }
@@ -92,6 +92,17 @@ impl<'g> Dimensions<'g> for Free<'_, 'g> {
                 axis: Vector::new(of(0), of(1)),
                 angle: self.graph.zero(),
             },
+            JointKind::Weld { .. } => Shape::Weld { angle: self.graph.zero() },
+            JointKind::Slot { carrier, .. } => Shape::Slot {
+                carried_by_first: carrier == self.model.joint(joint).from.link,
+                axis: Vector::new(of(0), of(1)),
+            },
+            JointKind::Gear(gear) => {
+                let [first, second] = gear.arm.map(|end| self.local(end));
+                let (centres, distance) = (self.graph.unit(second - first), (second - first).size());
+                let (phase, arm) = (self.graph.zero(), Body::symbolic(self.graph, gear.arm[0].link));
+                Shape::Gear(Teeth { radii: [of(0), of(1)], phase, incline: phase, arm, centres, distance })
+            }
         }
     }
 }
@@ -126,7 +137,12 @@ impl Pose {
         }
         let at = |end: End| places.iter().find(|(e, _)| *e == end).map_or([0.0, 0.0], |(_, place)| *place);
         for joint in model.joint_ids() {
-            let JointKind::Prismatic { carrier, .. } = model.joint(joint).kind else { continue };
+            if let JointKind::Gear(_) = model.joint(joint).kind {
+                for radius in 0..2 {
+                    pose.values.insert(slide_symbol(joint, radius), 1.5 + random.next());
+                }
+            }
+            let Some((carrier, _)) = model.joint(joint).kind.line() else { continue };
             let (from, to) = (at(model.joint(joint).from), at(model.joint(joint).to));
             let (mut dx, mut dy) = (to[0] - from[0], to[1] - from[1]);
             if dx == 0.0 && dy == 0.0 {
@@ -199,8 +215,10 @@ fn places(model: &Model, random: &mut Random) -> Vec<(End, [f64; 2])> {
     };
     for joint in &model.joints {
         match joint.kind {
-            JointKind::Revolute => join(&joint.ends()),
-            JointKind::Prismatic { .. } => joint.ends().iter().for_each(|end| join(&[*end])),
+            JointKind::Revolute | JointKind::Weld { .. } => join(&joint.ends()),
+            JointKind::Prismatic { .. } | JointKind::Slot { .. } | JointKind::Gear(_) => {
+                joint.ends().iter().for_each(|end| join(&[*end]));
+            }
         }
     }
     for unknown in &model.unknowns {

@@ -53,6 +53,9 @@ impl Group {
         let letter = |joint: &JointId| match model.joint(*joint).kind {
             JointKind::Revolute => 'R',
             JointKind::Prismatic { .. } => 'P',
+            JointKind::Weld { .. } => 'W',
+            JointKind::Slot { .. } => 'S',
+            JointKind::Gear(_) => 'G',
         };
         self.outer.iter().chain(&self.inner).map(letter).collect()
     }

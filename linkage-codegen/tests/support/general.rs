@@ -6,8 +6,10 @@ use linkage_codegen::Linkage;
 use linkage_codegen::equations::joints::Component;
 use linkage_codegen::equations::loads::Case;
 use linkage_codegen::equations::{Exerted, Source};
+use linkage_codegen::graph::number::Number as Exact;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::graph::{NodeId, Symbol};
+use linkage_codegen::model::JointKind;
 use linkage_codegen::program::Fault;
 use nalgebra::{DMatrix, DVector};
 
@@ -62,11 +64,31 @@ pub fn equations_at<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &
     };
     let columns: Vec<Vec<T>> = linkage.system.rows.iter().map(|row| column(&row.exerts)).collect();
     let cases = linkage.system.cases.iter().map(|case| (case.case, column(&case.exerts))).collect();
-    let residuals = linkage.system.rows.iter().filter_map(|row| row.residual);
-    let residuals = residuals.map(|node| graph.evaluate(node, &known, &mut done)).collect();
+    let residuals = linkage.system.rows.iter().filter_map(|row| {
+        let residual = graph.evaluate(row.residual?, &known, &mut done);
+        let Source::Joint(joint, component) = row.source else { return Some(residual) };
+        let period = match (linkage.model.joint(joint).kind, component) {
+            (_, Component::Couple) => Some(graph.one()),
+            // The angles of wheels are known with all their turns, those of other links are not.
+            (JointKind::Gear(gear), _) => Some(gear.distance(&linkage.model)),
+            _ => None,
+        };
+        Some(match period {
+            Some(size) => within_a_turn(&residual, &graph.evaluate(size.id(), &known, &mut done)),
+            None => residual,
+        })
+    });
+    let residuals = residuals.collect();
     let matrix = (0..lines).map(|line| columns.iter().map(|column| column[line].clone()).collect()).collect();
     let sources = linkage.system.rows.iter().map(|row| row.source).collect();
     General { matrix, cases, residuals, sources }
+}
+
+/// What is left of an arc when whole turns of its circle are taken off.
+fn within_a_turn<T: Number>(arc: &T, radius: &T) -> T {
+    let turn = T::from_number(&Exact::pi(2, 1)).mul(radius);
+    let turns = (arc.to_f64() / turn.to_f64()).round();
+    arc.sub(&turn.mul(&T::exactly(turns)))
 }
 
 impl<T: Number> General<T> {
@@ -87,13 +109,12 @@ impl<T: Number> General<T> {
     pub fn names(&self, linkage: &Linkage) -> Vec<String> {
         let name = |source: &Source| match source {
             Source::Joint(joint, component) => {
-                let part = match component {
-                    Component::X => "x",
-                    Component::Y => "y",
-                    Component::Normal => "normal",
-                    Component::Couple => "couple",
+                let joint = linkage.model.joint(*joint);
+                let force = match (joint.kind, component) {
+                    (JointKind::Weld { .. }, Component::X | Component::Y) => "force.",
+                    _ => "",
                 };
-                format!("{}.{part}", linkage.model.joint(*joint).name)
+                format!("{}.{force}{}", joint.name, component.name())
             }
             Source::Unknown(unknown) => linkage.model.unknown(*unknown).name.clone(),
             Source::Drive(drive) => linkage.model.drive(*drive).name.text.clone(),

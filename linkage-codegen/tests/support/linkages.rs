@@ -84,11 +84,14 @@ pub struct Sample {
 
 /// What a random linkage may have.
 #[derive(Clone, Copy, Debug)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 pub struct Kind {
     /// Dyads beside the driven link.
     pub dyads: usize,
     /// Whether dyads may have sliders.
     pub sliders: bool,
+    /// Whether links may be welded, or be held by slots and gears.
+    pub joints: bool,
     /// Whether the unknown may act elsewhere than at the driven joint.
     pub unknown_anywhere: bool,
     /// Whether dimensions are parameters.
@@ -105,6 +108,8 @@ struct Builder {
     places: Vec<(String, Place)>,
     names: usize,
     sines: f64,
+    /// Pins that hold wheels, each with its two links.
+    pins: Vec<(String, usize, usize)>,
 }
 
 /// A random linkage.
@@ -114,11 +119,27 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
     let base = [random.range(-offset, offset), random.range(-offset, offset)];
     let ground =
         Body { name: "ground".into(), origin: [0.0; 2], angle: 0.0, points: Vec::new(), framed: false, mass: None };
-    let mut builder =
-        Builder { random, base, bodies: vec![ground], items: String::new(), places: Vec::new(), names: 0, sines: 0.2 };
+    let mut builder = Builder {
+        random,
+        base,
+        bodies: vec![ground],
+        items: String::new(),
+        places: Vec::new(),
+        names: 0,
+        sines: 0.2,
+        pins: Vec::new(),
+    };
     let drive = builder.driven_link(kind.sliders);
     for _ in 0..kind.dyads {
-        if kind.sliders && builder.random.chance(0.4) {
+        if kind.joints && builder.random.chance(0.7) {
+            match builder.random.below(5) {
+                0 => builder.weld(),
+                1 => builder.lever(),
+                2 => builder.runner(),
+                3 => builder.yoke(),
+                _ => builder.wheel(),
+            }
+        } else if kind.sliders && builder.random.chance(0.4) {
             builder.slider_dyad();
         } else {
             builder.pinned_dyad();
@@ -158,6 +179,7 @@ impl Builder {
         let (from, to) = self.arrow(near, far);
         let line = format!("revolute {name}: {} -> {};\n", self.bodies[from].name, self.bodies[to].name);
         self.items.push_str(&line);
+        self.pins.push((name.to_owned(), from, to));
         (from, to)
     }
 
@@ -304,6 +326,183 @@ impl Builder {
         self.items.push_str(&line);
         let on_line = if carrier == y { runner } else { guide };
         self.places.extend([(p, at_p), (b, at_b), (s, on_line)]);
+    }
+
+    /// A link welded to a moving one.
+    fn weld(&mut self) {
+        let x = 1 + self.random.below(self.bodies.len() - 1);
+        let w = self.fresh('J');
+        let at = self.outer(&w, x);
+        let other = self.place();
+        let link = self.link((&w, at), (&format!("{w}x"), other));
+        let (from, to) = self.arrow(x, link);
+        let fixed = self.bodies[to].angle - self.bodies[from].angle;
+        let line = format!("weld {w}: {} -> {}, angle {fixed:?}rad;\n", self.bodies[from].name, self.bodies[to].name);
+        self.items.push_str(&line);
+        self.places.push((w, at));
+    }
+
+    /// The item of a slot; the first of the ends carries it.
+    fn slot(&mut self, name: &str, (carrier, datum): (usize, &str), (other, pin): (usize, &str), angle: f64) {
+        let local = angle - self.bodies[carrier].angle;
+        let ends = [(carrier, datum), (other, pin)].map(|(link, point)| format!("{}.{point}", self.bodies[link].name));
+        let [first, second] = if self.random.chance(0.5) { [0, 1] } else { [1, 0] };
+        let line = format!(
+            "slot {name}: {} -> {} along {local:?}rad of {};\n",
+            ends[first], ends[second], self.bodies[carrier].name
+        );
+        self.items.push_str(&line);
+    }
+
+    /// A direction that is not across the way from a place to another.
+    fn inclined(&mut self, way: Place) -> f64 {
+        loop {
+            let angle = self.random.range(-3.0, 3.0);
+            if (dot(way, direction(angle)) / size(way)).abs() > self.sines {
+                return angle;
+            }
+        }
+    }
+
+    fn side(&mut self, inner: &str, outer: &str, along: f64) {
+        let side = if along > 0.0 { "ahead" } else { "behind" };
+        self.items.push_str(&format!("assemble {inner}: {side}({outer});\n"));
+    }
+
+    /// A lever on a pin, whose slot holds a pin of another link.
+    fn lever(&mut self) {
+        let (x, y) = self.two_links();
+        let [p, s] = [self.fresh('J'), self.fresh('J')];
+        let at_p = self.outer(&p, x);
+        let at_s = loop {
+            let at = self.place();
+            if size(minus(at, at_p)) > 0.4 {
+                break at;
+            }
+        };
+        self.bodies[y].points.push((s.clone(), at_s));
+        let way = minus(at_s, at_p);
+        // The slot goes through the lever's own pin, or past it.
+        let (lever, own, angle) = if self.random.chance(0.5) {
+            let ahead = if self.random.chance(0.5) { way } else { way.map(|x| -x) };
+            let other = self.place();
+            (self.link((&p, at_p), (&format!("{s}x"), other)), p.clone(), ahead[1].atan2(ahead[0]))
+        } else {
+            let (angle, own) = (self.inclined(way), format!("{s}o"));
+            let travel = self.random.range(-2.0, 2.0);
+            let datum = minus(at_s, direction(angle).map(|x| x * travel));
+            (self.link((&p, at_p), (&own, datum)), own, angle)
+        };
+        self.revolute(&p, x, lever);
+        self.slot(&s, (lever, &own), (y, &s), angle);
+        self.side(&s, &p, dot(way, direction(angle)));
+        self.places.extend([(p, at_p), (s, at_s)]);
+    }
+
+    /// A link on a pin, whose end runs in the slot of another link.
+    fn runner(&mut self) {
+        let (x, y) = self.two_links();
+        let [p, s] = [self.fresh('J'), self.fresh('J')];
+        let at_p = self.outer(&p, x);
+        let at_s = loop {
+            let at = self.place();
+            if size(minus(at, at_p)) > 0.4 {
+                break at;
+            }
+        };
+        let way = minus(at_s, at_p);
+        let angle = self.inclined(way);
+        let travel = self.random.range(-2.0, 2.0);
+        let datum = format!("{s}o");
+        self.bodies[y].points.push((datum.clone(), minus(at_s, direction(angle).map(|x| x * travel))));
+        let link = self.link((&p, at_p), (&s, at_s));
+        self.revolute(&p, x, link);
+        self.slot(&s, (y, &datum), (link, &s), angle);
+        self.side(&s, &p, dot(way, direction(angle)));
+        self.places.extend([(p, at_p), (s, at_s)]);
+    }
+
+    /// A link on a slide and in a slot: its own, or that of another link.
+    fn yoke(&mut self) {
+        let (x, y) = self.two_links();
+        let [g, s] = [self.fresh('J'), self.fresh('J')];
+        let (slide, at_s) = (self.random.range(-3.0, 3.0), self.place());
+        let angle = self.inclined(direction(slide + core::f64::consts::FRAC_PI_2));
+        let (guide, travel, run) = (self.place(), self.random.range(-2.0, 2.0), self.random.range(-2.0, 2.0));
+        let runner = plus(guide, direction(slide).map(|x| x * travel));
+        let datum = minus(at_s, direction(angle).map(|x| x * run));
+        self.bodies[x].points.push((g.clone(), guide));
+        let (pin, line) = (s.clone(), format!("{s}o"));
+        let carries = self.random.chance(0.5);
+        let ((own, own_at), (its, its_at)) =
+            if carries { ((&line, datum), (&pin, at_s)) } else { ((&pin, at_s), (&line, datum)) };
+        self.bodies[y].points.push((its.clone(), its_at));
+        let link = self.link((&g, runner), (own, own_at));
+        let (from, to) = self.arrow(x, link);
+        let carrier = *self.random.pick(&[x, link]);
+        let local = slide - self.bodies[carrier].angle;
+        let fixed = self.bodies[to].angle - self.bodies[from].angle;
+        let line_of_slide = format!(
+            "prismatic {g}: {} -> {} along {local:?}rad of {}, angle {fixed:?}rad;\n",
+            self.bodies[from].name, self.bodies[to].name, self.bodies[carrier].name
+        );
+        self.items.push_str(&line_of_slide);
+        if carries {
+            self.slot(&s, (link, &line), (y, &pin), angle);
+        } else {
+            self.slot(&s, (y, &line), (link, &pin), angle);
+        }
+        self.places.extend([(g, if carrier == x { runner } else { guide }), (s, at_s)]);
+    }
+
+    /// A wheel on the arm of another one, which may be any link on a pin.
+    fn wheel(&mut self) {
+        if self.pins.is_empty() {
+            return self.pinned_dyad();
+        }
+        let (centre, a, b) = self.random.pick(&self.pins.clone()).clone();
+        let (arm, wheel) = self.arrow(a, b);
+        let points = &self.bodies[arm].points;
+        let at = points.iter().find(|(name, _)| *name == centre).expect("a pin's point").1;
+        let [p, g] = [self.fresh('J'), self.fresh('J')];
+        let own = loop {
+            let own = self.place();
+            if size(minus(own, at)) > 0.3 {
+                break own;
+            }
+        };
+        self.bodies[arm].points.push((p.clone(), own));
+        let other = self.place();
+        let link = self.link((&p, own), (&format!("{p}x"), other));
+        self.revolute(&p, arm, link);
+        let ends = [(wheel, &centre, at), (link, &p, own)];
+        let [first, second] = if self.random.chance(0.5) { [ends[0], ends[1]] } else { [ends[1], ends[0]] };
+        let way = minus(second.2, first.2);
+        let distance = size(way);
+        let ring = self.random.chance(0.4);
+        let ratio = self.random.range(0.2, 0.8);
+        let radii = if ring {
+            [distance / ratio, distance / ratio - distance]
+        } else {
+            [distance * ratio, distance - distance * ratio]
+        };
+        let signed = [radii[0], if ring { -radii[1] } else { radii[1] }];
+        let e = direction(self.bodies[arm].angle);
+        let psi = self.bodies[arm].angle + cross(e, way).atan2(dot(e, way));
+        let angles = [first.0, second.0].map(|link| self.bodies[link].angle);
+        let phase = signed[0] * (angles[0] - psi) + signed[1] * (angles[1] - psi);
+        let mut options = String::from(if ring { ", internal" } else { "" });
+        if self.random.chance(0.5) {
+            let (angle, flank) = (self.random.range(0.1, 0.5), *self.random.pick(&["left", "right"]));
+            let _ = write!(options, ", pressure_angle {angle:?}rad, flank {flank}");
+        }
+        let line = format!(
+            "gear {g}: {}.{} -> {}.{}, radii ({:?}m, {:?}m), phase {phase:?}m{options};\n",
+            self.bodies[first.0].name, first.1, self.bodies[second.0].name, second.1, radii[0], radii[1]
+        );
+        self.items.push_str(&line);
+        let touch = plus(first.2, way.map(|x| x * signed[0] / (signed[0] + signed[1])));
+        self.places.extend([(p, own), (g, touch)]);
     }
 
     fn masses(&mut self) {

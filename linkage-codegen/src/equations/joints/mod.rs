@@ -1,7 +1,12 @@
 //! Joints: each kind in a file of its own that states its constraints and its coordinate, and nothing else.
 
+mod gear;
 mod prismatic;
 mod revolute;
+mod slot;
+mod weld;
+
+pub use gear::Teeth;
 
 use super::Body;
 use crate::graph::{Expr, Vector};
@@ -41,6 +46,20 @@ pub enum Shape<'g> {
         /// Angle of the second link minus angle of the first.
         angle: Expr<'g>,
     },
+    /// Two points coincide; the angle between the links is fixed.
+    Weld {
+        /// Angle of the second link minus angle of the first.
+        angle: Expr<'g>,
+    },
+    /// A pin lies on a line of the other link.
+    Slot {
+        /// Whether the first link has the slot, not the second.
+        carried_by_first: bool,
+        /// The line's direction in that link's frame.
+        axis: Vector<'g>,
+    },
+    /// Two wheels roll on each other.
+    Gear(Teeth<'g>),
 }
 
 /// A component of a joint's reaction, on the second link.
@@ -50,8 +69,10 @@ pub enum Component {
     X,
     /// Force along y.
     Y,
-    /// Force along the normal of a slide: its direction turned by +90°.
+    /// Force along the normal of a slide or a slot: its direction turned by +90°.
     Normal,
+    /// Force of teeth across the line of centres: along the direction from the first centre to the second, turned by +90°.
+    Tangential,
     /// Couple.
     Couple,
 }
@@ -64,6 +85,7 @@ impl Component {
             Self::X => "x",
             Self::Y => "y",
             Self::Normal => "normal",
+            Self::Tangential => "tangential",
             Self::Couple => "couple",
         }
     }
@@ -86,14 +108,19 @@ pub fn constraints<'g>(shape: Shape<'g>, ends: &Ends<'g>) -> Vec<Constraint<'g>>
         Shape::Prismatic { carried_by_first, axis, angle } => {
             prismatic::constraints(ends, carried_by_first, axis, angle)
         }
+        Shape::Weld { angle } => weld::constraints(ends, angle),
+        Shape::Slot { carried_by_first, axis } => slot::constraints(ends, carried_by_first, axis),
+        Shape::Gear(teeth) => gear::constraints(ends, &teeth),
     }
 }
 
-/// The coordinate of a joint that a drive gives.
+/// The coordinate of a joint that a drive gives: the angle between its links, or the travel along its line.
 #[must_use]
-pub fn coordinate<'g>(shape: Shape<'g>, ends: &Ends<'g>) -> Expr<'g> {
+pub fn coordinate<'g>(shape: Shape<'g>, turns: bool, ends: &Ends<'g>) -> Expr<'g> {
     match shape {
-        Shape::Revolute => revolute::coordinate(ends),
-        Shape::Prismatic { carried_by_first, axis, .. } => prismatic::coordinate(ends, carried_by_first, axis),
+        Shape::Prismatic { carried_by_first, axis, .. } | Shape::Slot { carried_by_first, axis } if !turns => {
+            prismatic::coordinate(ends, carried_by_first, axis)
+        }
+        _ => revolute::coordinate(ends),
     }
 }

@@ -21,6 +21,6 @@ pub(super) fn coordinate<'g>(ends: &Ends<'g>, carried_by_first: bool, axis: Vect
     direction(ends, carried_by_first, axis).dot(ends.gap())
 }
 
-fn direction<'g>(ends: &Ends<'g>, carried_by_first: bool, axis: Vector<'g>) -> Vector<'g> {
+pub(super) fn direction<'g>(ends: &Ends<'g>, carried_by_first: bool, axis: Vector<'g>) -> Vector<'g> {
     if carried_by_first { ends.first.turned(axis) } else { ends.second.turned(axis) }
 }

@@ -3,7 +3,7 @@
 use crate::equations::Body;
 use crate::graph::{Expr, Symbol, Vector};
 use crate::model::ids::{DriveId, LinkId};
-use crate::model::{End, JointKind, Model};
+use crate::model::{End, Model};
 
 /// Where points and links are, as loads see them: in the symbols of the equations, or as a plan has placed them.
 pub trait Posture<'m> {
@@ -36,7 +36,7 @@ impl<'m> Posture<'m> for Symbolic<'m> {
     }
 }
 
-/// The angle of the second link from the first, less a free angle. Where driven pins and slides lead from one to the other, it is what
+/// The angle of the second link from the first, less a free angle. Where driven pins, slides and welds lead from one to the other, it is what
 /// these give, of any number of turns; elsewhere only directions are known, and it is the smallest one, in (−π, π].
 pub(super) fn wound<'m>(posture: &dyn Posture<'m>, [from, on]: [LinkId; 2], free: Expr<'m>) -> Expr<'m> {
     if let Some(angle) = driven_angle(posture.model(), from, on) {
@@ -47,7 +47,7 @@ pub(super) fn wound<'m>(posture: &dyn Posture<'m>, [from, on]: [LinkId; 2], free
     graph.atan2(turned.y, turned.x)
 }
 
-/// The angle of a link from another one, if driven pins and slides give it.
+/// The angle of a link from another one, if driven pins, slides and welds give it.
 fn driven_angle(model: &Model, from: LinkId, on: LinkId) -> Option<Expr<'_>> {
     let mut reached = vec![(from, model.graph.zero())];
     let mut next = 0;
@@ -61,12 +61,9 @@ fn driven_angle(model: &Model, from: LinkId, on: LinkId) -> Option<Expr<'_>> {
             let Some(other) = data.end_off(link).filter(|end| reached.iter().all(|(link, _)| *link != end.link)) else {
                 continue;
             };
-            let turn = match data.kind {
-                JointKind::Revolute => {
-                    model.drive_of(joint).map(|drive: DriveId| model.graph.symbol(Symbol::Drive(drive)))
-                }
-                JointKind::Prismatic { angle, .. } => Some(model.graph.expr(angle)),
-            };
+            let fixed = data.kind.turn().map(|(_, angle)| model.graph.expr(angle));
+            let driven = |drive: DriveId| model.drive(drive).turns.then(|| model.graph.symbol(Symbol::Drive(drive)));
+            let turn = fixed.or_else(|| model.drive_of(joint).and_then(driven));
             if let Some(turn) = turn {
                 reached.push((other.link, if data.to == other { angle + turn } else { angle - turn }));
             }

@@ -18,6 +18,7 @@ use crate::plan::efforts::{self, Unit};
 use crate::plan::framed::Framed;
 use crate::plan::linear::{Core, Equation, solve};
 use crate::plan::placement::Placement;
+use crate::plan::reactions;
 use crate::plan::velocities::{Motion, Twist};
 use crate::topology::{Group, Input};
 
@@ -39,7 +40,7 @@ struct Member {
 enum Unknown {
     /// The number of a member.
     Member(usize),
-    /// A component of a joint that no member has: of a pin along x and y, of a slide across it and its couple.
+    /// A component of the reaction of a joint that no member has, in the order of [`reactions::parts`].
     Joint(JointId, usize),
     /// An effort.
     Effort(UnknownId),
@@ -93,7 +94,10 @@ impl<'p, 'm> Parts<'p, 'm> {
             let ends = model.joint(*joint).ends().map(|end| is_member(end.link));
             match ends {
                 [true, true] => free.push(Free::Pin(*joint)),
-                [false, false] => unknowns.extend([Unknown::Joint(*joint, 0), Unknown::Joint(*joint, 1)]),
+                [false, false] => {
+                    let parts = reactions::parts(placement, *joint).len();
+                    unknowns.extend((0..parts).map(|part| Unknown::Joint(*joint, part)));
+                }
                 _ => {}
             }
         }
@@ -125,11 +129,7 @@ impl<'p, 'm> Parts<'p, 'm> {
 
     /// The place of a joint on a link, along and across its direction.
     fn place(&self, joint: JointId, link: LinkId) -> Vector<'m> {
-        if self.is_slide(joint) {
-            return self.placement.slide_point(joint, link);
-        }
-        let data = self.model.joint(joint);
-        self.placement.point(data.end_on(link).unwrap_or(data.from))
+        self.placement.slide_point(joint, link)
     }
 
     fn other(&self, joint: JointId, link: LinkId) -> LinkId {
@@ -187,27 +187,21 @@ impl<'p, 'm> Parts<'p, 'm> {
 
     /// What the unit of an unknown does to carriers, pins and links outside.
     fn unit(&self, unknown: Unknown) -> Vec<Act<'m>> {
-        let graph = self.placement.graph();
-        let unit = |index: usize| {
-            let part = |i: usize| if i == index { graph.one() } else { graph.zero() };
-            Vector::new(part(0), part(1))
-        };
         match unknown {
             Unknown::Member(index) => self.unit_of_member(&self.members[index]),
             Unknown::Joint(joint, part) => {
                 let data = self.model.joint(joint);
                 let (first, second) = (data.from.link, data.to.link);
-                let pair = |force: Framed<'m>| {
-                    vec![
-                        Act::Force(second, self.place(joint, second), force),
-                        Act::Force(first, self.place(joint, first), force.opposite()),
-                    ]
+                let Some(unit) = reactions::parts(self.placement, joint).into_iter().nth(part) else {
+                    return Vec::new();
                 };
-                match (self.is_slide(joint), part) {
-                    (false, part) => pair(Framed { components: unit(part), axes: self.ground() }),
-                    (true, 0) => pair(Framed { components: unit(1), axes: self.placement.slide_direction(joint) }),
-                    (true, _) => vec![Act::Couple(second, graph.one()), Act::Couple(first, -graph.one())],
-                }
+                let [on_first, on_second] = unit.couples;
+                vec![
+                    Act::Force(second, self.place(joint, second), unit.force),
+                    Act::Force(first, self.place(joint, first), unit.force.opposite()),
+                    Act::Couple(second, on_second),
+                    Act::Couple(first, on_first),
+                ]
             }
             Unknown::Effort(effort) => self.unit_of_effort(effort).acts.into_iter().map(Act::from).collect(),
         }
@@ -226,9 +220,13 @@ impl<'p, 'm> Parts<'p, 'm> {
         })
     }
 
-    /// The place about which a carrier's moments are taken: its first joint.
+    /// The place about which a carrier's moments are taken: its first joint, but for a tooth or a slot, which holds no point.
     fn centre(&self, carrier: LinkId) -> Vector<'m> {
-        let joint = self.model.joint_ids().find(|joint| self.model.joint(*joint).end_on(carrier).is_some());
+        let on = |joint: &JointId| self.model.joint(*joint).end_on(carrier).is_some();
+        let holds =
+            |joint: &JointId| !matches!(self.model.joint(*joint).kind, JointKind::Slot { .. } | JointKind::Gear(_));
+        let joints = || self.model.joint_ids().filter(on);
+        let joint = joints().find(holds).or_else(|| joints().next());
         joint.map_or_else(|| self.placement.graph().zero_vector(), |joint| self.place(joint, carrier))
     }
 
@@ -282,6 +280,7 @@ impl<'p, 'm> Parts<'p, 'm> {
 fn members(model: &Model, group: &Group) -> Vec<Member> {
     let mut members: Vec<Member> = Vec::new();
     let slides = |joint: &JointId| matches!(model.joint(*joint).kind, JointKind::Prismatic { .. });
+    let pins = |joint: &JointId| matches!(model.joint(*joint).kind, JointKind::Revolute);
     for link in &group.links {
         let joints: Vec<JointId> = group
             .outer
@@ -295,7 +294,7 @@ fn members(model: &Model, group: &Group) -> Vec<Member> {
             Input::Drive(_) => false,
         });
         let [a, b] = joints.as_slice() else { continue };
-        if acted_on {
+        if acted_on || ![a, b].into_iter().all(|joint| slides(joint) || pins(joint)) {
             continue;
         }
         let (near, far) = if slides(a) { (*b, *a) } else { (*a, *b) };
@@ -361,8 +360,9 @@ impl Rule for Block {
                     put_member(balance, &parts, member, &ends[index], value);
                 }
                 Unknown::Joint(joint, 0) => {
-                    let other = parts.unknowns.iter().position(|u| *u == Unknown::Joint(joint, 1)).map(|i| values[i]);
-                    put_joint(balance, &parts, joint, *value, other.unwrap_or_else(|| graph.zero()));
+                    let own = parts.unknowns.iter().zip(&values);
+                    let own = own.filter(|(unknown, _)| matches!(unknown, Unknown::Joint(of, _) if *of == joint));
+                    put_joint(balance, joint, &own.map(|(_, value)| *value).collect::<Vec<_>>(), &links);
                 }
                 Unknown::Joint(..) => {}
                 Unknown::Effort(effort) => {
@@ -536,23 +536,13 @@ fn put_pin<'m>(
 }
 
 /// Records a joint that no member has. One of its links may be outside the group, and is loaded by it.
-fn put_joint<'m>(
-    balance: &mut Balance<'m, '_>,
-    parts: &Parts<'_, 'm>,
-    joint: JointId,
-    first: Expr<'m>,
-    second: Expr<'m>,
-) {
-    let data = parts.model.joint(joint);
-    if parts.is_slide(joint) {
-        let axes = balance.placement.slide_direction(joint);
-        let force = Framed { components: Vector::new(balance.graph().zero(), first), axes };
-        balance.slide(joint, data.to.link, force, second);
-        balance.push(data.to.link, parts.place(joint, data.to.link), force);
-        balance.couple(data.to.link, second);
-    } else {
-        let force = Framed { components: Vector::new(first, second), axes: parts.ground() };
-        let force = balance.pin(joint, data.to.link, force);
-        balance.push(data.to.link, parts.place(joint, data.to.link), force);
-    }
+fn put_joint<'m>(balance: &mut Balance<'m, '_>, joint: JointId, values: &[Expr<'m>], links: &str) {
+    let name = &balance.model().joint(joint).name;
+    let components = reactions::parts(balance.placement, joint);
+    let values = components.iter().zip(values).map(|(part, value)| {
+        let name = balance.name(&format!("{name}_{}", part.component.name()));
+        value.named(name, format!("from the equilibrium of {links}"))
+    });
+    let values: Vec<Expr<'m>> = values.collect();
+    balance.react(joint, &values);
 }

@@ -63,6 +63,12 @@ impl Rule for Crank {
         }
         assembly.placement.orient(link, Orientation { direction, ..orientation });
         assembly.placement.connect(pin);
+        let joint = model.joint(pin);
+        let (other, sense) = if joint.to.link == link { (joint.from.link, 1) } else { (joint.to.link, -1) };
+        if let Some(angle) = assembly.placement.unwrapped_angle(other) {
+            let angle = angle + sense * assembly.coordinate(drive);
+            assembly.placement.set_angle(link, angle);
+        }
         Ok(())
     }
 

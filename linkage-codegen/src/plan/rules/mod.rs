@@ -8,6 +8,9 @@ mod crank;
 mod rrp;
 mod rrr;
 mod slide;
+mod slot;
+mod train;
+mod weld;
 
 pub use rrr::pinned_dyad;
 
@@ -47,7 +50,17 @@ pub trait Rule: Sync {
 pub type RuleResult = Result<(), Diagnostic>;
 
 /// All rules; the first that fits a group solves it.
-pub const RULES: [&dyn Rule; 5] = [&crank::Crank, &slide::Slide, &rrr::Rrr, &rrp::Rrp, &block::Block];
+pub const RULES: [&dyn Rule; 9] = [
+    &crank::Crank,
+    &slide::Slide,
+    &weld::Weld,
+    &slot::SlotAndPin,
+    &slot::SlotAndSlide,
+    &train::Train,
+    &rrr::Rrr,
+    &rrp::Rrp,
+    &block::Block,
+];
 
 /// The rule that places a group.
 #[must_use]

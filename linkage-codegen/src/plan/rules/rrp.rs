@@ -192,26 +192,12 @@ impl Rule for Rrp {
 
 fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> RuleResult {
     let model = dyad.model;
-    let graph = assembly.graph();
     let (outer, inner) = (dyad.joint_name(dyad.outer), dyad.joint_name(dyad.inner));
     let r = dyad.length();
     super::check_length(model, dyad.rod, [dyad.outer, dyad.inner])?;
-    let Some(closure) = assembly.closure(dyad.inner) else {
-        return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], outer));
-    };
-    if !matches!(closure.side, Side::Ahead | Side::Behind) || closure.of != [dyad.outer] {
-        let slide = dyad.joint_name(dyad.slide);
-        let lies = format!("along the slide `{slide}`, `{inner}` lies ahead of `{outer}` or behind it");
-        let across = matches!(closure.side, Side::Left | Side::Right);
-        let problem =
-            if across { format!("`{}` is for dyads of three pins: {lies}", closure.side.word()) } else { lies };
-        return Err(Diagnostic::new(closure.side_place, problem)
-            .help(format!("choose one of\nassemble {inner}: ahead({outer});\nassemble {inner}: behind({outer});")));
-    }
-    if closure.smooth_at.is_some() {
-        return Err(Diagnostic::new(closure.smooth_place, "a dyad with a slider does not fold")
-            .help("`smooth` is for dyads of three pins: leave it out"));
-    }
+    let slide = dyad.joint_name(dyad.slide);
+    let lies = format!("along the slide `{slide}`, `{inner}` lies ahead of `{outer}` or behind it");
+    let ahead = ahead(assembly, group, dyad.inner, dyad.outer, lies)?;
     let orientation = assembly.placement.along_slide(dyad.slide, dyad.slider);
     assembly.placement.orient(dyad.slider, orientation);
     let e = assembly.placement.slide_direction(dyad.slide);
@@ -219,28 +205,8 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     assembly.placement.connect(dyad.slide);
     let outer_end = model.joint(dyad.outer).end_off(dyad.rod).unwrap_or(model.joint(dyad.outer).from);
     let way = assembly.placement.way(outer_end, dyad.end(dyad.inner, dyad.slider));
-    let q = way.resolved_along(e);
-    let g = q.y.named(format!("g_{inner}"), format!("g = e × Q, Q from {outer} to {inner} at no travel"));
-    let h2 = ((r - g) * (r + g)).named(format!("h2_{inner}"), "h² = (r − g)(r + g)");
-    let reach = reach_across(&way, e);
-    let (h2, rounding) = if (r - reach).sign() == Some(1) {
-        (h2.known_positive(), graph.zero())
-    } else {
-        let rounding = graph.epsilons(4) * (r * (r + reach));
-        (h2, rounding.named(format!("rounding_h2_{inner}"), format!("what rounding makes of h2_{inner} = 0")))
-    };
-    let failure = Failure::CannotAssemble { group: dyad.group_name(), joint: inner.into(), gap: (g.abs() - r).id() };
-    let h2 = h2.require_at_least(h2, -rounding, failure);
-    let side = if closure.side == Side::Ahead { 1 } else { -1 };
-    let h = side * h2.non_negative().sqrt();
-    let h = h.named(format!("h_{inner}"), if side > 0 { "h = √(h²), ahead" } else { "h = −√(h²), behind" });
-    let (cosine, sine) = (
-        (h / r).named(dyad.pivot_name(), "sin μ = u·e = h/r"),
-        (g / r).named(format!("g_over_r_{inner}"), "u·n = g/r"),
-    );
-    let pivot = cosine.where_above(h2, rounding);
-    let pivot =
-        pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding").held();
+    let meeting = meet(r, &way, e, ahead, [inner, outer], dyad.group_name());
+    let Meeting { q, h, cosine, sine, pivot } = meeting;
     let name = dyad.link_name(dyad.rod);
     let direction = Vector::new(cosine, sine).turned_by(e);
     let direction = direction.named_direction(name, &format!("direction of {name} from {outer} to {inner}"));
@@ -250,7 +216,6 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     // From the guide's point to the slider's, whichever of the two is the slide's second.
     let forwards = model.joint(dyad.slide).to.link == dyad.slider;
     let travel = if forwards { h - q.x } else { q.x - h };
-    let slide = dyad.joint_name(dyad.slide);
     let travel = travel.named(
         format!("travel_{slide}"),
         format!("travel of the slide {slide}: {}", if forwards { "h − e·Q" } else { "e·Q − h" }),
@@ -260,6 +225,81 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     assembly.pivots.state(u, e, None, Some(pivot));
     assembly.dyads.push(DyadPivot { joint: dyad.inner, sine: pivot });
     Ok(())
+}
+
+/// Whether the inner joint is declared to lie ahead of the outer pin along a line; `lies` says what there is to choose.
+pub(super) fn ahead(
+    assembly: &mut Assembly<'_>,
+    group: &Group,
+    inner: JointId,
+    outer: JointId,
+    lies: String,
+) -> Result<bool, Diagnostic> {
+    let model = assembly.model();
+    let [name, of] = [inner, outer].map(|joint| &model.joint(joint).name.text);
+    let Some(closure) = assembly.closure(inner) else {
+        return Err(assembly.missing_closure(group, inner, [Side::Ahead, Side::Behind], of));
+    };
+    if !matches!(closure.side, Side::Ahead | Side::Behind) || closure.of != [outer] {
+        let across = matches!(closure.side, Side::Left | Side::Right);
+        let problem =
+            if across { format!("`{}` is for dyads of three pins: {lies}", closure.side.word()) } else { lies };
+        return Err(Diagnostic::new(closure.side_place, problem)
+            .help(format!("choose one of\nassemble {name}: ahead({of});\nassemble {name}: behind({of});")));
+    }
+    if closure.smooth_at.is_some() {
+        return Err(Diagnostic::new(closure.smooth_place, "a group with a slider or a slot does not fold")
+            .help("`smooth` is for dyads of three pins: leave it out"));
+    }
+    Ok(closure.side == Side::Ahead)
+}
+
+/// Where a link of length r on a pin meets a line.
+pub(super) struct Meeting<'m> {
+    /// From the pin to the line's point, along and across the line.
+    pub q: Vector<'m>,
+    /// How far ahead of the pin the link's end lies on the line.
+    pub h: Expr<'m>,
+    /// `u·e`, the direction of the link along the line.
+    pub cosine: Expr<'m>,
+    /// `u·n`, across it.
+    pub sine: Expr<'m>,
+    /// `u·e`, zero where it is no larger than its rounding; kept by the pose.
+    pub pivot: Expr<'m>,
+}
+
+/// Meets a line of direction e, to a point of which the way leads, in one of two places.
+pub(super) fn meet<'m>(
+    r: Expr<'m>,
+    way: &Way<'m>,
+    e: Vector<'m>,
+    ahead: bool,
+    [inner, outer]: [&str; 2],
+    group: String,
+) -> Meeting<'m> {
+    let graph = r.graph();
+    let pivot_name = format!("sin_mu_{inner}");
+    let q = way.resolved_along(e);
+    let g = q.y.named(format!("g_{inner}"), format!("g = e × Q, Q from {outer} to {inner} at no travel"));
+    let h2 = ((r - g) * (r + g)).named(format!("h2_{inner}"), "h² = (r − g)(r + g)");
+    let reach = reach_across(way, e);
+    let (h2, rounding) = if (r - reach).sign() == Some(1) {
+        (h2.known_positive(), graph.zero())
+    } else {
+        let rounding = graph.epsilons(4) * (r * (r + reach));
+        (h2, rounding.named(format!("rounding_h2_{inner}"), format!("what rounding makes of h2_{inner} = 0")))
+    };
+    let failure = Failure::CannotAssemble { group, joint: inner.into(), gap: (g.abs() - r).id() };
+    let h2 = h2.require_at_least(h2, -rounding, failure);
+    let h = if ahead { 1 } else { -1 } * h2.non_negative().sqrt();
+    let h = h.named(format!("h_{inner}"), if ahead { "h = √(h²), ahead" } else { "h = −√(h²), behind" });
+    let (cosine, sine) = (
+        (h / r).named(pivot_name.clone(), "sin μ = u·e = h/r"),
+        (g / r).named(format!("g_over_r_{inner}"), "u·n = g/r"),
+    );
+    let pivot = cosine.where_above(h2, rounding);
+    let pivot = pivot.named(format!("{pivot_name}_or_zero"), "zero where it is no larger than its rounding").held();
+    Meeting { q, h, cosine, sine, pivot }
 }
 
 /// How far across the slide the parts of a way reach together.

@@ -1,0 +1,350 @@
+//! One link with a slot and a pin, or a slot and a slide: the slot is its own, or the pin in it.
+//!
+//! **Slot and pin**, a lever that carries its slot: with O its pin, h the distance of the slot's line from O, d the vector from O to the
+//! pin in the slot, e the slot's direction and `n = e⊥`:
+//!
+//! ```text
+//! d = s e + h n      s = ±√(d·d − h²)      + where the pin is ahead of O
+//! e = d (s − i h)/(d·d)                     as complex numbers
+//! ```
+//!
+//! A link whose end runs in the slot of another one is the link of an RRP dyad without its slider. In both cases the moment about O
+//! gives the normal force, with the lever arm `r × n`: of a lever s, of the other link the part of its length along the slot.
+//!
+//! **Slot and slide**: with m the slide's direction and Q the vector from the slot's point to the pin at no travel, the travel is
+//! `x = ∓(n·Q)/(n·m)`, and the sum of the forces along the slide gives the normal force. `n·m = e × m` is the pivot.
+
+use super::rrp::{Meeting, ahead, meet};
+use super::slide::guide;
+use super::{Rule, RuleResult};
+use crate::graph::{Expr, Failure, Vector};
+use crate::model::ids::{GROUND, JointId, LinkId};
+use crate::model::{JointKind, Model};
+use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::balance::Balance;
+use crate::plan::framed::Framed;
+use crate::plan::pivots::{Pivots, divisor};
+use crate::plan::placement::{Orientation, Placement};
+use crate::plan::velocities::{Motion, Twist};
+use crate::topology::Group;
+
+/// The rule of a link with a slot and a pin.
+pub(super) struct SlotAndPin;
+
+/// The rule of a link with a slot and a slide.
+pub(super) struct SlotAndSlide;
+
+/// The parts of such a link.
+#[derive(Clone, Copy)]
+struct Parts<'a> {
+    model: &'a Model,
+    link: LinkId,
+    slot: JointId,
+    /// Whether the slot is the link's own, and the pin in it belongs to the other link.
+    carries: bool,
+    /// The pin or the slide that holds the link beside the slot.
+    held: JointId,
+}
+
+fn parts<'a>(model: &'a Model, group: &Group, holds: fn(&JointKind) -> bool) -> Option<Parts<'a>> {
+    let (&[link], &[a, b], []) = (&*group.links, &*group.outer, &*group.inputs) else { return None };
+    [(a, b), (b, a)].into_iter().find_map(|(slot, held)| {
+        let JointKind::Slot { carrier, .. } = model.joint(slot).kind else { return None };
+        holds(&model.joint(held).kind).then_some(Parts { model, link, slot, carries: carrier == link, held })
+    })
+}
+
+fn with_pin<'a>(model: &'a Model, group: &Group) -> Option<Parts<'a>> {
+    parts(model, group, |kind| matches!(kind, JointKind::Revolute))
+}
+
+fn with_slide<'a>(model: &'a Model, group: &Group) -> Option<Parts<'a>> {
+    parts(model, group, |kind| matches!(kind, JointKind::Prismatic { .. }))
+}
+
+impl<'m> Parts<'m> {
+    fn name(&self) -> &'m str {
+        &self.model.link(self.link).name.text
+    }
+
+    fn joint_name(&self, joint: JointId) -> &'m str {
+        &self.model.joint(joint).name.text
+    }
+
+    /// The other link of a joint.
+    fn far(&self, joint: JointId) -> LinkId {
+        let data = self.model.joint(joint);
+        if data.to.link == self.link { data.from.link } else { data.to.link }
+    }
+
+    /// The travel of a joint from the link that carries its line to the other one, by the joint's own sign.
+    fn signed(&self, joint: JointId, ahead: Expr<'m>) -> Expr<'m> {
+        let data = self.model.joint(joint);
+        let carried_by_first = data.kind.line().is_some_and(|(carrier, _)| carrier == data.from.link);
+        if carried_by_first { ahead } else { -ahead }
+    }
+
+    /// The reaction of the slot that exerts the force `normal` on the link: the opposite of what the equation says.
+    fn react(&self, balance: &mut Balance<'m, '_>, normal: Expr<'m>, equation: &str) {
+        let second = self.model.joint(self.slot).to.link == self.link;
+        let (normal, sign) = if second { (normal, "−") } else { (-normal, "") };
+        let name = balance.name(&format!("{}_normal", self.joint_name(self.slot)));
+        balance.react(self.slot, &[normal.named(name, format!("{sign}{equation}"))]);
+    }
+
+    /// The velocity of the other link at the pin in the slot.
+    fn passed_on(&self, motion: &Motion<'m, '_>) -> Framed<'m> {
+        let far = self.far(self.slot);
+        motion.of_place(far, motion.placement.slide_point(self.slot, far))
+    }
+
+    /// The lever arm of the slot's normal about the pin, as a divisor.
+    fn arm(&self, placement: &Placement<'m>) -> Expr<'m> {
+        let name = format!("arm_{}", self.joint_name(self.slot));
+        let arm = placement.arm(self.slot, self.held).unwrap_or_else(|| {
+            let graph = placement.graph();
+            let ends = self.model.joint(self.held).end_on(self.link);
+            let pin = ends.map_or_else(|| graph.zero_vector(), |end| placement.point(end));
+            let reach = placement.slide_point(self.slot, self.link) - pin;
+            let normal = placement.slide_direction(self.slot).perp();
+            let arm = if self.carries {
+                reach.dot(placement.slide_along(self.slot))
+            } else {
+                reach.cross(normal.resolved_along(placement.direction(self.link)))
+            };
+            let arm = arm.named(name.clone(), "lever arm of the slot's normal");
+            arm.where_above(arm.abs(), graph.epsilons(8) * (reach.x.magnitude() + reach.y.magnitude()))
+        });
+        divisor(arm, &name, self.name())
+    }
+}
+
+impl Rule for SlotAndPin {
+    fn class(&self) -> &'static str {
+        "slot and pin"
+    }
+
+    fn fits(&self, model: &Model, group: &Group) -> bool {
+        with_pin(model, group).is_some()
+    }
+
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
+        let Some(parts) = with_pin(assembly.model(), group) else { return Ok(()) };
+        let (slot, pin) = (parts.joint_name(parts.slot), parts.joint_name(parts.held));
+        let lies = if parts.carries {
+            format!("along the slot of `{}`, its pin `{slot}` lies ahead of `{pin}` or behind it", parts.name())
+        } else {
+            format!("along the slot `{slot}`, the pin in it lies ahead of `{pin}` or behind it")
+        };
+        let ahead = ahead(assembly, group, parts.slot, parts.held, lies)?;
+        if parts.carries {
+            place_lever(assembly, &parts, ahead);
+            return Ok(());
+        }
+        place_runner(assembly, &parts, ahead)
+    }
+
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
+        let Some(parts) = with_pin(balance.model(), group) else { return Ok(()) };
+        let about = balance.placement.point(balance.end(parts.held, parts.link));
+        let moment = balance.moment(parts.link, about, balance.graph().one());
+        let normal = if moment.is_zero() { moment } else { -(moment / parts.arm(balance.placement)) };
+        let (pin, name) = (parts.joint_name(parts.held), parts.name());
+        let arm = format!("arm_{}", parts.joint_name(parts.slot));
+        parts.react(balance, normal, &format!("ΣM({pin})/{arm} of what acts on {name}"));
+        balance.pin(parts.held, parts.link, balance.total(parts.link).opposite());
+        Ok(())
+    }
+
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
+        let Some(parts) = with_pin(motion.model(), group) else { return Ok(()) };
+        let data = parts.model.joint(parts.held);
+        let (Some(near), Some(far)) = (data.end_on(parts.link), data.end_off(parts.link)) else { return Ok(()) };
+        let velocity = motion.of_point(far);
+        let gap = motion.difference(&parts.passed_on(motion), &velocity);
+        let normal = motion.placement.slide_direction(parts.slot).perp();
+        let part = motion.part(&gap, normal);
+        let rate = if part.is_zero() { part } else { part / parts.arm(motion.placement) };
+        let name = parts.name();
+        let rate = rate.named(
+            motion.name(&format!("rate_{name}")),
+            format!("rate of rotation of {name}: the pins' relative velocity across the slot over its lever arm"),
+        );
+        motion.found(parts.link, Twist { rate, at: motion.placement.point(near), velocity });
+        Ok(())
+    }
+}
+
+/// A lever with its own slot.
+fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool) {
+    let Parts { model, link, slot, held, .. } = *parts;
+    let graph = assembly.graph();
+    let (pin, pivot) = (model.joint(slot), model.joint(held));
+    let (Some(own), Some(to)) = (pin.end_on(link), pin.end_off(link)) else { return };
+    let (Some(near), Some(from)) = (pivot.end_on(link), pivot.end_off(link)) else { return };
+    let Some((_, axis)) = pin.kind.line() else { return };
+    let axis = axis.vector(graph);
+    let (name, at, about) = (parts.name(), parts.joint_name(slot), parts.joint_name(held));
+    // From the pin O to the slot's point, along and across the slot.
+    let datum = (model.local(own) - model.local(near)).resolved_along(axis);
+    let h = datum.y;
+    let way = assembly.placement.way(from, to);
+    let d = way.vector().named(&format!("d_{at}"), &format!("d, from {about} to the pin in the slot"));
+    let d2 = d.squared().named(format!("D2_{at}"), "d·d");
+    let size = d2.sqrt().named(format!("D_{at}"), format!("distance of {about} from the pin in the slot"));
+    let (s, direction) = if h.is_zero() {
+        let rounding = graph.epsilons(2) * way.length();
+        let failure = Failure::CoincidentPivots { group: name.into(), joint: at.into() };
+        let size = size.require_above(size, rounding, failure).known_positive();
+        let s = if ahead { size } else { -size };
+        (s, Vector::new(d.x / s, d.y / s))
+    } else {
+        let square = (d2 - h.squared()).named(format!("s2_{at}"), "s² = d·d − h²");
+        let rounding = graph.epsilons(2) * (h.squared() + size * way.length());
+        let rounding = rounding.named(format!("rounding_s2_{at}"), format!("what rounding makes of s2_{at} = 0"));
+        let gap = (h.abs() - size).id();
+        let failure = Failure::CannotAssemble { group: name.into(), joint: at.into(), gap };
+        let square = square.require_at_least(square, -rounding, failure);
+        let s = if ahead { 1 } else { -1 } * square.non_negative().sqrt();
+        let s = s.named(format!("s_{at}"), if ahead { "s = √(s²), ahead" } else { "s = −√(s²), behind" });
+        let rough = Vector::new(s / d2, -(h / d2)).turned_by(d);
+        let rough = rough.named_direction(&format!("rough_{name}"), "d (s − i h)/(d·d)");
+        let correction =
+            graph.constant(&crate::graph::number::Number::ratio(1, 2)) * (3 * graph.one() - rough.squared());
+        let arm = s.where_above(square, rounding);
+        let arm = arm.named(format!("arm_{at}"), "s, zero where it is no larger than its rounding");
+        assembly.placement.set_arm(slot, held, arm.held());
+        (s, rough.scaled(correction.named(format!("correction_{name}"), "1.5 − 0.5 |rough|²")))
+    };
+    let direction = direction.named_direction(name, &format!("direction of the slot of {name}"));
+    assembly.placement.orient(link, Orientation { direction, axis });
+    assembly.placement.connect(held);
+    let travel = parts.signed(slot, s - datum.x).named(format!("travel_{at}"), format!("travel in the slot {at}"));
+    assembly.placement.set_travel(slot, travel);
+    if datum.is_zero() {
+        // The lever arm is the travel.
+        let arm = parts.signed(slot, assembly.placement.travel(slot));
+        assembly.placement.set_arm(slot, held, arm);
+    } else if h.is_zero() {
+        assembly.placement.set_arm(slot, held, s.held());
+    }
+}
+
+/// A link whose end runs in a placed slot.
+fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool) -> RuleResult {
+    let Parts { model, link, slot, held, .. } = *parts;
+    super::check_length(model, link, [held, slot])?;
+    let r = super::length_between(model, link, [held, slot]);
+    let (data, pivot) = (model.joint(slot), model.joint(held));
+    let (Some(own), Some(to)) = (data.end_on(link), data.end_off(link)) else { return Ok(()) };
+    let (Some(near), Some(from)) = (pivot.end_on(link), pivot.end_off(link)) else { return Ok(()) };
+    let (name, at, about) = (parts.name(), parts.joint_name(slot), parts.joint_name(held));
+    let e = assembly.placement.slide_direction(slot);
+    let way = assembly.placement.way(from, to);
+    let Meeting { q, h, cosine, sine, pivot } = meet(r, &way, e, ahead, [at, about], name.into());
+    let direction = Vector::new(cosine, sine).turned_by(e);
+    let direction = direction.named_direction(name, &format!("direction of {name} from {about} to {at}"));
+    let arm = model.local(own) - model.local(near);
+    let axis = Vector::new(arm.x / r, arm.y / r);
+    assembly.placement.orient(link, Orientation { direction, axis });
+    assembly.placement.connect(held);
+    let travel = parts.signed(slot, h - q.x).named(format!("travel_{at}"), format!("travel in the slot {at}"));
+    assembly.placement.set_travel(slot, travel);
+    let u = assembly.placement.turned(link, axis);
+    assembly.pivots.state(u, e, None, Some(pivot));
+    assembly.dyads.push(DyadPivot { joint: slot, sine: pivot });
+    assembly.placement.set_arm(slot, held, r * pivot);
+    Ok(())
+}
+
+impl Rule for SlotAndSlide {
+    fn class(&self) -> &'static str {
+        "slot and slide"
+    }
+
+    fn fits(&self, model: &Model, group: &Group) -> bool {
+        with_slide(model, group).is_some()
+    }
+
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
+        let Some(parts) = with_slide(assembly.model(), group) else { return Ok(()) };
+        let Parts { model, link, slot, held: slide, .. } = parts;
+        let data = model.joint(slot);
+        let orientation = assembly.placement.along_slide(slide, link);
+        assembly.placement.orient(link, orientation);
+        // With the travel still zero, the way goes over the guide.
+        assembly.placement.connect(slide);
+        let carried_by_first = data.kind.line().is_some_and(|(carrier, _)| carrier == data.from.link);
+        let (line, pin) = if carried_by_first { (data.from, data.to) } else { (data.to, data.from) };
+        let q = assembly.placement.way(line, pin).resolved_along(assembly.placement.slide_direction(slot));
+        let (sine, cosine) = inclination(&assembly.placement, &assembly.pivots, &parts);
+        let (at, along) = (parts.joint_name(slot), parts.joint_name(slide));
+        // Sliding forwards, the link takes the pin along, or the slot from under it.
+        let ahead = if parts.carries { q.y / sine } else { -(q.y / sine) };
+        let run = if parts.carries { q.x - ahead * cosine } else { q.x + ahead * cosine };
+        let forwards = model.joint(slide).to.link == link;
+        let sign = if parts.carries == forwards { "" } else { "−" };
+        let travel = if forwards { ahead } else { -ahead }.named(
+            format!("travel_{along}"),
+            format!("travel of the slide {along}: {sign}(n·Q)/(n·m), Q from the slot {at} to its pin at no travel"),
+        );
+        assembly.placement.set_travel(slide, travel);
+        let travel = parts.signed(slot, run).named(format!("travel_{at}"), format!("travel in the slot {at}"));
+        assembly.placement.set_travel(slot, travel);
+        Ok(())
+    }
+
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
+        let Some(parts) = with_slide(balance.model(), group) else { return Ok(()) };
+        let (slide, link) = (parts.held, parts.link);
+        let direction = balance.placement.slide_direction(slide);
+        let along = balance.total(link).along(direction).x;
+        let normal = if along.is_zero() {
+            along
+        } else {
+            let (sine, _) = inclination(balance.placement, balance.pivots, &parts);
+            -(along / sine)
+        };
+        let equation = format!("ΣF/(n·m) of what acts on {} along the slide {}", parts.name(), parts.joint_name(slide));
+        parts.react(balance, normal, &equation);
+        let across = balance.total(link).along(direction).y;
+        guide(balance, slide, link, across, balance.placement.slide_point(parts.slot, link));
+        Ok(())
+    }
+
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
+        let Some(parts) = with_slide(motion.model(), group) else { return Ok(()) };
+        let Parts { link, slot, held: slide, .. } = parts;
+        let far = parts.far(slide);
+        let (rate, ground) = (motion.rate(far), motion.placement.direction(GROUND));
+        let at = motion.placement.slide_point(slide, link);
+        let guided = motion.of_place(far, motion.placement.slide_point(slide, far));
+        let turning = (motion.placement.slide_point(slot, link) - at).perp().scaled(rate);
+        let carried = guided.plus(&Framed { components: turning, axes: motion.placement.direction(link) }, ground);
+        let gap = motion.difference(&parts.passed_on(motion), &carried);
+        let part = motion.part(&gap, motion.placement.slide_direction(slot).perp());
+        let (sine, _) = inclination(motion.placement, motion.pivots, &parts);
+        let speed = if part.is_zero() { part } else { part / sine };
+        let name = parts.joint_name(slide);
+        let speed = speed.named(
+            motion.name(&format!("speed_{name}")),
+            format!("speed of {} along the slide {name}: the relative velocity across the slot over n·m", parts.name()),
+        );
+        let axes = motion.placement.slide_direction(slide);
+        let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes };
+        motion.found(link, Twist { rate, at, velocity: guided.plus(&sliding, ground) });
+        Ok(())
+    }
+}
+
+/// Sine, as a divisor, and cosine between the slot and the slide. Where both turn together, they are constant.
+fn inclination<'m>(placement: &Placement<'m>, pivots: &Pivots<'m>, parts: &Parts<'m>) -> (Expr<'m>, Expr<'m>) {
+    let name = format!("sin_{}", parts.joint_name(parts.slot));
+    let carrier = parts.model.joint(parts.slot).kind.line().map_or(GROUND, |(carrier, _)| carrier);
+    if placement.direction(carrier) == placement.direction(parts.link) {
+        let [slot, slide] = [parts.slot, parts.held].map(|joint| placement.slide_along(joint));
+        return (divisor(slot.cross(slide).named(name.clone(), "n·m"), &name, parts.name()), slot.dot(slide));
+    }
+    let [slot, slide] = [parts.slot, parts.held].map(|joint| placement.slide_direction(joint));
+    (pivots.dividing_sine(slot, slide, &name, parts.name()), pivots.cosine(slot, slide))
+}
