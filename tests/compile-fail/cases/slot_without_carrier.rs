@@ -25,8 +25,9 @@ linkage! {
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
 
-    link block { S }
-    slot S: rocker.D -> block.S along 0deg of rocker;
+    link lever { B0 -> S: 90mm }
+    revolute P: ground.B0 -> lever.B0;
+    slot S: lever.S -> crank.A along 0deg;
 }
 
 fn main() {
@@ -35,5 +36,5 @@ fn main() {
     let all = pose.statics(&loads).unwrap();
     println!("{} {} {}", all.T12, all.B.norm(), pose.coupler_C());
     println!("{}", four_bar::torque_at(1.0, &loads).unwrap().T12);
-    println!("{} {}", pose.S(), all.S);
+    println!("{} {}", pose.S(), all.S.normal);
 }

@@ -25,10 +25,9 @@ linkage! {
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
 
-    link arm   { D -> E: 50mm }
-    link wheel { G }
-    weld D: rocker -> arm, angle 30deg;
-    gear G: crank.A -> wheel.G, radii (20mm, 30mm), phase 5mm;
+    link lever { B0 -> S: 90mm }
+    revolute P: ground.B0 -> lever.B0;
+    slot S: lever.S -> crank.A along 0deg of lever;
 }
 
 fn main() {
@@ -37,5 +36,5 @@ fn main() {
     let all = pose.statics(&loads).unwrap();
     println!("{} {} {}", all.T12, all.B.norm(), pose.coupler_C());
     println!("{}", four_bar::torque_at(1.0, &loads).unwrap().T12);
-    println!("{}", pose.D());
+    println!("{} {}", pose.S(), all.S.normal);
 }

@@ -1,0 +1,27 @@
+use linkage_runtime::{linkage, polar};
+
+linkage! {
+    pub mod machine;
+
+    units { mm, N }
+
+    ground     { O: (0, 0) }
+    link crank { O -> A: 140mm }
+    link arm   { A -> B: 720mm }
+
+    revolute O: ground -> crank;
+    weld A: crank -> arm;
+
+    drive q: A;
+
+    load F: force(arm.B);
+
+    scene statics: equilibrium;
+}
+
+fn main() {
+    let loads = machine::Loads { F: polar(50.0, 4.0) };
+    let pose = machine::Pose::at(1.0).unwrap();
+    println!("{}", pose.statics(&loads).unwrap().effort_q);
+    println!("{}", machine::statics_at(1.0, &loads).unwrap().O);
+}
