@@ -203,7 +203,7 @@ impl Comparison<'_> {
                 worst.see(off / self.scales.length, limits, || format!("couple {joint}{of}"));
             }
             if let Some(scalar) = &answer.scalar {
-                let size = ["normal", "tooth", "scalar", "size"].into_iter().find_map(|name| own.field(name)?.number());
+                let size = ["normal", "tangential"].into_iter().find_map(|name| own.field(name)?.number());
                 let off = difference(size.ok_or_else(|| format!("there is no size of `{joint}`"))?, scalar)?.abs();
                 worst.see(off, limits, || format!("size of {joint}{of}"));
             }
