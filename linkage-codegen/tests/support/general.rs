@@ -62,11 +62,25 @@ pub fn equations_at<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &
     };
     let columns: Vec<Vec<T>> = linkage.system.rows.iter().map(|row| column(&row.exerts)).collect();
     let cases = linkage.system.cases.iter().map(|case| (case.case, column(&case.exerts))).collect();
-    let residuals = linkage.system.rows.iter().filter_map(|row| row.residual);
-    let residuals = residuals.map(|node| graph.evaluate(node, &known, &mut done)).collect();
+    let residuals = linkage.system.rows.iter().filter_map(|row| Some((row.source, row.residual?)));
+    let mut residual = |(source, node)| {
+        let value = graph.evaluate(node, &known, &mut done);
+        if matches!(source, Source::Joint(_, Component::Couple)) { within_a_turn(value) } else { value }
+    };
+    let residuals = residuals.map(&mut residual).collect();
     let matrix = (0..lines).map(|line| columns.iter().map(|column| column[line].clone()).collect()).collect();
     let sources = linkage.system.rows.iter().map(|row| row.source).collect();
     General { matrix, cases, residuals, sources }
+}
+
+/// Angles of links are between −π and π: their differences may be off by a turn.
+fn within_a_turn<T: Number>(angle: T) -> T {
+    let turns = (angle.to_f64() / core::f64::consts::TAU).round();
+    if turns == 0.0 {
+        return angle;
+    }
+    let half_turn = T::exactly(0.0).atan2(&T::exactly(-1.0));
+    angle.sub(&half_turn.mul(&T::exactly(2.0 * turns)))
 }
 
 impl<T: Number> General<T> {

@@ -5,6 +5,10 @@
 
 mod block;
 mod crank;
+mod dyad;
+mod prp;
+mod rpp;
+mod rpr;
 mod rrp;
 mod rrr;
 mod slide;
@@ -47,7 +51,8 @@ pub trait Rule: Sync {
 pub type RuleResult = Result<(), Diagnostic>;
 
 /// All rules; the first that fits a group solves it.
-pub const RULES: [&dyn Rule; 5] = [&crank::Crank, &slide::Slide, &rrr::Rrr, &rrp::Rrp, &block::Block];
+pub const RULES: [&dyn Rule; 8] =
+    [&crank::Crank, &slide::Slide, &rrr::Rrr, &rrp::Rrp, &rpr::Rpr, &prp::Prp, &rpp::Rpp, &block::Block];
 
 /// The rule that places a group.
 #[must_use]

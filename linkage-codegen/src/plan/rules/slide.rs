@@ -6,7 +6,7 @@
 use super::{Rule, RuleResult};
 use crate::graph::{Expr, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
-use crate::model::{JointKind, Model, UnknownKind};
+use crate::model::{End, JointKind, Model, UnknownKind};
 use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
@@ -143,6 +143,17 @@ pub(super) fn guide<'m>(
     let axes = balance.placement.slide_direction(slide);
     let force = Framed { components: Vector::new(balance.graph().zero(), normal), axes };
     balance.slide(slide, link, force, couple);
+}
+
+/// The velocity that a point of a slider has in so far as it moves with its guide: `v + ω r⊥`, without the sliding.
+pub(super) fn carried<'m>(motion: &Motion<'m, '_>, slide: JointId, link: LinkId, point: End) -> Framed<'m> {
+    let placement = motion.placement;
+    let joint = motion.model().joint(slide);
+    let guide = if joint.to.link == link { joint.from.link } else { joint.to.link };
+    let guided = motion.of_place(guide, placement.slide_point(slide, guide));
+    let arm = placement.point(point) - placement.slide_point(slide, link);
+    let turning = Framed { components: arm.perp().scaled(motion.rate(guide)), axes: placement.direction(link) };
+    guided.plus(&turning, placement.direction(GROUND))
 }
 
 /// The place and the direction of an unknown force; `None` for the effort at the slide itself.
