@@ -2,18 +2,24 @@
 //!
 //! For motion, links that a driven joint joins are one body: the drive says how they lie against each other, so that a cylinder with its
 //! rod is a link whose length is an argument. The distance between two points of such a body is an expression in its drives. Once the
-//! first link of the body is placed, the others are placed from it as driven links. For forces every link stays by itself.
+//! first link of the body is placed, the others are placed from it as driven links; and once the force at its inner joint is known, they
+//! are solved as driven links, whose efforts are within the body.
 
 use std::collections::BTreeSet;
 
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
+use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Symbol, Vector};
-use crate::model::ids::{DriveId, JointId, LinkId};
-use crate::model::{End, JointKind, Model};
+use crate::model::ids::GROUND;
+use crate::model::ids::{DriveId, JointId, LinkId, UnknownId};
+use crate::model::{End, JointKind, Model, UnknownKind};
 use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::balance::Balance;
+use crate::plan::framed::Framed;
 use crate::plan::pivots::{divisor, significant};
 use crate::plan::placement::{Orientation, Placement, Way};
+use crate::plan::velocities::Motion;
 use crate::topology::{Group, Input};
 
 /// A body of a dyad.
@@ -52,11 +58,23 @@ struct Arm<'m> {
     size: Expr<'m>,
 }
 
-/// A group as a dyad, if it is one.
+/// A group as a dyad, if it is one. Of forces each link stays by itself.
 pub(super) fn dyad<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
-    let drive_within = |input: &Input| match *input {
-        Input::Drive(drive) => group.inner.contains(&model.drive(drive).joint).then_some(drive),
-        Input::Unknown(_) => None,
+    let no_effort = group.inputs.iter().all(|input| matches!(input, Input::Drive(_)));
+    no_effort.then(|| dyad_of_bodies(model, group)).flatten()
+}
+
+/// The same, but of forces too the links that a driven joint joins are one body; the effort of the drive is found within it.
+pub(super) fn dyad_of_bodies<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
+    let drive_within = |input: &Input| {
+        let drive = match *input {
+            Input::Drive(drive) => drive,
+            Input::Unknown(unknown) => match model.unknown(unknown).kind {
+                UnknownKind::Drive(drive) => drive,
+                UnknownKind::Torque(..) | UnknownKind::Force { .. } => return None,
+            },
+        };
+        group.inner.contains(&model.drive(drive).joint).then_some(drive)
     };
     let drives = group.inputs.iter().map(drive_within).collect::<Option<Vec<DriveId>>>()?;
     let is_driven = |joint: JointId| drives.iter().any(|drive| model.drive(*drive).joint == joint);
@@ -92,6 +110,13 @@ fn next_driven(model: &Model, drives: &[DriveId], from: &[LinkId]) -> Option<(Dr
     })
 }
 
+/// One step towards unit size, which squares the error.
+pub(super) fn towards_unit<'m>(rough: Vector<'m>, name: &str) -> Vector<'m> {
+    let half = |n: i64| rough.graph().constant(&Number::ratio(n, 2));
+    let factor = half(3) - half(1) * rough.squared();
+    rough.scaled(factor.named(format!("unit_{name}"), format!("(3 − u·u)/2, u = rough_{name}")))
+}
+
 pub(super) fn is_pin(model: &Model, joint: JointId) -> bool {
     matches!(model.joint(joint).kind, JointKind::Revolute)
 }
@@ -102,7 +127,7 @@ impl Leg {
         self.near.link
     }
 
-    fn is_single(&self) -> bool {
+    pub(super) fn is_single(&self) -> bool {
         self.links.len() == 1
     }
 
@@ -164,9 +189,13 @@ impl<'a> Dyad<'a> {
         Vector::new(arm.x / length, arm.y / length)
     }
 
-    /// The same in ground axes, of a placed dyad.
+    /// The direction of a leg of a placed dyad from the outer joint to the inner one, in ground axes.
     pub(super) fn direction(&self, placement: &Placement<'a>, leg: &Leg) -> Vector<'a> {
-        placement.turned(leg.link(), self.axis(leg))
+        if leg.is_single() {
+            return placement.turned(leg.link(), self.axis(leg));
+        }
+        let Arm { axis, along, size } = self.arm(leg);
+        Vector::new(along.x / size, along.y / size).turned_by(placement.turned(leg.link(), axis))
     }
 
     /// Places the links of a leg whose direction from the outer joint to the inner one is known. Gives that direction as it is kept.
@@ -184,22 +213,91 @@ impl<'a> Dyad<'a> {
         let unit = Vector::new(arm.along.x / arm.size, arm.along.y / arm.size);
         let first = &self.model.link(leg.link()).name;
         let meaning = format!("direction of {first}, from that of {}", self.link_name(leg));
-        let carried = unit.conjugate().turned_by(direction).named_direction(&first.text, &meaning);
+        let turned = unit.conjugate().turned_by(direction);
+        // Off the line, the direction is not only turned round.
+        let turned = if unit.y.is_zero() {
+            turned
+        } else {
+            let rough = turned.named_direction(&format!("rough_{first}"), "turned back by the arm's direction");
+            towards_unit(rough, &first.text)
+        };
+        let carried = turned.named_direction(&first.text, &meaning);
         assembly.placement.orient(leg.link(), Orientation { direction: carried, axis: arm.axis });
         self.place_rest(assembly, leg, leg.link())?;
-        Ok(direction)
+        Ok(self.direction(&assembly.placement, leg))
+    }
+
+    /// The driven links of a leg as groups of their own, in the order in which they are placed from one of its links.
+    fn driven(&self, leg: &Leg, first: LinkId, input: fn(DriveId) -> Input) -> Vec<(&'static dyn Rule, Group)> {
+        let driven = |(drive, link): (DriveId, LinkId)| -> (&'static dyn Rule, Group) {
+            let joint = self.model.drive(drive).joint;
+            let rule: &dyn Rule = if is_pin(self.model, joint) { &super::crank::Crank } else { &super::slide::Slide };
+            (rule, Group { links: vec![link], inner: Vec::new(), outer: vec![joint], inputs: vec![input(drive)] })
+        };
+        leg.driven_from(self.model, first).into_iter().map(driven).collect()
     }
 
     /// Places the other links of a leg from one of them.
     pub(super) fn place_rest(&self, assembly: &mut Assembly<'a>, leg: &Leg, placed: LinkId) -> RuleResult {
-        for (drive, link) in leg.driven_from(self.model, placed) {
-            let joint = self.model.drive(drive).joint;
-            let group =
-                Group { links: vec![link], inner: Vec::new(), outer: vec![joint], inputs: vec![Input::Drive(drive)] };
-            let rule: &dyn Rule = if is_pin(self.model, joint) { &super::crank::Crank } else { &super::slide::Slide };
-            rule.place(assembly, &group)?;
-        }
+        self.driven(leg, placed, Input::Drive).iter().try_for_each(|(rule, group)| rule.place(assembly, group))
+    }
+
+    /// The moment of the loads on a leg about its outer joint, over its length.
+    pub(super) fn moment_over_length(&self, balance: &Balance<'a, '_>, leg: &Leg) -> Expr<'a> {
+        let (placement, length) = (balance.placement, self.length(leg));
+        let inverse = balance.graph().one() / length;
+        let own = balance.moment(leg.link(), placement.point(leg.near), inverse);
+        leg.links[1..].iter().fold(own, |sum, link| {
+            // About a place on the link, and with the arm of that place.
+            let at = self.place_on(leg, *link);
+            let direction = placement.direction(*link);
+            let arm = placement.way(leg.near, at).resolved_along(direction).scaled(inverse);
+            let force = balance.total(*link).along(direction);
+            sum + (balance.moment(*link, placement.point(at), inverse) + arm.cross(force))
+        })
+    }
+
+    /// A joint's end on a link of a leg: the inner joint's where it is one.
+    fn place_on(&self, leg: &Leg, link: LinkId) -> End {
+        let ends = leg.drives.iter().filter_map(|drive| self.model.joint(self.model.drive(*drive).joint).end_on(link));
+        if leg.tip.link == link { leg.tip } else { ends.last().unwrap_or(leg.near) }
+    }
+
+    /// The efforts within a leg and the reaction of its outer joint, once the force at its inner joint is on it.
+    pub(super) fn balance_rest(&self, balance: &mut Balance<'a, '_>, leg: &Leg) -> RuleResult {
+        let effort = |drive: DriveId| Input::Unknown(UnknownId::new(drive.index()));
+        self.driven(leg, leg.link(), effort).iter().rev().try_for_each(|(rule, group)| rule.balance(balance, group))?;
+        let held = balance.total(leg.link());
+        balance.pin(leg.outer, leg.link(), held.opposite());
         Ok(())
+    }
+
+    /// The velocity of a leg's inner joint that its drives give it while its first link rests.
+    pub(super) fn driven_velocity(&self, motion: &Motion<'a, '_>, leg: &Leg) -> Framed<'a> {
+        let (graph, placement) = (motion.graph(), motion.placement);
+        let still = Framed { components: graph.zero_vector(), axes: placement.direction(GROUND) };
+        leg.driven_from(self.model, leg.link()).into_iter().fold(still, |sum, (drive, link)| {
+            let joint = self.model.joint(self.model.drive(drive).joint);
+            let rate = motion.rate_of(UnknownId::new(drive.index()));
+            let rate = if joint.to.link == link { rate } else { -rate };
+            let part = match joint.kind {
+                JointKind::Prismatic { .. } => {
+                    let axes = placement.slide_direction(self.model.drive(drive).joint);
+                    Framed { components: Vector::new(rate, graph.zero()), axes }
+                }
+                JointKind::Revolute => {
+                    let arm = placement.way(joint.end_on(link).unwrap_or(joint.to), leg.tip).vector();
+                    Framed { components: arm.perp().scaled(rate), axes: placement.direction(GROUND) }
+                }
+            };
+            sum.plus(&part, placement.direction(GROUND))
+        })
+    }
+
+    /// The virtual velocities of the other links of a leg, once that of its first one is found.
+    pub(super) fn follow_rest(&self, motion: &mut Motion<'a, '_>, leg: &Leg) -> RuleResult {
+        let effort = |drive: DriveId| Input::Unknown(UnknownId::new(drive.index()));
+        self.driven(leg, leg.link(), effort).iter().try_for_each(|(rule, group)| rule.follow(motion, group))
     }
 
     pub(super) fn pivot_name(&self) -> String {

@@ -17,7 +17,7 @@
 //! Velocities: `v_Q − v_P = ω d⊥ + ṡ e`, multiplied by n: `ω = n·(v_Q − v_P)/s`. So s is the pivot: where it vanishes, the line between
 //! the pins is square to the slide.
 
-use super::dyad::{Dyad, dyad};
+use super::dyad::{Dyad, dyad, towards_unit};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
@@ -87,15 +87,21 @@ impl Rule for Rpr {
                 format!("(moment_{} + moment_{})/{}", dyad.link_name(first), dyad.link_name(second), pivot_name(&dyad)),
             )
         };
-        let loads = balance.total(second.link());
-        let pin = balance.placement.point(second.near);
-        super::slide::guide(balance, dyad.inner, second.link(), -across, pin);
+        // The couple about the runner from the link that carries it: there the lever arm of the pin does not change.
+        let model = balance.model();
+        let runner = model.joint(dyad.inner).place().link;
+        let (leg, other, acting) =
+            if runner == second.link() { (second, first, -across) } else { (first, second, across) };
+        let loads = balance.total(leg.link());
+        let pin = balance.placement.point(leg.near);
+        super::slide::guide(balance, dyad.inner, leg.link(), acting, pin);
         let guided = balance.reaction(dyad.inner).force;
+        let guided = if leg.link() == second.link() { guided } else { guided.opposite() };
         let ground = balance.placement.direction(crate::model::ids::GROUND);
-        // The guide has put its part on the first link.
-        let held = balance.total(first.link());
-        balance.pin(first.outer, first.link(), held.opposite());
-        balance.pin(second.outer, second.link(), loads.plus(&guided, ground).opposite());
+        balance.pin(leg.outer, leg.link(), loads.plus(&guided, ground).opposite());
+        // The guide has put its part on the other link.
+        let held = balance.total(other.link());
+        balance.pin(other.outer, other.link(), held.opposite());
         Ok(())
     }
 
@@ -175,10 +181,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let name = dyad.link_name(first);
     let rough = d.scaled(along) - d.perp().scaled(across);
     let rough = rough.named_direction(&format!("rough_{name}"), &format!("(s d − h d⊥)/D2_{slide}"));
-    let half = |n: i64| graph.constant(&crate::graph::number::Number::ratio(n, 2));
-    let factor =
-        (half(3) - half(1) * rough.squared()).named(format!("unit_{name}"), format!("(3 − u·u)/2, u = rough_{name}"));
-    let direction = rough.scaled(factor).named_direction(slide, &format!("direction of the slide {slide}"));
+    let direction = towards_unit(rough, &name).named_direction(slide, &format!("direction of the slide {slide}"));
     place(assembly, dyad, direction)?;
     let travel =
         (s - offset.x).named(format!("travel_{slide}"), format!("travel of the slide {slide}: s less what is fixed"));

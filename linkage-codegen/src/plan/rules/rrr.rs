@@ -14,7 +14,7 @@
 //! Forces, by the textbooks' resolution along and across the links: with `m₁`, `m₂` the moments of the loads about P and Q, the
 //! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`.
 
-use super::dyad::{Dyad, Leg, dyad};
+use super::dyad::{Dyad, Leg, dyad_of_bodies, towards_unit};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
@@ -34,7 +34,7 @@ pub(super) struct Rrr;
 /// The group as an RRR dyad, if it is one. Its first leg is the one whose outer pin the closure names first.
 #[must_use]
 pub fn pinned_dyad<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
-    let mut dyad = dyad(model, group).filter(|dyad| dyad.pins() == [true; 3])?;
+    let mut dyad = dyad_of_bodies(model, group).filter(|dyad| dyad.pins() == [true; 3])?;
     let closure = model.closures.iter().find(|c| c.joint == dyad.inner);
     if closure.is_some_and(|c| c.of.first() == Some(&dyad.legs[1].outer)) {
         dyad.legs.swap(0, 1);
@@ -103,10 +103,7 @@ impl Rule for Rrr {
         let [first, second] = &dyad.legs;
         let [u1, u2] = dyad.legs.each_ref().map(|leg| dyad.direction(balance.placement, leg));
         // Moments of the loads about the outer pins, over the lengths.
-        let [across_first, across_second] = dyad.legs.each_ref().map(|leg| {
-            let about = balance.placement.point(leg.near);
-            balance.moment(leg.link(), about, balance.graph().one() / dyad.length(leg))
-        });
+        let [across_first, across_second] = dyad.legs.each_ref().map(|leg| dyad.moment_over_length(balance, leg));
         let (inner, link) = (dyad.joint_name(dyad.inner), dyad.link_name(first));
         let (outer, other) = (dyad.joint_name(first.outer), dyad.joint_name(second.outer));
         let across = (-across_first).named(
@@ -133,9 +130,17 @@ impl Rule for Rrr {
         let force = Framed { components: Vector::new(along, across), axes: u1 };
         let ground = balance.placement.direction(crate::model::ids::GROUND);
         let loads = [first, second].map(|leg| balance.total(leg.link()));
-        let force = balance.pin(dyad.inner, first.link(), force);
-        balance.pin(first.outer, first.link(), loads[0].plus(&force, ground).opposite());
-        balance.pin(second.outer, second.link(), loads[1].plus(&force.opposite(), ground).opposite());
+        let force = balance.pin(dyad.inner, first.tip.link, force);
+        for (leg, loads, force) in [(first, loads[0], force), (second, loads[1], force.opposite())] {
+            if leg.is_single() {
+                balance.pin(leg.outer, leg.link(), loads.plus(&force, ground).opposite());
+                continue;
+            }
+            if leg.tip == first.tip {
+                balance.push(leg.tip.link, balance.placement.point(leg.tip), force);
+            }
+            dyad.balance_rest(balance, leg)?;
+        }
         Ok(())
     }
 
@@ -144,8 +149,10 @@ impl Rule for Rrr {
         let Some(dyad) = pinned_dyad(model, group) else { return Ok(()) };
         let [u1, u2] = dyad.legs.each_ref().map(|leg| dyad.direction(motion.placement, leg));
         let [p, q] = dyad.outer_ends().map(|end| motion.of_point(end));
-        // v_P + ω₁ r₁ u₁⊥ = v_Q + ω₂ r₂ u₂⊥, multiplied by u₂ and by u₁.
-        let gap = motion.difference(&q, &p);
+        // v_P + ω₁ r₁ u₁⊥ = v_Q + ω₂ r₂ u₂⊥, multiplied by u₂ and by u₁; what drives within the legs give their ends comes on top.
+        let ground = motion.placement.direction(crate::model::ids::GROUND);
+        let [first, second] = dyad.legs.each_ref().map(|leg| dyad.driven_velocity(motion, leg));
+        let gap = motion.difference(&q.plus(&second, ground), &p.plus(&first, ground));
         let sine = motion.pivots.dividing_sine(u1, u2, &dyad.pivot_name(), &dyad.group_name());
         let rates = [(u2, &dyad.legs[0], p), (u1, &dyad.legs[1], q)].map(|(along, leg, velocity)| {
             let part = motion.part(&gap, along);
@@ -163,6 +170,7 @@ impl Rule for Rrr {
         for (leg, rate, velocity) in rates {
             let at = motion.placement.point(leg.near);
             motion.found(leg.link(), Twist { rate, at, velocity });
+            dyad.follow_rest(motion, leg)?;
         }
         Ok(())
     }
@@ -498,14 +506,10 @@ fn reach<'m>(way: &Way<'m>) -> (Option<Expr<'m>>, Option<Expr<'m>>) {
 /// One step towards unit size, which squares the error; for legs so different that this does not suffice, by root and division.
 fn normalised<'m>(rough: Vector<'m>, own: Expr<'m>, other: Expr<'m>, link: &str) -> Vector<'m> {
     let graph = rough.graph();
-    let square = rough.squared();
     if lengths_are_alike(graph.scalar(), own, other) {
-        let three_halves = graph.constant(&Number::ratio(3, 2));
-        let half = graph.constant(&Number::ratio(1, 2));
-        let factor = three_halves - half * square;
-        rough.scaled(factor.named(format!("unit_{link}"), format!("(3 − u·u)/2, u = rough_{link}")))
+        towards_unit(rough, link)
     } else {
-        let factor = graph.one() / square.sqrt();
+        let factor = graph.one() / rough.squared().sqrt();
         rough.scaled(factor.named(format!("unit_{link}"), format!("1/|u|, u = rough_{link}")))
     }
 }
