@@ -60,7 +60,7 @@ fn scotch_yokes(seed: u64, size: (usize, usize)) -> impl Iterator<Item = Family>
 }
 
 fn booms(seed: u64, size: (usize, usize)) -> impl Iterator<Item = Family> {
-    random_linkages(seed, size, boom, [(0.5, 2.0), (0.5, 2.0), (-0.2, 0.2)], (0.2, 3.0))
+    random_linkages(seed, size, boom, [(0.5, 2.0), (0.5, 2.0), (-0.2, 0.2)], (0.5, 3.0))
 }
 
 #[test]
