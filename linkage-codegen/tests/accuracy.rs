@@ -2,7 +2,9 @@
 
 mod support;
 
-use support::families::{Family, check, four_bar, length, loads, slider_crank};
+use support::families::{
+    Family, boom, check, four_bar, length, loads, oscillating_block, scotch_yoke, slider_crank, tangent_mechanism,
+};
 use support::linkages::Random;
 
 fn random_four_bars(seed: u64, count: usize, poses: usize) -> impl Iterator<Item = Family> {
@@ -23,6 +25,78 @@ fn random_slider_cranks(seed: u64, count: usize, poses: usize) -> impl Iterator<
         let drives = (0..poses).map(|_| random.range(-7.0, 7.0)).collect();
         Family { text, longest: lengths.into_iter().fold(0.0, f64::max), drives, loads: loads(&mut random) }
     })
+}
+
+type Text = fn([f64; 3], &mut Random) -> String;
+
+/// A linkage by three dimensions, each with its least and its largest size, and the drive's range.
+fn random_linkages(
+    seed: u64,
+    (count, poses): (usize, usize),
+    text: Text,
+    dimensions: [(f64, f64); 3],
+    (low, high): (f64, f64),
+) -> impl Iterator<Item = Family> {
+    let mut random = Random(seed);
+    (0..count).map(move |_| {
+        let lengths = dimensions.map(|(low, high)| length(&mut random, low, high));
+        let text = text(lengths, &mut random);
+        let drives = (0..poses).map(|_| random.range(low, high)).collect();
+        // The third may be an angle.
+        Family { text, longest: lengths[0].max(lengths[1]), drives, loads: loads(&mut random) }
+    })
+}
+
+fn oscillating_blocks(seed: u64, size: (usize, usize)) -> impl Iterator<Item = Family> {
+    random_linkages(seed, size, oscillating_block, [(0.3, 2.0), (0.1, 2.0), (-0.5, 0.5)], (-7.0, 7.0))
+}
+
+fn tangent_mechanisms(seed: u64, size: (usize, usize)) -> impl Iterator<Item = Family> {
+    random_linkages(seed, size, tangent_mechanism, [(0.3, 2.0), (-0.5, 0.5), (60.0, 120.0)], (-1.0, 1.0))
+}
+
+fn scotch_yokes(seed: u64, size: (usize, usize)) -> impl Iterator<Item = Family> {
+    random_linkages(seed, size, scotch_yoke, [(0.3, 2.0), (-0.5, 0.5), (45.0, 135.0)], (-7.0, 7.0))
+}
+
+fn booms(seed: u64, size: (usize, usize)) -> impl Iterator<Item = Family> {
+    random_linkages(seed, size, boom, [(0.5, 2.0), (0.5, 2.0), (-0.2, 0.2)], (0.5, 3.0))
+}
+
+#[test]
+fn oscillating_blocks_and_booms() {
+    assert!(check(oscillating_blocks(5, (60, 20)), "oscillating blocks") > 600);
+    assert!(check(booms(6, (60, 20)), "booms on cylinders") > 300);
+}
+
+#[test]
+fn sliders_on_sliders() {
+    assert!(check(tangent_mechanisms(7, (60, 20)), "tangent mechanisms") > 1000);
+    assert!(check(scotch_yokes(8, (60, 20)), "Scotch yokes") > 1000);
+}
+
+#[test]
+#[ignore = "long"]
+fn a_hundred_thousand_oscillating_blocks() {
+    assert!(check(oscillating_blocks(9, (3500, 40)), "oscillating blocks") > 100_000);
+}
+
+#[test]
+#[ignore = "long"]
+fn a_hundred_thousand_booms() {
+    assert!(check(booms(10, (7000, 40)), "booms on cylinders") > 100_000);
+}
+
+#[test]
+#[ignore = "long"]
+fn a_hundred_thousand_tangent_mechanisms() {
+    assert!(check(tangent_mechanisms(11, (2600, 40)), "tangent mechanisms") > 100_000);
+}
+
+#[test]
+#[ignore = "long"]
+fn a_hundred_thousand_scotch_yokes() {
+    assert!(check(scotch_yokes(12, (2600, 40)), "Scotch yokes") > 100_000);
 }
 
 #[test]

@@ -8,8 +8,12 @@ use std::fmt::Write;
 use linkage_codegen::graph::Failure;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::program::Fault;
-use support::families::{Family, SCENES, check, four_bar, length, loads, slider_crank};
+use support::families::{
+    BARS, Family, SCENES, boom, check, four_bar, length, loads, oscillating_block, scotch_yoke, slider_crank,
+    tangent_mechanism, worst,
+};
 use support::linkages::Random;
+use support::measures::Measures;
 use support::numbers::{Double, Extended};
 use support::{Arguments, Number, compile, pose, scene};
 
@@ -331,11 +335,129 @@ fn what_cannot_be_assembled_is_a_typed_error() {
     }
 }
 
+/// The block of a crank: its pin at the distance 1 from the crank's, beside the slide by the offset.
+fn block_along_x(crank: f64, offset: f64) -> String {
+    format!(
+        "pub mod sample; ground {{ A0: (0, 0), C: (1m, 0) }} link crank {{ A0 -> A: {crank:?}m }}
+         link rod {{ A: (0, 0), P: (0.25m, 0.125m) }} link block {{ C: (0, {offset:?}m), S: (0, 0), D: (0.5m, -0.25m) }}
+         revolute A0: ground -> crank; revolute A: crank -> rod; prismatic S: rod.A -> block.S along 0deg of rod; revolute C: ground -> block;
+         drive theta: A0; unknown T: torque(ground -> crank); assemble S: ahead(A);
+         load F: force(rod.P); load H: force(block.D); {SCENES}"
+    )
+}
+
+#[test]
+fn blocks_whose_pins_are_nearly_square_to_the_slide() {
+    let mut random = Random(18);
+    let mut poses = 0;
+    for index in 0..140 {
+        let (crank, offset) = (length(&mut random, 0.6, 1.4), length(&mut random, 0.5, 0.9));
+        // D = h/√(1 − distance²), with D² = 1 + a² − 2a cos θ
+        let distance = 10f64.powi(-(index % 7) - 1);
+        let d2 = offset * offset / (1.0 - distance * distance);
+        let angle = ((1.0 + crank * crank - d2) / (2.0 * crank)).acos();
+        let (drives, loads) = (vec![angle, -angle], loads(&mut random));
+        let family = Family { text: block_along_x(crank, offset), longest: crank.max(1.0), drives, loads };
+        let (worst, count) = worst::<Double>(&family, "f64", f64::EPSILON);
+        // About the rod's pin the whole moment is that of the guide, whose arm is the distance times D, and known to the rounding of D.
+        let bars = Measures { free_body: BARS.free_body / distance, ..BARS };
+        worst.assert_within(&bars, &format!("nearly square to the slide, {distance:e}"));
+        poses += count;
+    }
+    assert!(poses > 150, "{poses}");
+}
+
+#[test]
+fn blocks_whose_pins_nearly_meet() {
+    let mut random = Random(19);
+    let drives = (0..=6).flat_map(|k| [10f64.powi(-k), -10f64.powi(-k)]).collect();
+    let family = Family { text: block_along_x(1.0, 0.0), longest: 1.0, drives, loads: loads(&mut random) };
+    assert_eq!(check([family].into_iter(), "pins that nearly meet"), 14);
+}
+
+#[test]
+fn slides_that_are_nearly_parallel() {
+    let mut random = Random(20);
+    for exponent in 1..=6 {
+        let slope = 10f64.powi(-exponent);
+        let text =
+            tangent_mechanism([1.0, 0.0, 0.0], &mut random).replace("G: (1.0m, 0)", &format!("G: (1.0m, {slope:?}m)"));
+        let family = Family { text, longest: 1.0, drives: vec![slope, -slope], loads: loads(&mut random) };
+        assert_eq!(check([family].into_iter(), "nearly parallel"), 2);
+    }
+}
+
+#[test]
+fn where_dyads_with_inner_slides_end_is_a_typed_error() {
+    let run = |text: &str, name: &str, drive: f64| {
+        let arguments = Arguments { drives: vec![drive], loads: vec![[1.0, 1.0], [2.0, -1.0]], params: Vec::new() };
+        scene::<Double>(&compile(&format!("{text} scene where: position;")), name, &arguments)
+    };
+    // The crank's pin comes as near to the block's as half of what the block holds it off.
+    let near = block_along_x(0.75, 0.5);
+    for name in ["all", "work", "where"] {
+        let fault = run(&near, name, 0.0).unwrap_err();
+        assert!(matches!(fault, Fault::Failed(Failure::CannotAssemble { .. })), "{name}: {fault:?}");
+    }
+    // Exactly as far as it is held off: a place, but no forces.
+    let square = block_along_x(0.5, 0.5);
+    run(&square, "where", 0.0).unwrap();
+    for name in ["all", "work"] {
+        let fault = run(&square, name, 0.0).unwrap_err();
+        assert!(matches!(fault, Fault::Failed(Failure::DeadCentre { .. })), "{name}: {fault:?}");
+    }
+    let fault = run(&block_along_x(1.0, 0.0), "where", 0.0).unwrap_err();
+    assert!(matches!(fault, Fault::Failed(Failure::CoincidentPivots { .. })), "{fault:?}");
+    let fault = run(&block_along_x(1.0, 0.0), "where", f64::from(1u32 << 30) * f64::EPSILON / f64::from(1u32 << 30))
+        .unwrap_err();
+    assert!(matches!(fault, Fault::Failed(Failure::CoincidentPivots { .. })), "{fault:?}");
+    // Slides that become parallel.
+    let mut random = Random(21);
+    let parallel = tangent_mechanism([1.0, 0.25, 0.0], &mut random);
+    for name in ["all", "work", "where"] {
+        let fault = run(&parallel, name, 0.0).unwrap_err();
+        assert!(matches!(fault, Fault::Failed(Failure::DeadCentre { .. })), "{name}: {fault:?}");
+    }
+    // A cylinder without length, one that is too short, and one that is too long.
+    let cylinder = boom([1.0, 1.5, 0.0], &mut random);
+    for (extension, coincides) in [(0.0, true), (-0.0, true), (0.4, false), (-0.4, false), (2.6, false), (1e100, false)]
+    {
+        for name in ["all", "work", "where"] {
+            let fault = run(&cylinder, name, extension).unwrap_err();
+            let found = match &fault {
+                Fault::Failed(Failure::CoincidentPivots { .. }) => coincides,
+                Fault::Failed(Failure::CannotAssemble { .. }) => !coincides,
+                _ => false,
+            };
+            assert!(found, "{name} at {extension}: {fault:?}");
+        }
+    }
+    for limit in [0.5, 2.5] {
+        run(&cylinder, "where", limit).unwrap();
+        for name in ["all", "work"] {
+            let fault = run(&cylinder, name, limit).unwrap_err();
+            assert!(matches!(fault, Fault::Failed(Failure::DeadCentre { .. })), "{name} at {limit}: {fault:?}");
+        }
+    }
+    // A negative length turns the cylinder round, and is as good.
+    for extension in [1.7, -1.7] {
+        run(&cylinder, "all", extension).unwrap();
+    }
+}
+
 /// NaN and infinity in every argument of every function: a typed error, never a number.
 #[test]
 fn what_is_not_finite_is_a_typed_error() {
     let mut random = Random(17);
-    for text in [four_bar([1.5, 0.5, 1.25, 1.0], &mut random), slider_crank([0.5, 1.5, 0.25], &mut random)] {
+    let texts = [
+        four_bar([1.5, 0.5, 1.25, 1.0], &mut random),
+        slider_crank([0.5, 1.5, 0.25], &mut random),
+        oscillating_block([1.5, 0.5, 0.25], &mut random),
+        tangent_mechanism([1.0, 0.1, 80.0], &mut random),
+        scotch_yoke([1.0, 0.1, 80.0], &mut random),
+        boom([1.0, 1.5, 0.1], &mut random),
+    ];
+    for text in texts {
         let linkage = compile(&format!("{text} scene parts: superposition; scene whole: position;"));
         let good = Arguments { drives: vec![1.0], loads: vec![[3.0, -5.0], [1.0, 2.0]], params: Vec::new() };
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {

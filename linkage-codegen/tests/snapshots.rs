@@ -94,8 +94,8 @@ fn every_stage_of_every_example() {
 }
 
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs, slots,
-/// welds and gears.
-const OTHERS: [(&str, &str); 7] = [
+/// welds, gears, inner slides.
+const OTHERS: [(&str, &str); 9] = [
     (
         "adjustable",
         "/// A crank-rocker whose dimensions are given at run time.
@@ -117,6 +117,39 @@ const OTHERS: [(&str, &str); 7] = [
         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
         drive theta: A0; assemble B: left(A -> B0) smooth at 60deg;
         load F: force(coupler.C); scene held: equilibrium -> (effort_theta, B); scene place: position -> (coupler.C);",
+    ),
+    (
+        "oscillating_cylinder",
+        "/// A steam engine without a connecting rod: its cylinder swings about a pin beside its line.
+        pub mod oscillating_cylinder; units { mm, N }
+        ground { O: (0, 0), C: (0, 260mm) } link crank { O -> A: 60mm } link piston { A: (0, 0), head: (150mm, 0) }
+        link cylinder { C: (0, 10mm), bore: (0, 0) }
+        revolute O: ground -> crank; revolute A: crank -> piston; prismatic slide: piston.A -> cylinder.bore along 0deg of piston;
+        revolute C: ground -> cylinder;
+        drive theta: O; unknown T: torque(ground -> crank); assemble slide: ahead(A);
+        load steam: force(piston.head) in piston; load back: force(cylinder.bore) in cylinder;
+        scene held: equilibrium; scene torque: virtual_work -> (T); scene place: position -> (slide, cylinder.angle);",
+    ),
+    (
+        "excavator",
+        "/// A boom on a cylinder, and a bucket that a second cylinder turns by a link and a bell crank.
+        pub mod excavator; units { m, kN }
+        ground { O: (0, 0), P: (0.6m, -0.4m) }
+        link boom { O: (0, 0), Q: (1.2m, 0.3m), C0: (1.0m, 0.6m), R0: (2.3m, 0.35m), K0: (2.75m, 0.2m) }
+        link tube { P: (0, 0) } link rod { Q: (0, 0) }
+        link cylinder { C0: (0, 0) } link plunger { T: (0, 0) } link bell { R0 -> T: 0.47m }
+        link coupler { T -> U: 0.63m } link bucket { K0 -> U: 0.46m, tip: (-0.6m, -0.8m) }
+        mass boom: 600kg at (1.4m, 0.3m); mass bucket: 180kg at (-0.16m, -0.35m);
+        revolute O: ground -> boom; revolute P: ground -> tube; revolute Q: rod -> boom;
+        prismatic lift: tube.P -> rod.Q along 0deg of tube;
+        revolute C0: boom -> cylinder; prismatic curl: cylinder.C0 -> plunger.T along 0deg of cylinder;
+        revolute T: plunger -> bell; revolute R0: boom -> bell; revolute Tl: bell.T -> coupler.T;
+        revolute U: coupler -> bucket; revolute K0: boom -> bucket;
+        drive boom_length: lift; drive bucket_length: curl;
+        assemble Q: left(P -> O); assemble T: left(C0 -> R0); assemble U: left(Tl -> K0);
+        load W: gravity = 9.81m/s^2 @ -90deg; load dig: force(bucket.tip) in bucket;
+        scene held: equilibrium -> (effort_boom_length, effort_bucket_length); scene work: virtual_work;
+        scene place: position -> (bucket.tip, bucket.angle);",
     ),
     (
         "hoist",

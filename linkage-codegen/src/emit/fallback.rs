@@ -133,10 +133,9 @@ fn accessors(model: &Model) -> impl Iterator<Item = (String, TokenStream)> {
         (name, quote!(pub fn #method(&self) -> Vector2<#scalar> { loop {} }))
     };
     let drives = model.drives.iter().map(|drive| number(drive.name.text.clone()));
-    let joints = model
-        .joints
-        .iter()
-        .flat_map(|joint| [vector(joint.name.text.clone()), number(format!("sin_mu_{}", joint.name))]);
+    let joints = model.joints.iter().flat_map(|joint| {
+        joint.pivot_names().into_iter().map(number).chain([vector(joint.name.text.clone())]).collect::<Vec<_>>()
+    });
     let links = model.links.iter().skip(1).flat_map(|link| {
         let points = link.points.iter().map(|point| point.name.text.as_str()).chain(["direction"]);
         points.map(|point| vector(format!("{}_{point}", link.name))).collect::<Vec<_>>()

@@ -173,6 +173,16 @@ impl Joint {
         }
     }
 
+    /// What the pivots of a dyad may be called whose inner joint it is.
+    #[must_use]
+    pub fn pivot_names(&self) -> Vec<String> {
+        let sine = format!("sin_mu_{}", self.name);
+        match self.kind {
+            JointKind::Prismatic { .. } => vec![sine, format!("reach_{}", self.name)],
+            _ => vec![sine],
+        }
+    }
+
     /// The end that is not on a link.
     #[must_use]
     pub fn end_off(&self, link: LinkId) -> Option<End> {

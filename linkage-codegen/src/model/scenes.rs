@@ -406,7 +406,8 @@ fn check_generated_names(model: &Model, sink: &Sink) {
         methods.insert(drive.name.text.clone(), format!("gives the drive `{}`", drive.name));
     }
     for joint in &model.joints {
-        for made in [joint.name.text.clone(), format!("sin_mu_{}", joint.name)] {
+        let pivot = joint.pivot_names();
+        for made in pivot.into_iter().chain([joint.name.text.clone()]) {
             if let Some(other) = methods.insert(made.clone(), format!("belongs to the joint `{}`", joint.name)) {
                 method(&joint.name, &made, &other);
             }

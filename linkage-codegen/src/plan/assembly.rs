@@ -2,21 +2,45 @@
 
 use std::collections::BTreeSet;
 
+use super::output::Meaning;
 use super::pivots::Pivots;
 use super::placement::Placement;
 use crate::diagnostics::{Diagnostic, list};
 use crate::graph::{Expr, Graph, Symbol};
 use crate::model::ids::{DriveId, JointId};
+use crate::model::units::Kind;
 use crate::model::{Closure, Model, Side};
 use crate::topology::{Group, Topology};
 
-/// A pivot of a dyad under its joint's name.
+/// A pivot of a dyad: zero at its dead centre, and where it is no larger than its rounding.
 #[derive(Clone, Debug)]
 pub struct DyadPivot<'m> {
-    /// The dyad's inner joint.
-    pub joint: JointId,
-    /// Sine of the transmission angle, zero where it is no larger than its rounding.
-    pub sine: Expr<'m>,
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub what: String,
+    /// Of a length or a sine.
+    pub meaning: Meaning,
+    /// Its value.
+    pub value: Expr<'m>,
+}
+
+impl<'m> DyadPivot<'m> {
+    /// The sine of the transmission angle at a dyad's inner joint.
+    #[must_use]
+    pub fn sine(model: &Model, inner: JointId, value: Expr<'m>) -> Self {
+        let joint = &model.joint(inner).name;
+        let what = format!("sine of the transmission angle at `{joint}`");
+        Self { name: format!("sin_mu_{joint}"), what, meaning: Meaning::Sine, value }
+    }
+
+    /// The distance of a dyad's outer pins along its slide.
+    #[must_use]
+    pub fn reach(model: &Model, slide: JointId, value: Expr<'m>) -> Self {
+        let (joint, unit) = (&model.joint(slide).name, Kind::Length.unit(&model.units));
+        let what = format!("distance of the outer pins along the slide `{joint}`, {unit}, the lever arm of its force");
+        Self { name: format!("reach_{joint}"), what, meaning: Meaning::Length, value }
+    }
 }
 
 /// What the groups solved so far have placed.
@@ -26,7 +50,7 @@ pub struct Assembly<'m> {
     pub placement: Placement<'m>,
     /// Which angles are known.
     pub pivots: Pivots<'m>,
-    /// The dyads' transmission angles.
+    /// The dyads' pivots.
     pub dyads: Vec<DyadPivot<'m>>,
     /// The groups of motion.
     pub topology: &'m Topology,

@@ -171,7 +171,7 @@ fn unsupported(model: &Model, group: &Group, what: &str) -> Diagnostic {
     let class = "its class is not supported yet";
     Diagnostic::new(place, format!("there is no rule to {what} the group of {}: {class}", list(&links)))
         .note(format!("its joints are {} ({letters})", list(&joints)))
-        .help("supported are links on one pin or one slide, welded links, levers and sliders with a slot, gear trains on pins, and RRR and RRP dyads: another drive or unknown may split the linkage so")
+        .help("supported are links on one pin or one slide, welded links, levers and sliders with a slot, gear trains on pins, and RRR, RRP, RPR, PRP and RPP dyads: another drive or unknown may split the linkage so")
 }
 
 /// The heading of a group's steps.
@@ -220,13 +220,9 @@ fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
         );
         keep(format!("arm_{name}"), meaning, arm);
     }
-    for dyad in &assembly.dyads {
-        let name = &model.joint(dyad.joint).name;
-        keep(
-            format!("sin_mu_{name}"),
-            format!("sine of the transmission angle at `{name}`, zero where it is no larger than its rounding"),
-            dyad.sine,
-        );
+    for pivot in &assembly.dyads {
+        let meaning = format!("{}, zero where it is no larger than its rounding", pivot.what);
+        keep(pivot.name.clone(), meaning, pivot.value);
     }
     all
 }
@@ -265,13 +261,13 @@ fn accessors(assembly: &Assembly<'_>) -> Vec<Accessor> {
             all.push(Accessor { name: format!("{name}_{}", point.name), meaning, output });
         }
     }
-    for dyad in &assembly.dyads {
-        let name = &model.joint(dyad.joint).name;
-        let meaning = format!(
-            "Sine of the transmission angle at `{name}`: zero at a dead centre of its dyad, and where it is no larger than its rounding."
-        );
-        let output = Output::scalar(dyad.sine, Meaning::Sine);
-        all.push(Accessor { name: format!("sin_mu_{name}"), meaning, output });
+    for pivot in &assembly.dyads {
+        let mut what = pivot.what.clone();
+        what[..1].make_ascii_uppercase();
+        let meaning =
+            format!("{what}: zero at a dead centre of its dyad, and where it is no larger than its rounding.");
+        let output = Output::scalar(pivot.value, pivot.meaning);
+        all.push(Accessor { name: pivot.name.clone(), meaning, output });
     }
     all
 }

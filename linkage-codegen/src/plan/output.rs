@@ -15,6 +15,8 @@ pub enum Meaning {
     Angle,
     /// The sine of a transmission angle.
     Sine,
+    /// A length.
+    Length,
     /// A force.
     Force,
     /// A moment.

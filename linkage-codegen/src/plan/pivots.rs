@@ -3,7 +3,11 @@
 //! A pivot that is no larger than the rounding that could have produced it counts as zero, and dividing by it is a typed error: a
 //! dead centre. What the closure of a group knows of an angle is kept, because a cross product of rounded directions would lose it.
 
+use std::collections::BTreeMap;
+
+use super::placement::{Placement, Way};
 use crate::graph::{Expr, Failure, Vector};
+use crate::model::ids::JointId;
 
 /// Rounding of the cross product of two unit vectors, each true to 3 ε, in epsilons.
 const ROUNDING: i64 = 8;
@@ -21,6 +25,7 @@ struct Known<'m> {
 #[derive(Clone, Debug, Default)]
 pub struct Pivots<'m> {
     known: Vec<Known<'m>>,
+    reaches: BTreeMap<JointId, Expr<'m>>,
 }
 
 impl<'m> Pivots<'m> {
@@ -28,6 +33,39 @@ impl<'m> Pivots<'m> {
     /// than its rounding.
     pub fn state(&mut self, from: Vector<'m>, to: Vector<'m>, sine: Option<Expr<'m>>, cosine: Option<Expr<'m>>) {
         self.known.push(Known { from, to, sine, cosine });
+    }
+
+    /// States the distance of two pins along the slide between them, zero where it is no larger than its rounding.
+    pub fn state_reach(&mut self, slide: JointId, reach: Expr<'m>) {
+        self.reaches.insert(slide, reach);
+    }
+
+    /// The distance of two pins along the slide between them as a divisor: what is known of it, or the sum of the way.
+    #[must_use]
+    pub fn dividing_reach(&self, slide: JointId, way: &Way<'m>, e: Vector<'m>, name: &str, group: &str) -> Expr<'m> {
+        let of_way = || {
+            let reach = way.resolved_along(e).x.named(name, "from pin to pin, along the slide");
+            reach.where_above(reach.abs(), reach.graph().epsilons(ROUNDING) * way.length())
+        };
+        divisor(self.reaches.get(&slide).copied().unwrap_or_else(of_way), name, group)
+    }
+
+    /// The sine between the directions of two slides as a divisor.
+    #[must_use]
+    pub fn dividing_slides(
+        &self,
+        placement: &Placement<'m>,
+        slides: [JointId; 2],
+        name: &str,
+        group: &str,
+    ) -> Expr<'m> {
+        let [from, to] = slides.map(|slide| placement.slide_direction(slide));
+        let known = self.find(from, to, |k| k.sine, -1);
+        divisor(
+            known.unwrap_or_else(|| significant(placement.between(slides).y.named(name, ""), placement.graph().one())),
+            name,
+            group,
+        )
     }
 
     /// `from × to`.
@@ -84,7 +122,7 @@ impl<'m> Pivots<'m> {
 }
 
 /// The value, or zero where it is no larger than the rounding of a product of unit vectors.
-fn significant<'m>(value: Expr<'m>, spread: Expr<'m>) -> Expr<'m> {
+pub(super) fn significant<'m>(value: Expr<'m>, spread: Expr<'m>) -> Expr<'m> {
     value.where_above(value.abs(), value.graph().epsilons(ROUNDING) * spread)
 }
 

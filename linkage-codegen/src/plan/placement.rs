@@ -97,6 +97,11 @@ impl<'m> Placement<'m> {
         self.orientations[link.index()] = Some(Orientation { direction, ..orientation });
     }
 
+    /// Places a link for as long as lengths are worked out: no pose keeps it.
+    pub fn suppose(&mut self, link: LinkId, orientation: Orientation<'m>) {
+        self.orientations[link.index()] = Some(orientation);
+    }
+
     /// From here on, ways may go through this joint.
     pub fn connect(&mut self, joint: JointId) {
         self.placed.insert(joint);
@@ -310,6 +315,52 @@ impl<'m> Placement<'m> {
         // The second link's frame is turned by `turn` against the first one's.
         let axis = if joint.to.link == link { axis.resolved_along(turn) } else { axis.turned_by(turn) };
         Orientation { direction, axis }
+    }
+
+    /// The orientation of a link that a driven joint joins to a placed one.
+    #[must_use]
+    pub fn driven(&self, joint: JointId, link: LinkId, coordinate: Expr<'m>) -> Orientation<'m> {
+        let data = self.model.joint(joint);
+        if let JointKind::Prismatic { .. } = data.kind {
+            return self.along_slide(joint, link);
+        }
+        let turned = coordinate.direction();
+        let (turned, other) =
+            if data.to.link == link { (turned, data.from.link) } else { (turned.conjugate(), data.to.link) };
+        let x_axis = Vector::new(self.graph().one(), self.graph().zero());
+        Orientation { direction: turned.turned_by(self.frame(other)), axis: x_axis }
+    }
+
+    /// The direction of a slide in the frame of one of its links.
+    #[must_use]
+    pub fn slide_axis(&self, joint: JointId, link: LinkId) -> Vector<'m> {
+        let x_axis = Vector::new(self.graph().one(), self.graph().zero());
+        let data = self.model.joint(joint);
+        let JointKind::Prismatic { carrier, axis, turn, .. } = data.kind else { return x_axis };
+        let (axis, turn) = (axis.vector(self.graph()), turn.vector(self.graph()));
+        if carrier == link {
+            axis
+        } else if data.to.link == link {
+            axis.resolved_along(turn)
+        } else {
+            axis.turned_by(turn)
+        }
+    }
+
+    /// The direction of a slide along and across that of another; a constant where both turn with the same link.
+    #[must_use]
+    pub fn between(&self, [first, second]: [JointId; 2]) -> Vector<'m> {
+        if self.carrier_direction(first) == self.carrier_direction(second) {
+            return self.slide_along(second).resolved_along(self.slide_along(first));
+        }
+        self.slide_direction(second).resolved_along(self.slide_direction(first))
+    }
+
+    fn carrier_direction(&self, slide: JointId) -> Vector<'m> {
+        match self.model.joint(slide).kind {
+            JointKind::Prismatic { carrier, .. } => self.direction(carrier),
+            _ => self.direction(GROUND),
+        }
     }
 
     /// The shortest way between two points of placed links.

@@ -49,6 +49,67 @@ pub fn slider_crank([crank, rod, offset]: [f64; 3], random: &mut Random) -> Stri
     )
 }
 
+/// The rest of a linkage that a crank drives, with forces on two links.
+const CRANK: &str = "revolute A0: ground -> crank; drive theta: A0; unknown T: torque(ground -> crank);";
+
+/// A crank whose pin slides through a block that swings about another pin; the offset keeps its line off that pin.
+pub fn oscillating_block([ground, crank, offset]: [f64; 3], random: &mut Random) -> String {
+    let angle = random.range(0.0, 360.0);
+    let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
+    let side = random.pick(&["ahead", "behind"]);
+    let carrier = random.pick(&["rod", "block"]);
+    format!(
+        "pub mod sample; ground {{ A0: (0, 0), C: {ground:?}m @ {angle:?}deg }} link crank {{ A0 -> A: {crank:?}m }}
+         link rod {{ A: (0, 0), P: ({x:?}m, {y:?}m) }} link block {{ C: (0, {offset:?}m), S: (0, 0), D: ({y:?}m, {x:?}m) }}
+         revolute A: crank -> rod; prismatic S: rod.A -> block.S along 0deg of {carrier}; revolute C: ground -> block;
+         {CRANK} assemble S: {side}(A); load F: force(rod.P); load H: force(block.D); {SCENES}"
+    )
+}
+
+/// A block that slides on the crank, and moves a slider; the crank's line goes past its pivot.
+pub fn tangent_mechanism([guide, offset, angle]: [f64; 3], random: &mut Random) -> String {
+    let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
+    let carrier = random.pick(&["ground", "slider"]);
+    format!(
+        "pub mod sample; ground {{ A0: (0, 0), G: ({guide:?}m, 0) }} link crank {{ A0: (0, 0), S: (0, {offset:?}m) }}
+         link block {{ B: (0, 0), P: ({x:?}m, {y:?}m) }} link slider {{ B: (0, 0), D: ({y:?}m, {x:?}m) }}
+         prismatic S: crank.S -> block.B along 0deg of crank; revolute B: slider -> block;
+         prismatic G: ground.G -> slider.B along {angle:?}deg of {carrier};
+         {CRANK} load F: force(block.P); load H: force(slider.D); {SCENES}"
+    )
+}
+
+/// A Scotch yoke with a block in its slot, which is inclined to the guide.
+pub fn scotch_yoke([crank, offset, angle]: [f64; 3], random: &mut Random) -> String {
+    let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
+    let line = random.range(0.0, 360.0);
+    let carrier = random.pick(&["block", "yoke"]);
+    format!(
+        "pub mod sample; ground {{ A0: (0, 0), G: (0.25m, {offset:?}m) }} link crank {{ A0 -> A: {crank:?}m }}
+         link block {{ A: (0, 0), P: ({x:?}m, {y:?}m) }} link yoke {{ S: ({offset:?}m, 0), G: (0, 0), D: ({y:?}m, {x:?}m) }}
+         revolute A: crank -> block; prismatic S: yoke.S -> block.A along {line:?}deg + {angle:?}deg of {carrier};
+         prismatic G: yoke -> ground along {line:?}deg;
+         {CRANK} load F: force(block.P); load H: force(yoke.D); {SCENES}"
+    )
+}
+
+/// A boom that a cylinder lifts, its rod's end beside the cylinder's line.
+///
+/// The load is on the tube. Forces are passed on from the rod to the tube, so that the rounding of the rod's loads is left over in the
+/// tube's moments; on a tube without loads of its own it is large beside them where it is small beside the rod's.
+pub fn boom([ground, boom, offset]: [f64; 3], random: &mut Random) -> String {
+    let angle = random.range(0.0, 360.0);
+    let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
+    let side = random.pick(&["left", "right"]);
+    format!(
+        "pub mod sample; ground {{ O: (0, 0), P: {ground:?}m @ {angle:?}deg }} link boom {{ O -> Q: {boom:?}m, T: ({x:?}m, {y:?}m) }}
+         link tube {{ P: (0, 0), D: ({y:?}m, {x:?}m) }} link rod {{ Q: (0, {offset:?}m), S: (0, 0) }}
+         revolute O: ground -> boom; revolute P: ground -> tube; revolute Q: rod -> boom;
+         prismatic lift: tube.P -> rod.S along 0deg of tube; drive extension: lift; assemble Q: {side}(P -> O);
+         load F: force(boom.T); load H: force(tube.D); {SCENES}"
+    )
+}
+
 /// The worst measures of a family, over the poses that assemble and are no dead centres; and how many those are.
 pub fn worst<T: Number>(family: &Family, scalar: &str, epsilon: f64) -> (Measures, usize) {
     let text = family.text.replacen(';', &format!("; scalar {scalar};"), 1);

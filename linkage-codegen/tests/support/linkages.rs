@@ -110,6 +110,8 @@ struct Builder {
     sines: f64,
     /// Pins that hold wheels, each with its two links.
     pins: Vec<(String, usize, usize)>,
+    /// Driven joints and their coordinates.
+    drives: Vec<(String, f64)>,
 }
 
 /// A random linkage.
@@ -128,8 +130,10 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
         names: 0,
         sines: 0.2,
         pins: Vec::new(),
+        drives: Vec::new(),
     };
     let drive = builder.driven_link(kind.sliders);
+    builder.drives.push(drive);
     for _ in 0..kind.dyads {
         if kind.joints && builder.random.chance(0.7) {
             match builder.random.below(5) {
@@ -139,15 +143,20 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
                 3 => builder.yoke(),
                 _ => builder.wheel(),
             }
-        } else if kind.sliders && builder.random.chance(0.4) {
-            builder.slider_dyad();
-        } else {
-            builder.pinned_dyad();
+            continue;
+        }
+        match kind.sliders.then(|| builder.random.below(10)) {
+            Some(0 | 1) => builder.slider_dyad(),
+            Some(2) => builder.sliding_pair(),
+            Some(3) => builder.pinned_sliders(),
+            Some(4) => builder.slider_on_slider(),
+            Some(5) => builder.cylinder(),
+            _ => builder.pinned_dyad(),
         }
     }
     builder.masses();
     let loads = builder.loads(kind.unknown_anywhere);
-    builder.finish(drive, loads, kind)
+    builder.finish(loads, kind)
 }
 
 impl Builder {
@@ -505,6 +514,122 @@ impl Builder {
         self.places.extend([(p, own), (g, touch)]);
     }
 
+    /// A slide between two links that are placed here, with its line anywhere.
+    fn slide(&mut self, name: &str, near: usize, far: usize, angle: f64) {
+        let (start, travel) = (self.place(), self.random.range(-2.0, 2.0));
+        let end = plus(start, direction(angle).map(|x| x * travel));
+        let (from, to) = self.arrow(near, far);
+        self.bodies[from].points.push((name.to_owned(), start));
+        self.bodies[to].points.push((name.to_owned(), end));
+        let carrier = *self.random.pick(&[from, to]);
+        let local = angle - self.bodies[carrier].angle;
+        let fixed = self.bodies[to].angle - self.bodies[from].angle;
+        let line = format!(
+            "prismatic {name}: {} -> {} along {local:?}rad of {}, angle {fixed:?}rad;\n",
+            self.bodies[from].name, self.bodies[to].name, self.bodies[carrier].name
+        );
+        self.items.push_str(&line);
+        let runner = if carrier == from { end } else { start };
+        self.places.push((name.to_owned(), runner));
+    }
+
+    /// Two outer pins, and a slide between the links on them.
+    fn sliding_pair(&mut self) {
+        let (x, y) = self.two_links();
+        let [p, q, s] = [self.fresh('J'), self.fresh('J'), self.fresh('J')];
+        let (at_p, angle) = (self.outer(&p, x), self.random.range(-3.0, 3.0));
+        let e = direction(angle);
+        let at_q = loop {
+            let at = self.place();
+            if dot(minus(at, at_p), e).abs() > 0.3 + self.sines * size(minus(at, at_p)) {
+                break at;
+            }
+        };
+        self.bodies[y].points.push((q.clone(), at_q));
+        let (px, qx) = (self.place(), self.place());
+        let first = self.link((&p, at_p), (&format!("{p}x"), px));
+        let second = self.link((&q, at_q), (&format!("{q}x"), qx));
+        self.revolute(&p, x, first);
+        self.revolute(&q, y, second);
+        self.slide(&s, first, second, angle);
+        let ahead = dot(minus(at_q, at_p), e) > 0.0;
+        let (of, ahead) = if self.random.chance(0.5) { (&p, ahead) } else { (&q, !ahead) };
+        let line = format!("assemble {s}: {}({of});\n", if ahead { "ahead" } else { "behind" });
+        self.items.push_str(&line);
+        self.places.extend([(p, at_p), (q, at_q)]);
+    }
+
+    /// Two directions that are not nearly parallel.
+    fn two_directions(&mut self) -> [f64; 2] {
+        let first = self.random.range(-3.0, 3.0);
+        let turn = self.random.range(0.3, 2.8);
+        [first, if self.random.chance(0.5) { first + turn } else { first - turn }]
+    }
+
+    /// Two sliders with a pin between them.
+    fn pinned_sliders(&mut self) {
+        let (x, y) = self.two_links();
+        let [b, s, t] = [self.fresh('J'), self.fresh('J'), self.fresh('J')];
+        let at = self.place();
+        let links = [x, y].map(|_| {
+            let other = self.place();
+            let name = format!("{b}x");
+            self.link((&b, at), (&name, other))
+        });
+        self.revolute(&b, links[0], links[1]);
+        let [one, two] = self.two_directions();
+        self.slide(&s, x, links[0], one);
+        self.slide(&t, y, links[1], two);
+        self.places.push((b, at));
+    }
+
+    /// A slider, and another one on it with a pin.
+    fn slider_on_slider(&mut self) {
+        let (x, y) = self.two_links();
+        let [p, s, t] = [self.fresh('J'), self.fresh('J'), self.fresh('J')];
+        let at = self.outer(&p, x);
+        let (px, a, b) = (self.place(), self.place(), self.place());
+        let pinned = self.link((&p, at), (&format!("{p}x"), px));
+        let slider = self.link((&format!("{t}x"), a), (&format!("{t}y"), b));
+        self.revolute(&p, x, pinned);
+        let [one, two] = self.two_directions();
+        self.slide(&s, pinned, slider, one);
+        self.slide(&t, y, slider, two);
+        self.places.push((p, at));
+    }
+
+    /// A dyad of three pins whose first link is a cylinder with its driven rod.
+    fn cylinder(&mut self) {
+        let before = self.bodies.len();
+        self.pinned_dyad();
+        // The second link becomes the tube, and a rod takes over its pin to the third one.
+        let (tube, other) = (before, before + 1);
+        let (pin, at) = self.bodies[other].points[1].clone();
+        let (s, rx) = (self.fresh('J'), self.place());
+        let rod = self.link((&pin, at), (&format!("{s}x"), rx));
+        let (old, new) = (self.bodies[tube].name.clone(), self.bodies[rod].name.clone());
+        let mark = format!("revolute {pin}: ");
+        let lines = self.items.lines().map(|line| {
+            let line = if line.starts_with(&mark) {
+                line.replace(&format!(" {old} "), &format!(" {new} ")).replace(&format!(" {old};"), &format!(" {new};"))
+            } else {
+                line.to_owned()
+            };
+            line + "\n"
+        });
+        self.items = lines.collect();
+        // Its pin is no longer on the links that hold it for wheels.
+        self.pins.retain(|(name, ..)| *name != pin);
+        let angle = self.random.range(-3.0, 3.0);
+        self.slide(&s, tube, rod, angle);
+        let ends = [tube, rod].map(|body| self.bodies[body].points.last().expect("its end").1);
+        let [tube_end, rod_end] = ends;
+        let from_tube = self.items.lines().last().expect("the slide").contains(&format!("{s}: {old} -> "));
+        let gap = minus(rod_end, tube_end);
+        let travel = dot(if from_tube { gap } else { gap.map(|x| -x) }, direction(angle));
+        self.drives.push((s, travel));
+    }
+
     fn masses(&mut self) {
         for index in 1..self.bodies.len() {
             if self.random.chance(0.5) {
@@ -570,7 +695,8 @@ impl Builder {
             }
             arguments.push([self.random.range(-1.0, 1.0), -9.81]);
         }
-        if unknown_anywhere && self.random.chance(0.7) {
+        // Of several drives, every one has its effort.
+        if unknown_anywhere && self.drives.len() == 1 && self.random.chance(0.7) {
             let link = 1 + self.random.below(moving);
             let name = self.bodies[link].name.clone();
             let line = if self.random.chance(0.4) {
@@ -650,7 +776,7 @@ impl Builder {
         (format!("load B{number}: spring({}) {{ {fields} }};\n", self.two_points()), [rate, free])
     }
 
-    fn finish(self, (drive, at): (String, f64), loads: Vec<[f64; 2]>, kind: Kind) -> Sample {
+    fn finish(self, loads: Vec<[f64; 2]>, kind: Kind) -> Sample {
         let mut text = format!("pub mod sample;\nscalar {};\n", kind.scalar);
         let mut params = Vec::new();
         let mut length = |value: f64, text: &mut String| {
@@ -685,11 +811,13 @@ impl Builder {
             text.push_str(body.mass.as_deref().unwrap_or(""));
         }
         text.push_str(&self.items);
-        let _ = writeln!(text, "drive q: {drive};");
+        for (index, (joint, _)) in self.drives.iter().enumerate() {
+            let _ = writeln!(text, "drive q{index}: {joint};");
+        }
         text.push_str(
             "scene all: equilibrium;\nscene parts: superposition;\nscene work: virtual_work;\nscene whole: position;\n",
         );
-        let arguments = Arguments { drives: vec![at], loads, params };
+        let arguments = Arguments { drives: self.drives.iter().map(|(_, at)| *at).collect(), loads, params };
         Sample { text, arguments, places: self.places }
     }
 }

@@ -8,8 +8,8 @@ use linkage_codegen::equations::joints::Component;
 use linkage_codegen::equations::loads::{self, Action};
 use linkage_codegen::graph::NodeId;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::model::LoadKind;
 use linkage_codegen::model::ids::{JointId, LinkId};
+use linkage_codegen::model::{LoadKind, UnknownKind};
 use linkage_codegen::program::Fault;
 use nalgebra::{DMatrix, DVector};
 
@@ -171,15 +171,22 @@ fn backward_error(linkage: &Linkage, general: &General<Extended>, solution: &[Ex
 }
 
 /// The lengths of the ways from a link's frame to the runner of a slide.
-fn slide_arm(linkage: &Linkage, kept: &HashMap<NodeId, Extended>, joint: JointId, link: LinkId) -> f64 {
+fn slide_arm(
+    linkage: &Linkage,
+    arguments: &Arguments,
+    kept: &HashMap<NodeId, Extended>,
+    joint: JointId,
+    link: LinkId,
+) -> f64 {
     let model = &linkage.model;
     let data = model.joint(joint);
     let Some(end) = data.end_on(link) else { return 0.0 };
     let local = model.local(end);
     let local = [local.x, local.y].map(|x| x.value().expect("constant").to_f64());
     let name = format!("travel_{}", data.name);
-    let travel =
-        linkage.plan.pose.iter().find(|kept| kept.name == name).map_or(0.0, |found| kept[&found.node].to_f64());
+    let found = linkage.plan.pose.iter().find(|kept| kept.name == name).map(|found| kept[&found.node].to_f64());
+    // The travel of a driven slide is an argument.
+    let travel = found.or(model.drive_of(joint).map(|drive| arguments.drives[drive.index()])).unwrap_or(0.0);
     let runner_elsewhere = data.place() != end;
     local[0].hypot(local[1]) + if runner_elsewhere { travel.abs() } else { 0.0 }
 }
@@ -189,7 +196,7 @@ fn over(value: f64, size: f64) -> f64 {
 }
 
 fn is_moment(linkage: &Linkage, name: &str) -> bool {
-    use linkage_codegen::model::{JointKind, UnknownKind};
+    use linkage_codegen::model::JointKind;
     let unknown = linkage.model.unknowns.iter().find(|u| u.name == name);
     name.ends_with(".couple")
         || unknown.is_some_and(|unknown| match unknown.kind {
@@ -234,7 +241,16 @@ fn free_body(
         let force = part[0].to_f64().hypot(part[1].to_f64());
         let arm = match general.sources[column] {
             // The runner is at the end of two ways: to the slide's point on the link, and along the slide.
-            Source::Joint(joint, Component::Normal) => slide_arm(linkage, kept, joint, link),
+            Source::Joint(joint, Component::Normal) => slide_arm(linkage, arguments, kept, joint, link),
+            Source::Unknown(unknown) if force > 0.0 => {
+                // The effort along a slide acts at its runner.
+                match linkage.model.unknown(unknown).kind {
+                    UnknownKind::Drive(drive) => {
+                        slide_arm(linkage, arguments, kept, linkage.model.drive(drive).joint, link)
+                    }
+                    _ => coefficient(2, column).to_f64().abs(),
+                }
+            }
             _ => columns.clone().map(|c| coefficient(2, c).to_f64()).fold(0.0, f64::hypot),
         };
         forces += force;

@@ -4,7 +4,7 @@
 //! * Force: the moment about the pin gives the unknown, the sum of the forces the reaction.
 
 use super::{Rule, RuleResult};
-use crate::graph::{Expr, Vector};
+use crate::graph::Expr;
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
 use crate::model::{JointKind, Model};
 use crate::plan::assembly::Assembly;
@@ -47,14 +47,7 @@ impl Rule for Crank {
             first_dyad_on(assembly, drive, link).and_then(|(moved, other)| HalfAngle::between(assembly, moved, other));
         let orientation = match &arms {
             Some(arms) => Orientation { direction: arms.moved_direction(), axis: arms.arm },
-            None => {
-                let joint = model.joint(pin);
-                let turned = assembly.coordinate(drive).direction();
-                let turned = if joint.to.link == link { turned } else { turned.conjugate() };
-                let other = if joint.to.link == link { joint.from.link } else { joint.to.link };
-                let x_axis = Vector::new(assembly.graph().one(), assembly.graph().zero());
-                Orientation { direction: turned.turned_by(assembly.placement.frame(other)), axis: x_axis }
-            }
+            None => assembly.placement.driven(pin, link, assembly.coordinate(drive)),
         };
         let meaning = format!("direction of {name}, from {drive_name}");
         let direction = orientation.direction.named_direction(&name.text, &meaning);

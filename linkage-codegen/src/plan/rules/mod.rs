@@ -5,6 +5,10 @@
 
 mod block;
 mod crank;
+mod dyad;
+mod prp;
+mod rpp;
+mod rpr;
 mod rrp;
 mod rrr;
 mod slide;
@@ -50,7 +54,7 @@ pub trait Rule: Sync {
 pub type RuleResult = Result<(), Diagnostic>;
 
 /// All rules; the first that fits a group solves it.
-pub const RULES: [&dyn Rule; 9] = [
+pub const RULES: [&dyn Rule; 12] = [
     &crank::Crank,
     &slide::Slide,
     &weld::Weld,
@@ -59,6 +63,9 @@ pub const RULES: [&dyn Rule; 9] = [
     &train::Train,
     &rrr::Rrr,
     &rrp::Rrp,
+    &rpr::Rpr,
+    &prp::Prp,
+    &rpp::Rpp,
     &block::Block,
 ];
 

@@ -13,81 +13,31 @@
 //! `p e + f n`, `p = e·W`, and with `t = −m/r` across the link `f = (t − p (u × e))/(u·e)`. The guide exerts `N = f − n·W` across
 //! the slide. `u·e = h/r` is the pivot: sin μ, with μ the angle between the link and the normal of the slide.
 
+use super::dyad::{Dyad, dyad};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
-use crate::model::ids::{GROUND, JointId, LinkId};
-use crate::model::{End, JointKind, Model, Side};
+use crate::model::ids::{GROUND, JointId};
+use crate::model::{Model, Side};
 use crate::plan::assembly::{Assembly, DyadPivot};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
-use crate::plan::placement::{Orientation, Placement, Way};
+use crate::plan::placement::Way;
 use crate::plan::velocities::{Motion, Twist};
 use crate::topology::Group;
 
 /// The rule.
 pub(super) struct Rrp;
 
-/// The parts of an RRP dyad.
-struct Dyad<'a> {
-    model: &'a Model,
-    rod: LinkId,
-    slider: LinkId,
-    outer: JointId,
-    inner: JointId,
-    slide: JointId,
-}
-
-fn dyad<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
-    let pinned = |joint: JointId| matches!(model.joint(joint).kind, JointKind::Revolute);
-    let ([_, _], &[inner], &[a, b], []) = (&*group.links, &*group.inner, &*group.outer, &*group.inputs) else {
-        return None;
-    };
-    let (outer, slide) = match (pinned(a), pinned(b)) {
-        (true, false) => (a, b),
-        (false, true) => (b, a),
+/// The group as an RRP dyad, the rod first.
+fn rod_and_slider<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
+    let mut dyad = dyad(model, group)?;
+    match dyad.pins() {
+        [true, true, false] => {}
+        [false, true, true] => dyad.legs.swap(0, 1),
         _ => return None,
-    };
-    let (rod, slider) = (group.own_link(model, outer), group.own_link(model, slide));
-    (pinned(inner) && rod != slider).then_some(Dyad { model, rod, slider, outer, inner, slide })
-}
-
-impl<'a> Dyad<'a> {
-    fn end(&self, joint: JointId, link: LinkId) -> End {
-        let joint = self.model.joint(joint);
-        joint.end_on(link).unwrap_or(joint.from)
     }
-
-    fn length(&self) -> Expr<'a> {
-        super::length_between(self.model, self.rod, [self.outer, self.inner])
-    }
-
-    /// The direction from the outer pin to the inner one in the rod's own frame.
-    fn axis(&self) -> Vector<'a> {
-        let (outer, inner) = (self.end(self.outer, self.rod), self.end(self.inner, self.rod));
-        let (arm, length) = (self.model.local(inner) - self.model.local(outer), self.length());
-        Vector::new(arm.x / length, arm.y / length)
-    }
-
-    fn direction(&self, placement: &Placement<'a>) -> Vector<'a> {
-        placement.turned(self.rod, self.axis())
-    }
-
-    fn joint_name(&self, joint: JointId) -> &'a str {
-        &self.model.joint(joint).name.text
-    }
-
-    fn link_name(&self, link: LinkId) -> &'a str {
-        &self.model.link(link).name.text
-    }
-
-    fn group_name(&self) -> String {
-        self.model.link_names(&[self.rod, self.slider])
-    }
-
-    fn pivot_name(&self) -> String {
-        format!("sin_mu_{}", self.joint_name(self.inner))
-    }
+    Some(dyad)
 }
 
 impl Rule for Rrp {
@@ -96,25 +46,27 @@ impl Rule for Rrp {
     }
 
     fn fits(&self, model: &Model, group: &Group) -> bool {
-        dyad(model, group).is_some()
+        rod_and_slider(model, group).is_some()
     }
 
     fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
-        let Some(dyad) = dyad(assembly.model(), group) else { return Ok(()) };
+        let Some(dyad) = rod_and_slider(assembly.model(), group) else { return Ok(()) };
         close(assembly, group, &dyad)
     }
 
     fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
         let model = balance.model();
-        let Some(dyad) = dyad(model, group) else { return Ok(()) };
-        super::check_length(model, dyad.rod, [dyad.outer, dyad.inner])?;
-        let (rod, inner) = (dyad.link_name(dyad.rod), dyad.joint_name(dyad.inner));
-        let (outer, slider) = (dyad.joint_name(dyad.outer), dyad.link_name(dyad.slider));
-        let e = balance.placement.slide_direction(dyad.slide);
-        let u = dyad.direction(balance.placement);
-        let load = balance.total(dyad.slider).along(e);
-        let about = balance.placement.point(dyad.end(dyad.outer, dyad.rod));
-        let across = (-balance.moment(dyad.rod, about, balance.graph().one() / dyad.length())).named(
+        let Some(dyad) = rod_and_slider(model, group) else { return Ok(()) };
+        let [rod_leg, slider_leg] = &dyad.legs;
+        let slide = slider_leg.outer;
+        dyad.check_length(rod_leg)?;
+        let (rod, inner) = (dyad.link_name(rod_leg), dyad.joint_name(dyad.inner));
+        let (outer, slider) = (dyad.joint_name(rod_leg.outer), dyad.link_name(slider_leg));
+        let e = balance.placement.slide_direction(slide);
+        let u = dyad.direction(balance.placement, rod_leg);
+        let load = balance.total(slider_leg.link()).along(e);
+        let about = balance.placement.point(rod_leg.near);
+        let across = (-balance.moment(rod_leg.link(), about, balance.graph().one() / dyad.length(rod_leg))).named(
             balance.name(&format!("{inner}_across_{rod}")),
             format!("−ΣM({outer})/|{outer} {inner}| of the loads on {rod}"),
         );
@@ -134,41 +86,41 @@ impl Rule for Rrp {
         };
         let force = Framed { components: Vector::new(along_slide, side), axes: e };
         let ground = balance.placement.direction(GROUND);
-        let loads = balance.total(dyad.rod);
+        let loads = balance.total(rod_leg.link());
         // The pin puts its part on the slider, whose moments give the couple of the guide.
-        let force = balance.pin(dyad.inner, dyad.rod, force);
-        balance.pin(dyad.outer, dyad.rod, loads.plus(&force, ground).opposite());
-        let pin = balance.placement.point(dyad.end(dyad.inner, dyad.slider));
-        super::slide::guide(balance, dyad.slide, dyad.slider, load.y - side, pin);
+        let force = balance.pin(dyad.inner, rod_leg.link(), force);
+        balance.pin(rod_leg.outer, rod_leg.link(), loads.plus(&force, ground).opposite());
+        let pin = balance.placement.point(slider_leg.tip);
+        super::slide::guide(balance, slide, slider_leg.link(), load.y - side, pin);
         Ok(())
     }
 
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let model = motion.model();
-        let Some(dyad) = dyad(model, group) else { return Ok(()) };
-        let e = motion.placement.slide_direction(dyad.slide);
-        let u = dyad.direction(motion.placement);
-        let slide = model.joint(dyad.slide);
-        let far = if slide.to.link == dyad.slider { slide.from.link } else { slide.to.link };
+        let Some(dyad) = rod_and_slider(model, group) else { return Ok(()) };
+        let [rod_leg, slider_leg] = &dyad.legs;
+        let slide = slider_leg.outer;
+        let e = motion.placement.slide_direction(slide);
+        let u = dyad.direction(motion.placement, rod_leg);
+        let far = slider_leg.far.link;
         // The slider turns with the link that guides it, and B moves with that link but for the sliding:
         // v_A + ω r u⊥ = v_C + ṡ e, multiplied by n and by u.
         let slider_rate = motion.rate(far);
-        let at = motion.placement.slide_point(dyad.slide, dyad.slider);
-        let guided = motion.of_place(far, motion.placement.slide_point(dyad.slide, far));
-        let inner = motion.placement.point(dyad.end(dyad.inner, dyad.slider));
+        let at = motion.placement.slide_point(slide, slider_leg.link());
+        let guided = motion.of_place(far, motion.placement.slide_point(slide, far));
+        let inner = motion.placement.point(slider_leg.tip);
         let ground = motion.placement.direction(GROUND);
         let turning = Framed {
             components: (inner - at).perp().scaled(slider_rate),
-            axes: motion.placement.direction(dyad.slider),
+            axes: motion.placement.direction(slider_leg.link()),
         };
         let carried = guided.plus(&turning, ground);
-        let outer_end = model.joint(dyad.outer).end_off(dyad.rod).unwrap_or(model.joint(dyad.outer).from);
-        let outer = motion.of_point(outer_end);
+        let outer = motion.of_point(rod_leg.far);
         let gap = motion.difference(&carried, &outer);
         let cosine = motion.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
-        let rod = dyad.link_name(dyad.rod);
+        let rod = dyad.link_name(rod_leg);
         let across = motion.part(&gap, e.perp());
-        let rate = if across.is_zero() { across } else { (across / cosine) / dyad.length() };
+        let rate = if across.is_zero() { across } else { (across / cosine) / dyad.length(rod_leg) };
         let rate = rate.named(
             motion.name(&format!("rate_{rod}")),
             format!("rate of rotation of {rod}: the pins' relative velocity across the slide over length times u·e"),
@@ -176,54 +128,55 @@ impl Rule for Rrp {
         let along = motion.part(&gap, u);
         let speed = if along.is_zero() { along } else { -(along / cosine) };
         let speed = speed.named(
-            motion.name(&format!("speed_{}", dyad.joint_name(dyad.slide))),
+            motion.name(&format!("speed_{}", dyad.joint_name(slide))),
             format!(
                 "speed of {} along the slide: the pins' relative velocity along {rod} over u·e",
-                dyad.link_name(dyad.slider)
+                dyad.link_name(slider_leg)
             ),
         );
-        let rod_at = motion.placement.point(dyad.end(dyad.outer, dyad.rod));
-        motion.found(dyad.rod, Twist { rate, at: rod_at, velocity: outer });
+        let rod_at = motion.placement.point(rod_leg.near);
+        motion.found(rod_leg.link(), Twist { rate, at: rod_at, velocity: outer });
         let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes: e };
-        motion.found(dyad.slider, Twist { rate: slider_rate, at, velocity: guided.plus(&sliding, ground) });
+        motion.found(slider_leg.link(), Twist { rate: slider_rate, at, velocity: guided.plus(&sliding, ground) });
         Ok(())
     }
 }
 
 fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> RuleResult {
     let model = dyad.model;
-    let (outer, inner) = (dyad.joint_name(dyad.outer), dyad.joint_name(dyad.inner));
-    let r = dyad.length();
-    super::check_length(model, dyad.rod, [dyad.outer, dyad.inner])?;
-    let slide = dyad.joint_name(dyad.slide);
-    let lies = format!("along the slide `{slide}`, `{inner}` lies ahead of `{outer}` or behind it");
-    let ahead = ahead(assembly, group, dyad.inner, dyad.outer, lies)?;
-    let orientation = assembly.placement.along_slide(dyad.slide, dyad.slider);
-    assembly.placement.orient(dyad.slider, orientation);
-    let e = assembly.placement.slide_direction(dyad.slide);
+    let [rod_leg, slider_leg] = &dyad.legs;
+    let slide = slider_leg.outer;
+    let (outer, inner) = (dyad.joint_name(rod_leg.outer), dyad.joint_name(dyad.inner));
+    let r = dyad.length(rod_leg);
+    dyad.check_length(rod_leg)?;
+    let lies = format!("along the slide `{}`, `{inner}` lies ahead of `{outer}` or behind it", dyad.joint_name(slide));
+    let ahead = ahead(assembly, group, dyad.inner, rod_leg.outer, lies)?;
+    let orientation = assembly.placement.along_slide(slide, slider_leg.link());
+    assembly.placement.orient(slider_leg.link(), orientation);
+    dyad.place_rest(assembly, slider_leg, slider_leg.link())?;
+    let e = assembly.placement.slide_direction(slide);
     // With the travel still zero, the way goes from A over the guide to B.
-    assembly.placement.connect(dyad.slide);
-    let outer_end = model.joint(dyad.outer).end_off(dyad.rod).unwrap_or(model.joint(dyad.outer).from);
-    let way = assembly.placement.way(outer_end, dyad.end(dyad.inner, dyad.slider));
-    let meeting = meet(r, &way, e, ahead, [inner, outer], dyad.group_name());
+    assembly.placement.connect(slide);
+    let way = assembly.placement.way(rod_leg.far, slider_leg.tip);
+    let meeting = meet((r, dyad.slack(rod_leg)), &way, e, ahead, [inner, outer], dyad.group_name());
     let Meeting { q, h, cosine, sine, pivot } = meeting;
-    let name = dyad.link_name(dyad.rod);
+    let name = dyad.link_name(rod_leg);
     let direction = Vector::new(cosine, sine).turned_by(e);
-    let direction = direction.named_direction(name, &format!("direction of {name} from {outer} to {inner}"));
-    assembly.placement.orient(dyad.rod, Orientation { direction, axis: dyad.axis() });
-    assembly.placement.connect(dyad.outer);
+    let direction = direction.named_direction(&name, &format!("direction of {name} from {outer} to {inner}"));
+    let u = dyad.orient(assembly, rod_leg, direction)?;
+    assembly.placement.connect(rod_leg.outer);
     assembly.placement.connect(dyad.inner);
     // From the guide's point to the slider's, whichever of the two is the slide's second.
-    let forwards = model.joint(dyad.slide).to.link == dyad.slider;
+    let forwards = model.joint(slide).to.link == slider_leg.link();
     let travel = if forwards { h - q.x } else { q.x - h };
+    let name = dyad.joint_name(slide);
     let travel = travel.named(
-        format!("travel_{slide}"),
-        format!("travel of the slide {slide}: {}", if forwards { "h − e·Q" } else { "e·Q − h" }),
+        format!("travel_{name}"),
+        format!("travel of the slide {name}: {}", if forwards { "h − e·Q" } else { "e·Q − h" }),
     );
-    assembly.placement.set_travel(dyad.slide, travel);
-    let u = dyad.direction(&assembly.placement);
+    assembly.placement.set_travel(slide, travel);
     assembly.pivots.state(u, e, None, Some(pivot));
-    assembly.dyads.push(DyadPivot { joint: dyad.inner, sine: pivot });
+    assembly.dyads.push(DyadPivot::sine(dyad.model, dyad.inner, pivot));
     Ok(())
 }
 
@@ -268,9 +221,10 @@ pub(super) struct Meeting<'m> {
     pub pivot: Expr<'m>,
 }
 
-/// Meets a line of direction e, to a point of which the way leads, in one of two places.
+/// Meets a line of direction e, to a point of which the way leads, in one of two places. The length r may be rounded to the size of its
+/// slack.
 pub(super) fn meet<'m>(
-    r: Expr<'m>,
+    (r, slack): (Expr<'m>, Expr<'m>),
     way: &Way<'m>,
     e: Vector<'m>,
     ahead: bool,
@@ -286,7 +240,7 @@ pub(super) fn meet<'m>(
     let (h2, rounding) = if (r - reach).sign() == Some(1) {
         (h2.known_positive(), graph.zero())
     } else {
-        let rounding = graph.epsilons(4) * (r * (r + reach));
+        let rounding = graph.epsilons(4) * (r * (r + (reach + slack)));
         (h2, rounding.named(format!("rounding_h2_{inner}"), format!("what rounding makes of h2_{inner} = 0")))
     };
     let failure = Failure::CannotAssemble { group, joint: inner.into(), gap: (g.abs() - r).id() };

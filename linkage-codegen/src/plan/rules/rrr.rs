@@ -14,135 +14,71 @@
 //! Forces, by the textbooks' resolution along and across the links: with `m₁`, `m₂` the moments of the loads about P and Q, the
 //! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`.
 
+use super::dyad::{Dyad, Leg, dyad_of_bodies, towards_unit};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Scalar, Vector};
-use crate::model::ids::{JointId, LinkId};
-use crate::model::{Closure, End, JointKind, Model, Side};
+use crate::model::{Closure, End, Model, Side};
 use crate::plan::assembly::{Assembly, DyadPivot};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::half_angle::{HalfAngle, first_dyad_on};
-use crate::plan::placement::{Orientation, Placement, Way};
+use crate::plan::placement::Way;
 use crate::plan::velocities::{Motion, Twist};
 use crate::topology::Group;
 
 /// The rule.
 pub(super) struct Rrr;
 
-/// A link of the dyad: its outer pin and its inner one.
-#[derive(Clone, Copy, Debug)]
-struct Leg {
-    link: LinkId,
-    outer: JointId,
-}
-
-/// The parts of an RRR dyad.
-#[derive(Clone, Copy, Debug)]
-pub struct PinnedDyad<'a> {
-    model: &'a Model,
-    legs: [Leg; 2],
-    inner: JointId,
-}
-
 /// The group as an RRR dyad, if it is one. Its first leg is the one whose outer pin the closure names first.
 #[must_use]
-pub fn pinned_dyad<'a>(model: &'a Model, group: &Group) -> Option<PinnedDyad<'a>> {
-    let pinned = |joint: &JointId| matches!(model.joint(*joint).kind, JointKind::Revolute);
-    let ([_, _], &[inner], [a, b], []) = (&*group.links, &*group.inner, &*group.outer, &*group.inputs) else {
-        return None;
-    };
-    if ![a, b, &inner].into_iter().all(pinned) {
-        return None;
+pub fn pinned_dyad<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
+    let mut dyad = dyad_of_bodies(model, group).filter(|dyad| dyad.pins() == [true; 3])?;
+    let closure = model.closures.iter().find(|c| c.joint == dyad.inner);
+    if closure.is_some_and(|c| c.of.first() == Some(&dyad.legs[1].outer)) {
+        dyad.legs.swap(0, 1);
     }
-    let leg = |outer: &JointId| Leg { link: group.own_link(model, *outer), outer: *outer };
-    let mut legs = [leg(a), leg(b)];
-    if legs[0].link == legs[1].link {
-        return None;
-    }
-    let closure = model.closures.iter().find(|c| c.joint == inner);
-    if closure.is_some_and(|c| c.of.first() == Some(b)) {
-        legs.swap(0, 1);
-    }
-    Some(PinnedDyad { model, legs, inner })
+    Some(dyad)
 }
 
-impl<'a> PinnedDyad<'a> {
+impl<'a> Dyad<'a> {
     /// The outer pins, on the links outside the group.
     #[must_use]
     pub fn outer_ends(&self) -> [End; 2] {
-        self.legs.map(|leg| {
-            let joint = self.model.joint(leg.outer);
-            joint.end_off(leg.link).unwrap_or(joint.from)
-        })
-    }
-
-    fn end(&self, joint: JointId, link: LinkId) -> End {
-        let joint = self.model.joint(joint);
-        joint.end_on(link).unwrap_or(joint.from)
+        self.legs.each_ref().map(|leg| leg.far)
     }
 
     fn check_lengths(&self) -> RuleResult {
-        self.legs.iter().try_for_each(|leg| super::check_length(self.model, leg.link, [leg.outer, self.inner]))
+        self.legs.iter().try_for_each(|leg| self.check_length(leg))
     }
 
-    /// Distance of a leg's pins.
-    fn length(&self, leg: Leg) -> Expr<'a> {
-        super::length_between(self.model, leg.link, [leg.outer, self.inner])
+    fn lengths(&self) -> [Expr<'a>; 2] {
+        self.legs.each_ref().map(|leg| self.length(leg))
     }
 
-    /// The direction from the outer pin to the inner one, in the leg's own frame.
-    fn axis(&self, leg: Leg) -> Vector<'a> {
-        let (outer, inner) = (self.end(leg.outer, leg.link), self.end(self.inner, leg.link));
-        let (arm, length) = (self.model.local(inner) - self.model.local(outer), self.length(leg));
-        Vector::new(arm.x / length, arm.y / length)
-    }
-
-    /// The same in ground axes, of a placed dyad.
-    fn direction(&self, placement: &Placement<'a>, leg: Leg) -> Vector<'a> {
-        placement.turned(leg.link, self.axis(leg))
-    }
-
-    fn other(&self, leg: Leg) -> Leg {
-        self.legs[usize::from(leg.link == self.legs[0].link)]
-    }
-
-    fn link_name(&self, leg: Leg) -> &'a str {
-        &self.model.link(leg.link).name.text
-    }
-
-    fn joint_name(&self, joint: JointId) -> &'a str {
-        &self.model.joint(joint).name.text
-    }
-
-    fn group_name(&self) -> String {
-        self.model.link_names(&self.legs.map(|leg| leg.link))
+    fn other(&self, leg: &Leg) -> &Leg {
+        &self.legs[usize::from(leg.link() == self.legs[0].link())]
     }
 
     /// The length of a leg as text: `|A B|`.
-    fn length_name(&self, leg: Leg) -> String {
+    fn length_name(&self, leg: &Leg) -> String {
         format!("|{} {}|", self.joint_name(leg.outer), self.joint_name(self.inner))
     }
 
     fn sum_name(&self) -> String {
-        let [first, second] = self.legs.map(|leg| self.length_name(leg));
+        let [first, second] = self.legs.each_ref().map(|leg| self.length_name(leg));
         format!("({first} + {second})")
     }
 
     fn difference_name(&self) -> String {
-        let [first, second] = self.legs.map(|leg| self.length_name(leg));
+        let [first, second] = self.legs.each_ref().map(|leg| self.length_name(leg));
         format!("({first} − {second})")
     }
 
     fn separation_meaning(&self) -> String {
-        let [first, second] = self.legs.map(|leg| self.joint_name(leg.outer));
+        let [first, second] = self.legs.each_ref().map(|leg| self.joint_name(leg.outer));
         format!("d, from {first} to {second}")
-    }
-
-    /// The name of the pivot.
-    fn pivot_name(&self) -> String {
-        format!("sin_mu_{}", self.joint_name(self.inner))
     }
 }
 
@@ -164,13 +100,10 @@ impl Rule for Rrr {
         let model = balance.model();
         let Some(dyad) = pinned_dyad(model, group) else { return Ok(()) };
         dyad.check_lengths()?;
-        let [first, second] = dyad.legs;
-        let [u1, u2] = dyad.legs.map(|leg| dyad.direction(balance.placement, leg));
+        let [first, second] = &dyad.legs;
+        let [u1, u2] = dyad.legs.each_ref().map(|leg| dyad.direction(balance.placement, leg));
         // Moments of the loads about the outer pins, over the lengths.
-        let [across_first, across_second] = dyad.legs.map(|leg| {
-            let about = balance.placement.point(dyad.end(leg.outer, leg.link));
-            balance.moment(leg.link, about, balance.graph().one() / dyad.length(leg))
-        });
+        let [across_first, across_second] = dyad.legs.each_ref().map(|leg| dyad.moment_over_length(balance, leg));
         let (inner, link) = (dyad.joint_name(dyad.inner), dyad.link_name(first));
         let (outer, other) = (dyad.joint_name(first.outer), dyad.joint_name(second.outer));
         let across = (-across_first).named(
@@ -196,22 +129,32 @@ impl Rule for Rrr {
         };
         let force = Framed { components: Vector::new(along, across), axes: u1 };
         let ground = balance.placement.direction(crate::model::ids::GROUND);
-        let loads = [first, second].map(|leg| balance.total(leg.link));
-        let force = balance.pin(dyad.inner, first.link, force);
-        balance.pin(first.outer, first.link, loads[0].plus(&force, ground).opposite());
-        balance.pin(second.outer, second.link, loads[1].plus(&force.opposite(), ground).opposite());
+        let loads = [first, second].map(|leg| balance.total(leg.link()));
+        let force = balance.pin(dyad.inner, first.tip.link, force);
+        for (leg, loads, force) in [(first, loads[0], force), (second, loads[1], force.opposite())] {
+            if leg.is_single() {
+                balance.pin(leg.outer, leg.link(), loads.plus(&force, ground).opposite());
+                continue;
+            }
+            if leg.tip == first.tip {
+                balance.push(leg.tip.link, balance.placement.point(leg.tip), force);
+            }
+            dyad.balance_rest(balance, leg)?;
+        }
         Ok(())
     }
 
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let model = motion.model();
         let Some(dyad) = pinned_dyad(model, group) else { return Ok(()) };
-        let [u1, u2] = dyad.legs.map(|leg| dyad.direction(motion.placement, leg));
+        let [u1, u2] = dyad.legs.each_ref().map(|leg| dyad.direction(motion.placement, leg));
         let [p, q] = dyad.outer_ends().map(|end| motion.of_point(end));
-        // v_P + ω₁ r₁ u₁⊥ = v_Q + ω₂ r₂ u₂⊥, multiplied by u₂ and by u₁.
-        let gap = motion.difference(&q, &p);
+        // v_P + ω₁ r₁ u₁⊥ = v_Q + ω₂ r₂ u₂⊥, multiplied by u₂ and by u₁; what drives within the legs give their ends comes on top.
+        let ground = motion.placement.direction(crate::model::ids::GROUND);
+        let [first, second] = dyad.legs.each_ref().map(|leg| dyad.driven_velocity(motion, leg));
+        let gap = motion.difference(&q.plus(&second, ground), &p.plus(&first, ground));
         let sine = motion.pivots.dividing_sine(u1, u2, &dyad.pivot_name(), &dyad.group_name());
-        let rates = [(u2, dyad.legs[0], p), (u1, dyad.legs[1], q)].map(|(along, leg, velocity)| {
+        let rates = [(u2, &dyad.legs[0], p), (u1, &dyad.legs[1], q)].map(|(along, leg, velocity)| {
             let part = motion.part(&gap, along);
             let rate = if part.is_zero() { part } else { (part / sine) / dyad.length(leg) };
             let name = dyad.link_name(leg);
@@ -225,8 +168,9 @@ impl Rule for Rrr {
             (leg, rate, velocity)
         });
         for (leg, rate, velocity) in rates {
-            let at = motion.placement.point(dyad.end(leg.outer, leg.link));
-            motion.found(leg.link, Twist { rate, at, velocity });
+            let at = motion.placement.point(leg.near);
+            motion.found(leg.link(), Twist { rate, at, velocity });
+            dyad.follow_rest(motion, leg)?;
         }
         Ok(())
     }
@@ -253,8 +197,8 @@ impl Closing<'_> {
     }
 }
 
-fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) -> RuleResult {
-    let [first, second] = dyad.legs;
+fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> RuleResult {
+    let [first, second] = &dyad.legs;
     dyad.check_lengths()?;
     let outer_names = [first, second].map(|leg| dyad.joint_name(leg.outer));
     let of = format!("{} -> {}", outer_names[0], outer_names[1]);
@@ -278,10 +222,11 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) 
     };
     let (r1, r2) = (dyad.length(first), dyad.length(second));
     let name = dyad.joint_name(dyad.inner);
-    let difference = r1.squared() - r2.squared();
+    let difference = (r1 - r2) * (r1 + r2);
     let inverse = (assembly.graph().one() / closing.d2).named(format!("inverse_D2_{name}"), "");
     let legs = [(first, r1, r2, closing.d2 + difference, 1), (second, r2, r1, closing.d2 - difference, -1)];
-    for (leg, own, other, sum, sense) in legs {
+    let mut directions = [closing.d; 2];
+    for (found, (leg, own, other, sum, sense)) in directions.iter_mut().zip(legs) {
         let link = dyad.link_name(leg);
         let (mine, its) = (dyad.length_name(leg), dyad.length_name(dyad.other(leg)));
         let sum = sum.named(format!("sum_{link}"), format!("D2_{name} + {mine}² − {its}²"));
@@ -295,14 +240,14 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) 
             &format!("rough_{link}"),
             &format!("{}along_{link} d + across_{link} d⊥", if sense < 0 { "−" } else { "" }),
         );
-        let direction = normalised(rough, own, other, link);
+        let direction = normalised(rough, own, other, &link);
         let meaning = format!("direction of {link} from {} to {name}", dyad.joint_name(leg.outer));
-        let direction = direction.named_direction(link, &meaning);
-        assembly.placement.orient(leg.link, Orientation { direction, axis: dyad.axis(leg) });
+        let direction = direction.named_direction(&link, &meaning);
+        *found = dyad.orient(assembly, leg, direction)?;
         assembly.placement.connect(leg.outer);
     }
     assembly.placement.connect(dyad.inner);
-    let [u1, u2] = dyad.legs.map(|leg| dyad.direction(&assembly.placement, leg));
+    let [u1, u2] = directions;
     let sine = if ratio_is_at_most(8, r1, r2) {
         closing.k / (2 * (r1 * r2))
     } else {
@@ -310,7 +255,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) 
         // are.
         u1.cross(u2)
     };
-    let [n1, n2] = dyad.legs.map(|leg| dyad.length_name(leg));
+    let [n1, n2] = dyad.legs.each_ref().map(|leg| dyad.length_name(leg));
     let sine = sine.named(
         dyad.pivot_name(),
         format!(
@@ -324,12 +269,12 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &PinnedDyad<'m>) 
     let pivot =
         pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding").held();
     assembly.pivots.state(u1, u2, Some(pivot), None);
-    assembly.dyads.push(DyadPivot { joint: dyad.inner, sine: pivot });
+    assembly.dyads.push(DyadPivot::sine(dyad.model, dyad.inner, pivot));
     Ok(())
 }
 
-fn check_closure(dyad: &PinnedDyad<'_>, closure: &Closure, of: &str) -> RuleResult {
-    let outer = dyad.legs.map(|leg| leg.outer);
+fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {
+    let outer = dyad.legs.each_ref().map(|leg| leg.outer);
     let fits = matches!(closure.side, Side::Left | Side::Right) && closure.of == outer;
     if fits {
         return Ok(());
@@ -343,7 +288,7 @@ fn check_closure(dyad: &PinnedDyad<'_>, closure: &Closure, of: &str) -> RuleResu
         .help(format!("choose one of\nassemble {joint}: left({of});\nassemble {joint}: right({of});")))
 }
 
-fn not_folding(dyad: &PinnedDyad<'_>, closure: &Closure, why: &str) -> Diagnostic {
+fn not_folding(dyad: &Dyad<'_>, closure: &Closure, why: &str) -> Diagnostic {
     let joint = dyad.joint_name(dyad.inner);
     Diagnostic::new(closure.smooth_place, format!("the dyad at `{joint}` does not fold: {why}"))
         .help("without a fold there is nothing to go through smoothly: leave `smooth` out")
@@ -354,7 +299,7 @@ fn not_folding(dyad: &PinnedDyad<'_>, closure: &Closure, why: &str) -> Diagnosti
 ///
 /// It costs nothing for the dyad for which the drive's angle is halved anyway; for another one it is taken where that dyad comes near
 /// its folds.
-fn half_angle<'m>(assembly: &Assembly<'m>, dyad: &PinnedDyad<'m>, [p, q]: [End; 2]) -> Option<(HalfAngle<'m>, bool)> {
+fn half_angle<'m>(assembly: &Assembly<'m>, dyad: &Dyad<'m>, [p, q]: [End; 2]) -> Option<(HalfAngle<'m>, bool)> {
     let model = dyad.model;
     [(p, q, false), (q, p, true)].into_iter().find_map(|(moved, other, swapped)| {
         let drive = model.drives.iter().position(|drive| {
@@ -369,8 +314,8 @@ fn half_angle<'m>(assembly: &Assembly<'m>, dyad: &PinnedDyad<'m>, [p, q]: [End; 
 }
 
 /// Whether constant lengths let `p` or `q` fall below a sixteenth of its largest value.
-fn comes_near_a_fold(dyad: &PinnedDyad<'_>, arms: &HalfAngle<'_>) -> bool {
-    let [r1, r2] = dyad.legs.map(|leg| dyad.length(leg));
+fn comes_near_a_fold(dyad: &Dyad<'_>, arms: &HalfAngle<'_>) -> bool {
+    let [r1, r2] = dyad.lengths();
     let (kp, kq) = fold_margins(arms, r1, r2);
     let span = 4 * (arms.a * arms.b);
     [kp, kq].into_iter().any(|k| (16 * k - span).sign() != Some(1))
@@ -406,20 +351,20 @@ impl<'m> Margin<'m> {
     }
 
     /// Checked: below its rounding the dyad cannot be assembled.
-    fn assembled(self, dyad: &PinnedDyad<'m>, far: bool, d2: Expr<'m>) -> Self {
+    fn assembled(self, dyad: &Dyad<'m>, far: bool, d2: Expr<'m>) -> Self {
         Self { value: self.value.require_at_least(self.value, -self.rounding, gap(dyad, self.value, far, d2)), ..self }
     }
 }
 
 fn by_half_angle<'m>(
-    dyad: &PinnedDyad<'m>,
+    dyad: &Dyad<'m>,
     closure: &Closure,
     arms: &HalfAngle<'m>,
     swapped: bool,
 ) -> Result<Closing<'m>, Diagnostic> {
     let graph = arms.a.graph();
     let joint = dyad.joint_name(dyad.inner);
-    let [r1, r2] = dyad.legs.map(|leg| dyad.length(leg));
+    let [r1, r2] = dyad.lengths();
     let (c, s) = (arms.half.x, arms.half.y);
     let (kp, kq) = fold_margins(arms, r1, r2);
     let span = 4 * (arms.a * arms.b);
@@ -495,20 +440,15 @@ fn by_half_angle<'m>(
 }
 
 /// The failure to assemble, with the gap: how much too far apart (`p < 0`) or too close together (`q < 0`) the outer pins are.
-fn gap<'m>(dyad: &PinnedDyad<'m>, value: Expr<'m>, far: bool, d2: Expr<'m>) -> Failure {
-    let [r1, r2] = dyad.legs.map(|leg| dyad.length(leg));
+fn gap<'m>(dyad: &Dyad<'m>, value: Expr<'m>, far: bool, d2: Expr<'m>) -> Failure {
+    let [r1, r2] = dyad.lengths();
     let limit = if far { r1 + r2 } else { (r1 - r2).abs() };
     let gap = -value / (d2.sqrt() + limit);
     Failure::CannotAssemble { group: dyad.group_name(), joint: dyad.joint_name(dyad.inner).into(), gap: gap.id() }
 }
 
 /// The sign of K: of the side, and in a smooth motion of the fold factor at the stated angle.
-fn side_sign(
-    dyad: &PinnedDyad<'_>,
-    closure: &Closure,
-    arms: &HalfAngle<'_>,
-    folds: [bool; 2],
-) -> Result<i64, Diagnostic> {
+fn side_sign(dyad: &Dyad<'_>, closure: &Closure, arms: &HalfAngle<'_>, folds: [bool; 2]) -> Result<i64, Diagnostic> {
     let side = if closure.side == Side::Left { 1 } else { -1 };
     let Some(at) = closure.smooth_at else { return Ok(side) };
     let Some(at) = dyad.model.graph.constant_value(at) else {
@@ -530,17 +470,17 @@ fn side_sign(
 }
 
 /// The general form: from the vector between the outer pins.
-fn by_distance<'m>(dyad: &PinnedDyad<'m>, closure: &Closure, way: &Way<'m>) -> Closing<'m> {
+fn by_distance<'m>(dyad: &Dyad<'m>, closure: &Closure, way: &Way<'m>) -> Closing<'m> {
     let joint = dyad.joint_name(dyad.inner);
-    let [r1, r2] = dyad.legs.map(|leg| dyad.length(leg));
+    let [r1, r2] = dyad.lengths();
     let graph = r1.graph();
     let (s, m) = (r1 + r2, (r1 - r2).abs());
     let d = way.vector().named(&format!("d_{joint}"), &dyad.separation_meaning());
     let d2 = d.squared().named(format!("D2_{joint}"), "d·d");
     let p = (s.squared() - d2).named(format!("p_{joint}"), format!("{}² − D2_{joint}", dyad.sum_name()));
     let q = (d2 - m.squared()).named(format!("q_{joint}"), format!("D2_{joint} − {}²", dyad.difference_name()));
-    // Near p = 0, D is near S, and near q = 0 it is near M; d is rounded to the length of its way.
-    let length = way.length();
+    // Near p = 0, D is near S, and near q = 0 it is near M; d is rounded to the length of its way, and so are lengths that drives give.
+    let length = dyad.legs.iter().fold(way.length(), |sum, leg| sum + dyad.slack(leg));
     let (least, most) = reach(way);
     let never = |bound: Option<Expr<'m>>| bound.and_then(Expr::sign) == Some(1);
     let rounding = |of: &str, value: Expr<'m>| {
@@ -591,14 +531,10 @@ fn reach<'m>(way: &Way<'m>) -> (Option<Expr<'m>>, Option<Expr<'m>>) {
 /// One step towards unit size, which squares the error; for legs so different that this does not suffice, by root and division.
 fn normalised<'m>(rough: Vector<'m>, own: Expr<'m>, other: Expr<'m>, link: &str) -> Vector<'m> {
     let graph = rough.graph();
-    let square = rough.squared();
     if lengths_are_alike(graph.scalar(), own, other) {
-        let three_halves = graph.constant(&Number::ratio(3, 2));
-        let half = graph.constant(&Number::ratio(1, 2));
-        let factor = three_halves - half * square;
-        rough.scaled(factor.named(format!("unit_{link}"), format!("(3 − u·u)/2, u = rough_{link}")))
+        towards_unit(rough, link)
     } else {
-        let factor = graph.one() / square.sqrt();
+        let factor = graph.one() / rough.squared().sqrt();
         rough.scaled(factor.named(format!("unit_{link}"), format!("1/|u|, u = rough_{link}")))
     }
 }

@@ -6,7 +6,7 @@
 use super::{Rule, RuleResult};
 use crate::graph::{Expr, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
-use crate::model::{JointKind, Model, UnknownKind};
+use crate::model::{End, JointKind, Model, UnknownKind};
 use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
 use crate::plan::efforts::{Act, Unit};
@@ -155,4 +155,15 @@ fn dividing_cosine<'m>(
     let along = unit.force_on(link, placement.direction(GROUND)).ground();
     let (pivot, name) = (format!("cos_{}", model.unknown(unknown).name), &model.link(link).name.text);
     pivots.dividing_cosine(placement.slide_direction(slide), along, unit.spread, &pivot, name)
+}
+
+/// The velocity that a point of a slider has in so far as it moves with its guide: `v + ω r⊥`, without the sliding.
+pub(super) fn carried<'m>(motion: &Motion<'m, '_>, slide: JointId, link: LinkId, point: End) -> Framed<'m> {
+    let placement = motion.placement;
+    let joint = motion.model().joint(slide);
+    let guide = if joint.to.link == link { joint.from.link } else { joint.to.link };
+    let guided = motion.of_place(guide, placement.slide_point(slide, guide));
+    let arm = placement.point(point) - placement.slide_point(slide, link);
+    let turning = Framed { components: arm.perp().scaled(motion.rate(guide)), axes: placement.direction(link) };
+    guided.plus(&turning, placement.direction(GROUND))
 }

@@ -241,7 +241,7 @@ fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool)
     let (name, at, about) = (parts.name(), parts.joint_name(slot), parts.joint_name(held));
     let e = assembly.placement.slide_direction(slot);
     let way = assembly.placement.way(from, to);
-    let Meeting { q, h, cosine, sine, pivot } = meet(r, &way, e, ahead, [at, about], name.into());
+    let Meeting { q, h, cosine, sine, pivot } = meet((r, r.graph().zero()), &way, e, ahead, [at, about], name.into());
     let direction = Vector::new(cosine, sine).turned_by(e);
     let direction = direction.named_direction(name, &format!("direction of {name} from {about} to {at}"));
     let arm = model.local(own) - model.local(near);
@@ -252,7 +252,7 @@ fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool)
     assembly.placement.set_travel(slot, travel);
     let u = assembly.placement.turned(link, axis);
     assembly.pivots.state(u, e, None, Some(pivot));
-    assembly.dyads.push(DyadPivot { joint: slot, sine: pivot });
+    assembly.dyads.push(DyadPivot::sine(model, slot, pivot));
     assembly.placement.set_arm(slot, held, r * pivot);
     Ok(())
 }

@@ -1,0 +1,150 @@
+//! The PRP dyad: two sliders with a pin between them.
+//!
+//! With the directions e₁ and e₂ of the slides, g from the pin on the first slider to the pin on the second when neither has
+//! travelled, and t₁, t₂ how far they travel:
+//!
+//! ```text
+//! t₁ e₁ − t₂ e₂ = g      t₁ = (g × e₂)/(e₁ × e₂)      t₂ = t₁ (e₁·e₂) − g·e₂
+//! ```
+//!
+//! Each slider turns with the link that guides it, so there is nothing to choose. The second travel is the projection, not another
+//! quotient: then the pin closes to rounding however flat the angle between the slides is. Its sine is the pivot.
+//!
+//! Forces: the guides take nothing along the slides, so the force F on the first slider at the pin has `F·e₁ = a = −e₁·W₁` and
+//! `F·e₂ = b = e₂·W₂` with W the loads: along e₁ it is a, across it `(b − a (e₁·e₂))/(e₁ × e₂)`.
+//!
+//! Velocities: the pin has that of the place on the first guide, and `ṡ₁ = ((c₂ − c₁) × e₂)/(e₁ × e₂)` along e₁, with c the velocities
+//! of the places on the guides.
+
+use super::dyad::{Dyad, Leg, dyad};
+use super::{Rule, RuleResult};
+use crate::graph::Vector;
+use crate::model::Model;
+use crate::model::ids::{GROUND, JointId};
+use crate::plan::assembly::Assembly;
+use crate::plan::balance::Balance;
+use crate::plan::framed::Framed;
+use crate::plan::velocities::{Motion, Twist};
+use crate::topology::Group;
+
+/// The rule.
+pub(super) struct Prp;
+
+fn sliders<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
+    dyad(model, group).filter(|dyad| dyad.pins() == [false, true, false])
+}
+
+fn slides(dyad: &Dyad<'_>) -> [JointId; 2] {
+    dyad.legs.each_ref().map(|leg| leg.outer)
+}
+
+impl Rule for Prp {
+    fn class(&self) -> &'static str {
+        "PRP dyad"
+    }
+
+    fn fits(&self, model: &Model, group: &Group) -> bool {
+        sliders(model, group).is_some()
+    }
+
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
+        let Some(dyad) = sliders(assembly.model(), group) else { return Ok(()) };
+        let [first, second] = &dyad.legs;
+        for leg in &dyad.legs {
+            let orientation = assembly.placement.along_slide(leg.outer, leg.link());
+            assembly.placement.orient(leg.link(), orientation);
+            dyad.place_rest(assembly, leg, leg.link())?;
+            assembly.placement.connect(leg.outer);
+        }
+        let (cosine, sine) = dyad.state_slides(assembly, slides(&dyad))?;
+        let pin = dyad.joint_name(dyad.inner);
+        let [first_name, second_name] = [first, second].map(|leg| dyad.link_name(leg));
+        let e = assembly.placement.slide_direction(second.outer);
+        let gap = assembly.placement.way(first.tip, second.tip).resolved_along(e);
+        let gap = gap.named(
+            &format!("g_{pin}"),
+            &format!(
+                "g, from {pin} on {first_name} to {pin} on {second_name} at no travel, along and across {}",
+                dyad.joint_name(second.outer)
+            ),
+        );
+        let own = (-gap.y / sine).named(format!("t_{first_name}"), format!("t₁ = (g × e₂)/sin_mu_{pin}"));
+        let other = (own * cosine - gap.x).named(format!("t_{second_name}"), "t₂ = t₁ (e₁·e₂) − g·e₂");
+        dyad.set_travel(assembly, first.outer, first.link(), own);
+        dyad.set_travel(assembly, second.outer, second.link(), other);
+        assembly.placement.connect(dyad.inner);
+        Ok(())
+    }
+
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
+        let Some(dyad) = sliders(balance.model(), group) else { return Ok(()) };
+        let [first, second] = &dyad.legs;
+        let pin = dyad.joint_name(dyad.inner);
+        let [one, two] = [first, second].map(|leg| balance.placement.slide_direction(leg.outer));
+        let loads = balance.total(first.link()).along(one);
+        let along = |leg: &Leg| {
+            format!("±ΣF of the loads on {} along the slide {}", dyad.link_name(leg), dyad.joint_name(leg.outer))
+        };
+        let own =
+            (-loads.x).named(balance.name(&format!("{pin}_along_{}", dyad.joint_name(first.outer))), along(first));
+        let needed = balance.total(second.link()).along(two).x;
+        let needed =
+            needed.named(balance.name(&format!("{pin}_along_{}", dyad.joint_name(second.outer))), along(second));
+        let across = if own.is_zero() && needed.is_zero() {
+            balance.graph().zero()
+        } else {
+            let cosine = balance.placement.between(slides(&dyad)).x;
+            let sine = balance.pivots.dividing_slides(
+                balance.placement,
+                slides(&dyad),
+                &dyad.pivot_name(),
+                &dyad.group_name(),
+            );
+            ((needed - own * cosine) / sine).named(
+                balance.name(&format!("{pin}_across_{}", dyad.joint_name(first.outer))),
+                format!("(b − a (e₁·e₂))/{}", dyad.pivot_name()),
+            )
+        };
+        let force = Framed { components: Vector::new(own, across), axes: one };
+        // The pin puts its part on the second slider.
+        let force = balance.pin(dyad.inner, first.link(), force).along(one);
+        let at = |leg: &Leg| balance.placement.point(leg.tip);
+        let (first_at, second_at) = (at(first), at(second));
+        super::slide::guide(balance, first.outer, first.link(), loads.y + force.y, first_at);
+        let held = balance.total(second.link()).along(two).y;
+        super::slide::guide(balance, second.outer, second.link(), held, second_at);
+        Ok(())
+    }
+
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
+        let Some(dyad) = sliders(motion.model(), group) else { return Ok(()) };
+        let [first, second] = &dyad.legs;
+        let ground = motion.placement.direction(GROUND);
+        let carried = dyad.legs.each_ref().map(|leg| super::slide::carried(motion, leg.outer, leg.link(), leg.tip));
+        let gap = motion.difference(&carried[1], &carried[0]);
+        let across = -motion.part(&gap, motion.placement.slide_direction(second.outer).perp());
+        let speed = if across.is_zero() {
+            across
+        } else {
+            across
+                / motion.pivots.dividing_slides(motion.placement, slides(&dyad), &dyad.pivot_name(), &dyad.group_name())
+        };
+        let slide = dyad.joint_name(first.outer);
+        let speed = speed.named(
+            motion.name(&format!("speed_{slide}")),
+            format!(
+                "speed of {} along the slide {slide}: the guides' relative velocity across the other slide over {}",
+                dyad.link_name(first),
+                dyad.pivot_name()
+            ),
+        );
+        let axes = motion.placement.slide_direction(first.outer);
+        let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes };
+        let velocity = carried[0].plus(&sliding, ground);
+        for leg in &dyad.legs {
+            let at = motion.placement.point(leg.tip);
+            motion.found(leg.link(), Twist { rate: motion.rate(leg.far.link), at, velocity });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,159 @@
+//! The RPP dyad: a slider, and on it another slider with a pin at its outer end.
+//!
+//! With the direction eₒ of the outer slide and eᵢ of the inner one, g from the pin on the second slider, when neither has travelled, to
+//! where it has to be, and tₒ, tᵢ how far they travel:
+//!
+//! ```text
+//! tₒ eₒ + tᵢ eᵢ = g      tₒ = (g × eᵢ)/(eₒ × eᵢ)      tᵢ = g·eᵢ − tₒ (eₒ·eᵢ)
+//! ```
+//!
+//! Both turn with the outer guide, so there is nothing to choose, and `eₒ × eᵢ` does not change with the pose.
+//!
+//! Forces: with Wₒ the loads on the first slider, what the inner slide exerts on the second one across itself is
+//! `N = (eₒ·Wₒ)/(eᵢ × eₒ)`, since the outer guide takes nothing along eₒ. The pin holds the rest, the moments give the couples.
+//!
+//! Velocities: with c that of the pin's place as if it were fixed to the outer guide, `ṡₒ = ((v − c) × eᵢ)/(eₒ × eᵢ)`.
+
+use super::dyad::{Dyad, dyad};
+use super::{Rule, RuleResult};
+use crate::graph::Vector;
+use crate::model::Model;
+use crate::model::ids::{GROUND, JointId};
+use crate::plan::assembly::Assembly;
+use crate::plan::balance::Balance;
+use crate::plan::framed::Framed;
+use crate::plan::velocities::{Motion, Twist};
+use crate::topology::Group;
+
+/// The rule.
+pub(super) struct Rpp;
+
+/// The group as an RPP dyad, the link with the pin first.
+fn sliders<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
+    let mut dyad = dyad(model, group)?;
+    match dyad.pins() {
+        [true, false, false] => {}
+        [false, false, true] => dyad.legs.swap(0, 1),
+        _ => return None,
+    }
+    Some(dyad)
+}
+
+/// The outer slide and the inner one.
+fn slides(dyad: &Dyad<'_>) -> [JointId; 2] {
+    [dyad.legs[1].outer, dyad.inner]
+}
+
+impl Rule for Rpp {
+    fn class(&self) -> &'static str {
+        "RPP dyad"
+    }
+
+    fn fits(&self, model: &Model, group: &Group) -> bool {
+        sliders(model, group).is_some()
+    }
+
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
+        let Some(dyad) = sliders(assembly.model(), group) else { return Ok(()) };
+        let [pinned, slider] = &dyad.legs;
+        for (leg, slide, link) in [(slider, slider.outer, slider.link()), (pinned, dyad.inner, pinned.tip.link)] {
+            let orientation = assembly.placement.along_slide(slide, link);
+            assembly.placement.orient(link, orientation);
+            dyad.place_rest(assembly, leg, link)?;
+            assembly.placement.connect(slide);
+        }
+        let (cosine, sine) = dyad.state_slides(assembly, slides(&dyad))?;
+        let [outer, inner] = slides(&dyad).map(|slide| dyad.joint_name(slide));
+        let pin = dyad.joint_name(pinned.outer);
+        let e = assembly.placement.slide_direction(dyad.inner);
+        let gap = assembly.placement.way(pinned.near, pinned.far).resolved_along(e);
+        let gap = gap.named(
+            &format!("g_{pin}"),
+            &format!(
+                "g, to {pin} from where it is on {} at no travel, along and across {inner}",
+                dyad.link_name(pinned)
+            ),
+        );
+        let own = (-gap.y / sine).named(format!("t_{outer}"), format!("tₒ = (g × eᵢ)/{}", dyad.pivot_name()));
+        let further = (gap.x - own * cosine).named(format!("t_{inner}"), "tᵢ = g·eᵢ − tₒ (eₒ·eᵢ)");
+        dyad.set_travel(assembly, slider.outer, slider.link(), own);
+        dyad.set_travel(assembly, dyad.inner, pinned.tip.link, further);
+        assembly.placement.connect(pinned.outer);
+        Ok(())
+    }
+
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
+        let Some(dyad) = sliders(balance.model(), group) else { return Ok(()) };
+        let [pinned, slider] = &dyad.legs;
+        let [outer, inner] = slides(&dyad).map(|slide| dyad.joint_name(slide));
+        let e = balance.placement.slide_direction(slider.outer);
+        let load = balance.total(slider.link()).along(e);
+        let name = dyad.link_name(slider);
+        let along = load.x.named(
+            balance.name(&format!("{outer}_along")),
+            format!("ΣF of the loads on {name} along the slide {outer}"),
+        );
+        let across = if along.is_zero() {
+            along
+        } else {
+            let sine = balance.pivots.dividing_slides(
+                balance.placement,
+                slides(&dyad),
+                &dyad.pivot_name(),
+                &dyad.group_name(),
+            );
+            (-(along / sine))
+                .named(balance.name(&format!("{inner}_across")), format!("−{outer}_along/{}", dyad.pivot_name()))
+        };
+        let pin = balance.placement.point(pinned.near);
+        super::slide::guide(balance, dyad.inner, pinned.link(), -across, pin);
+        let ground = balance.placement.direction(GROUND);
+        let guided = balance.reaction(dyad.inner).force;
+        let guided =
+            if balance.model().joint(dyad.inner).to.link == pinned.link() { guided } else { guided.opposite() };
+        let held = balance.total(pinned.link()).plus(&guided, ground);
+        balance.pin(pinned.outer, pinned.link(), held.opposite());
+        // The inner slide has put its part on the first slider.
+        let at = balance.placement.slide_point(dyad.inner, slider.link());
+        let held = balance.total(slider.link()).along(e).y;
+        super::slide::guide(balance, slider.outer, slider.link(), held, at);
+        Ok(())
+    }
+
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
+        let Some(dyad) = sliders(motion.model(), group) else { return Ok(()) };
+        let [pinned, slider] = &dyad.legs;
+        let ground = motion.placement.direction(GROUND);
+        let rate = motion.rate(slider.far.link);
+        let pin = motion.of_point(pinned.far);
+        let at = motion.placement.slide_point(slider.outer, slider.link());
+        // All directions are the outer guide's: the way from its runner to the pin goes through the inner slide.
+        let way = motion.placement.slide_point(dyad.inner, slider.link()) - at + motion.placement.point(pinned.near)
+            - motion.placement.slide_point(dyad.inner, pinned.link());
+        let guide = slider.far.link;
+        let guided = motion.of_place(guide, motion.placement.slide_point(slider.outer, guide));
+        let turning = Framed { components: way.perp().scaled(rate), axes: motion.placement.direction(slider.link()) };
+        let gap = motion.difference(&pin, &guided.plus(&turning, ground));
+        let across = -motion.part(&gap, motion.placement.slide_direction(dyad.inner).perp());
+        let speed = if across.is_zero() {
+            across
+        } else {
+            across
+                / motion.pivots.dividing_slides(motion.placement, slides(&dyad), &dyad.pivot_name(), &dyad.group_name())
+        };
+        let slide = dyad.joint_name(slider.outer);
+        let speed = speed.named(
+            motion.name(&format!("speed_{slide}")),
+            format!(
+                "speed of {} along the slide {slide}: relative velocity across the inner slide over {}",
+                dyad.link_name(slider),
+                dyad.pivot_name()
+            ),
+        );
+        let axes = motion.placement.slide_direction(slider.outer);
+        let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes };
+        motion.found(slider.link(), Twist { rate, at, velocity: guided.plus(&sliding, ground) });
+        motion.found(pinned.link(), Twist { rate, at: motion.placement.point(pinned.near), velocity: pin });
+        Ok(())
+    }
+}

@@ -1,0 +1,233 @@
+//! The RPR dyad: two links that slide along each other, each with a pin at its other end. An oscillating cylinder, an inverted
+//! slider-crank.
+//!
+//! With the outer pins P on the slide's first link and Q on its second, `d = Q − P`, `D² = d·d`, the slide's direction e and its normal
+//! `n = e⊥`, the links hold Q at a fixed distance h from the line through P along e:
+//!
+//! ```text
+//! d = s e + h n      s = ±√(D² − h²)      + where Q is ahead of P
+//! e = (s d − h d⊥)/D²                      as complex numbers, e = d/(s + ih)
+//! ```
+//!
+//! and the travel is s less a constant. Both links turn together.
+//!
+//! Forces: across the slide alone they press on each other, with N on the second link; s is its lever arm about both pins. The moments
+//! of the loads on the first link about P and of those on the second about Q are together `N s`.
+//!
+//! Velocities: `v_Q − v_P = ω d⊥ + ṡ e`, multiplied by n: `ω = n·(v_Q − v_P)/s`. So s is the pivot: where it vanishes, the line between
+//! the pins is square to the slide.
+
+use super::dyad::{Dyad, dyad, towards_unit};
+use super::{Rule, RuleResult};
+use crate::diagnostics::Diagnostic;
+use crate::graph::{Expr, Failure, Vector};
+use crate::model::ids::JointId;
+use crate::model::{Model, Side};
+use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::balance::Balance;
+use crate::plan::pivots::Pivots;
+use crate::plan::placement::{Orientation, Placement};
+use crate::plan::velocities::{Motion, Twist};
+use crate::topology::Group;
+
+/// The rule.
+pub(super) struct Rpr;
+
+/// The group as an RPR dyad, the slide's first link first.
+fn sliding_pair<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
+    let mut dyad = dyad(model, group).filter(|dyad| dyad.pins() == [true, false, true])?;
+    if dyad.legs[0].tip != model.joint(dyad.inner).from {
+        dyad.legs.swap(0, 1);
+    }
+    Some(dyad)
+}
+
+fn pivot_name(dyad: &Dyad<'_>) -> String {
+    format!("reach_{}", dyad.joint_name(dyad.inner))
+}
+
+/// s as a divisor. Where forces see another dyad than motion does, it is the way from the one pin to the other.
+fn reach<'m>(dyad: &Dyad<'m>, placement: &Placement<'m>, pivots: &Pivots<'m>) -> Expr<'m> {
+    let [from, to] = dyad.legs.each_ref().map(|leg| leg.near);
+    let (way, e) = (placement.way(from, to), placement.slide_direction(dyad.inner));
+    pivots.dividing_reach(dyad.inner, &way, e, &pivot_name(dyad), &dyad.group_name())
+}
+
+impl Rule for Rpr {
+    fn class(&self) -> &'static str {
+        "RPR dyad"
+    }
+
+    fn fits(&self, model: &Model, group: &Group) -> bool {
+        sliding_pair(model, group).is_some()
+    }
+
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
+        let Some(dyad) = sliding_pair(assembly.model(), group) else { return Ok(()) };
+        close(assembly, group, &dyad)
+    }
+
+    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
+        let Some(dyad) = sliding_pair(balance.model(), group) else { return Ok(()) };
+        let [first, second] = &dyad.legs;
+        let slide = dyad.joint_name(dyad.inner);
+        let one = balance.graph().one();
+        let moments = dyad.legs.each_ref().map(|leg| {
+            let (pin, link) = (dyad.joint_name(leg.outer), dyad.link_name(leg));
+            let moment = balance.moment(leg.link(), balance.placement.point(leg.near), one);
+            moment.named(balance.name(&format!("moment_{link}")), format!("ΣM({pin}) of the loads on {link}"))
+        });
+        let moment = moments[0] + moments[1];
+        let across = if moment.is_zero() {
+            moment
+        } else {
+            let reach = reach(&dyad, balance.placement, balance.pivots);
+            (moment / reach).named(
+                balance.name(&format!("{slide}_across")),
+                format!("(moment_{} + moment_{})/{}", dyad.link_name(first), dyad.link_name(second), pivot_name(&dyad)),
+            )
+        };
+        // The couple about the runner from the link that carries it: there the lever arm of the pin does not change.
+        let model = balance.model();
+        let runner = model.joint(dyad.inner).place().link;
+        let (leg, other, acting) =
+            if runner == second.link() { (second, first, -across) } else { (first, second, across) };
+        let loads = balance.total(leg.link());
+        let pin = balance.placement.point(leg.near);
+        super::slide::guide(balance, dyad.inner, leg.link(), acting, pin);
+        let guided = balance.reaction(dyad.inner).force;
+        let guided = if leg.link() == second.link() { guided } else { guided.opposite() };
+        let ground = balance.placement.direction(crate::model::ids::GROUND);
+        balance.pin(leg.outer, leg.link(), loads.plus(&guided, ground).opposite());
+        // The guide has put its part on the other link.
+        let held = balance.total(other.link());
+        balance.pin(other.outer, other.link(), held.opposite());
+        Ok(())
+    }
+
+    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
+        let Some(dyad) = sliding_pair(motion.model(), group) else { return Ok(()) };
+        let [first, second] = &dyad.legs;
+        let e = motion.placement.slide_direction(dyad.inner);
+        let [p, q] = [first, second].map(|leg| motion.of_point(leg.far));
+        let gap = motion.difference(&q, &p);
+        let across = motion.part(&gap, e.perp());
+        let rate = if across.is_zero() { across } else { across / reach(&dyad, motion.placement, motion.pivots) };
+        let [one, other] = [first, second].map(|leg| dyad.link_name(leg));
+        let rate = rate.named(
+            motion.name(&format!("rate_{one}")),
+            format!(
+                "rate of rotation of {one} and {other}: the pins' relative velocity across the slide over {}",
+                pivot_name(&dyad)
+            ),
+        );
+        for (leg, velocity) in [(first, p), (second, q)] {
+            let at = motion.placement.point(leg.near);
+            motion.found(leg.link(), Twist { rate, at, velocity });
+        }
+        Ok(())
+    }
+}
+
+fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> RuleResult {
+    let graph = assembly.graph();
+    let [first, second] = &dyad.legs;
+    let [p, q] = [first, second].map(|leg| dyad.joint_name(leg.outer));
+    let slide = dyad.joint_name(dyad.inner);
+    let side = side(assembly, group, dyad)?;
+    // From P to the slide and from the slide to Q, along and across it: the same for every pose, but for drives within the bodies.
+    let [from_p, from_q] = [first, second].map(|leg| {
+        let link = leg.tip.link;
+        dyad.way_within(leg, link, assembly.placement.slide_axis(dyad.inner, link))
+    });
+    let offset = from_p.vector() - from_q.vector();
+    let h = offset.y.named(format!("h_{slide}"), format!("how far {q} is across the slide from {p}"));
+    let way = assembly.placement.way(first.far, second.far);
+    let d = way.vector().named(&format!("d_{slide}"), &format!("d, from {p} to {q}"));
+    let d2 = d.squared().named(format!("D2_{slide}"), "d·d");
+    let length = [first, second].into_iter().fold(way.length(), |sum, leg| sum + dyad.slack(leg));
+    let rounding = |of: &str, value: Expr<'m>| {
+        value.named(format!("rounding_{of}_{slide}"), format!("what rounding makes of {of}_{slide} = 0"))
+    };
+    // Coincident pins leave the direction open, unless h keeps them apart.
+    let apart = (h.abs() - graph.epsilons(4) * length).sign() == Some(1);
+    let d2 = if apart {
+        d2
+    } else {
+        let close = rounding("D2", (graph.epsilons(2) * length).squared());
+        let failure = Failure::CoincidentPivots { group: dyad.group_name(), joint: slide.into() };
+        d2.require_above(d2, close, failure).known_positive()
+    };
+    let (s, reach) = if h.is_zero() {
+        let s = side * d2.sqrt();
+        (s, s)
+    } else {
+        let s2 = (d2 - h.squared()).named(format!("s2_{slide}"), format!("s² = D2_{slide} − h²"));
+        let limit = rounding("s2", graph.epsilons(2) * (h.squared() + h.abs() * length));
+        let failure = Failure::CannotAssemble {
+            group: dyad.group_name(),
+            joint: slide.into(),
+            gap: (-s2 / (d2.sqrt() + h.abs())).id(),
+        };
+        let s2 = s2.require_at_least(s2, -limit, failure);
+        let s = side * s2.non_negative().sqrt();
+        (s, s.where_above(s2, limit))
+    };
+    let s = s.named(format!("s_{slide}"), format!("s = ±√(D2_{slide} − h²), + where {q} is ahead of {p}"));
+    let reach = if h.is_zero() { s } else { reach };
+    let reach = reach.named(pivot_name(dyad), "s, zero where it is no larger than its rounding").held();
+    let inverse = (graph.one() / d2).named(format!("inverse_D2_{slide}"), "");
+    let (along, across) = ((s * inverse), (h * inverse));
+    let name = dyad.link_name(first);
+    let rough = d.scaled(along) - d.perp().scaled(across);
+    let rough = rough.named_direction(&format!("rough_{name}"), &format!("(s d − h d⊥)/D2_{slide}"));
+    let direction = towards_unit(rough, &name).named_direction(slide, &format!("direction of the slide {slide}"));
+    place(assembly, dyad, direction)?;
+    let travel =
+        (s - offset.x).named(format!("travel_{slide}"), format!("travel of the slide {slide}: s less what is fixed"));
+    assembly.placement.set_travel(dyad.inner, travel);
+    for leg in [first, second] {
+        assembly.placement.connect(leg.outer);
+    }
+    assembly.pivots.state_reach(dyad.inner, reach);
+    assembly.dyads.push(DyadPivot::reach(dyad.model, dyad.inner, reach));
+    Ok(())
+}
+
+/// Both links carry the slide's direction.
+fn place<'m>(assembly: &mut Assembly<'m>, dyad: &Dyad<'m>, direction: Vector<'m>) -> RuleResult {
+    for leg in &dyad.legs {
+        let link = leg.tip.link;
+        let axis = assembly.placement.slide_axis(dyad.inner, link);
+        assembly.placement.orient(link, Orientation { direction, axis });
+        dyad.place_rest(assembly, leg, link)?;
+    }
+    Ok(())
+}
+
+/// The sign of s, by the closure.
+fn side(assembly: &mut Assembly<'_>, group: &Group, dyad: &Dyad<'_>) -> Result<i64, Diagnostic> {
+    let slide = dyad.joint_name(dyad.inner);
+    let outer: [JointId; 2] = dyad.legs.each_ref().map(|leg| leg.outer);
+    let [p, q] = outer.map(|joint| dyad.joint_name(joint));
+    let Some(closure) = assembly.closure(dyad.inner) else {
+        return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], p));
+    };
+    let ahead = match (closure.side, outer.iter().position(|joint| closure.of == [*joint])) {
+        (Side::Ahead, Some(index)) => index == 0,
+        (Side::Behind, Some(index)) => index == 1,
+        _ => {
+            let lies = format!("along the slide `{slide}`, `{q}` lies ahead of `{p}` or behind it");
+            let across = matches!(closure.side, Side::Left | Side::Right);
+            let problem =
+                if across { format!("`{}` is for dyads of three pins: {lies}", closure.side.word()) } else { lies };
+            return Err(Diagnostic::new(closure.side_place, problem)
+                .help(format!("choose one of\nassemble {slide}: ahead({p});\nassemble {slide}: behind({p});")));
+        }
+    };
+    if closure.smooth_at.is_some() {
+        return Err(Diagnostic::new(closure.smooth_place, "a dyad with a slide does not fold")
+            .help("`smooth` is for dyads of three pins: leave it out"));
+    }
+    Ok(if ahead { 1 } else { -1 })
+}
