@@ -45,7 +45,9 @@ pub fn module(mut model: Model) -> TokenStream {
     quote! {
         #[allow(warnings, clippy::all, clippy::pedantic, reason = "stands in for a declaration that has errors")]
         #visibility mod #name {
-            use #runtime::{Error, GearReaction, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm};
+use #runtime::{
+    Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
+};
             pub const EQUATIONS: &str = "";
             pub const OPERATIONS: &str = "";
             pub const SOURCE: &str = "";
@@ -198,25 +200,11 @@ fn per_link(model: &Model, one: &dyn Fn() -> Output) -> Output {
 }
 
 fn record(model: &Model, scene: &Scene, zero: NodeId) -> Output {
-    let given = scene.results.iter().filter_map(|wanted| Some((name_of(model, *wanted)?, Some(*wanted))));
+    let given = scene.results.iter().filter_map(|wanted| Some((model.result_name(*wanted)?, Some(*wanted))));
     let refused = scene.refused.iter().cloned();
     let mut seen = BTreeSet::new();
     let all = given.chain(refused).filter(|(name, _)| seen.insert(name.clone()));
     Output::Record(all.map(|(name, wanted)| field(&name, value(model, scene, wanted, zero))).collect())
-}
-
-/// The field of a result.
-fn name_of(model: &Model, wanted: Wanted) -> Option<String> {
-    Some(match wanted {
-        Wanted::Unknown(unknown) => model.unknowns.get(unknown.index())?.name.clone(),
-        Wanted::Joint(joint) => model.joints.get(joint.index())?.name.text.clone(),
-        Wanted::Load(load) => model.loads.get(load.index())?.name.text.clone(),
-        Wanted::Point(end) => {
-            let link = model.links.get(end.link.index())?;
-            format!("{}_{}", link.name, link.points.get(end.point.index())?.name)
-        }
-        Wanted::Angle(link) => format!("{}_angle", model.links.get(link.index())?.name),
-    })
 }
 
 /// What a result is like.
@@ -245,6 +233,7 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
             _ => terms(),
         },
         Some(Wanted::Point(_)) => vector,
-        Some(Wanted::Unknown(_) | Wanted::Angle(_)) | None => Output::Scalar(zero, Meaning::Number),
+        Some(Wanted::Along(..)) => Output::Resolved([zero, zero]),
+        Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..)) | None => Output::Scalar(zero, Meaning::Number),
     }
 }

@@ -86,7 +86,9 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
         )]
         #visibility mod #name {
             use #runtime::__private::#math as math;
-            use #runtime::{Error, GearReaction, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm};
+use #runtime::{
+    Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
+};
             #reference
 
             /// The derivation: free bodies, equilibrium equations, reduction, closed forms.

@@ -210,6 +210,7 @@ pub(super) fn output_type(model: &Model, output: &Output, record: &str) -> Token
     match output {
         Output::Scalar(..) => quote!(#scalar),
         Output::Vector(..) => quote!(Vector2<#scalar>),
+        Output::Resolved(_) => quote!(ResolvedForce<#scalar>),
         Output::Reaction { ty, .. } => {
             let ty = ident(ty);
             quote!(#ty<#scalar>)
@@ -325,6 +326,10 @@ fn total(base: &str, ty: &Ident, output: &Output) -> TokenStream {
             Output::Vector(..) => {
                 let (x, y) = (sum(&quote!(.#name.x)), sum(&quote!(.#name.y)));
                 quote!(Vector2::new(#x, #y))
+            }
+            Output::Resolved(_) => {
+                let (axial, transverse) = (sum(&quote!(.#name.axial)), sum(&quote!(.#name.transverse)));
+                quote!(ResolvedForce { axial: #axial, transverse: #transverse })
             }
             Output::Reaction { ty, parts, .. } => {
                 let (x, y) = (sum(&quote!(.#name.force.x)), sum(&quote!(.#name.force.y)));

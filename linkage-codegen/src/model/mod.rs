@@ -505,6 +505,10 @@ pub enum Wanted {
     Point(End),
     /// The angle of a link.
     Angle(LinkId),
+    /// The reaction of a joint along and across the x axis of a link.
+    Along(JointId, LinkId),
+    /// The couple of a joint about a point.
+    About(JointId, End),
 }
 
 impl Model {
@@ -564,6 +568,29 @@ impl Model {
             UnknownKind::Force { at, .. } => vec![at.link],
             UnknownKind::Thrust(ends) => ends.map(|end| end.link).to_vec(),
         }
+    }
+
+    /// The field of a result. `None` if the declaration is not sound.
+    #[must_use]
+    pub fn result_name(&self, wanted: Wanted) -> Option<String> {
+        let link = |link: LinkId| Some(&self.links.get(link.index())?.name);
+        let joint = |joint: JointId| Some(&self.joints.get(joint.index())?.name);
+        let point = |end: End| {
+            Some(format!(
+                "{}_{}",
+                link(end.link)?,
+                self.links.get(end.link.index())?.points.get(end.point.index())?.name
+            ))
+        };
+        Some(match wanted {
+            Wanted::Unknown(unknown) => self.unknowns.get(unknown.index())?.name.clone(),
+            Wanted::Joint(id) => joint(id)?.text.clone(),
+            Wanted::Load(load) => self.loads.get(load.index())?.name.text.clone(),
+            Wanted::Point(end) => point(end)?,
+            Wanted::Angle(id) => format!("{}_angle", link(id)?),
+            Wanted::Along(id, along) => format!("{}_along_{}", joint(id)?, link(along)?),
+            Wanted::About(id, end) => format!("{}_about_{}", joint(id)?, point(end)?),
+        })
     }
 
     /// Coordinates of a point in its link's frame.

@@ -512,6 +512,10 @@ pub enum ResultItem {
     Name(Name),
     /// A point of a link, or its angle.
     Point(Name, Name),
+    /// `B along coupler`
+    Along(Name, Name),
+    /// `S about rail.P`
+    About(Name, End),
     /// A form that is not carried out yet.
     Planned {
         /// What it is about.
