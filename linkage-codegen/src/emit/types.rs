@@ -69,6 +69,7 @@ fn spring(model: &Model, load: &Load) -> TokenStream {
             ("rate", true) => ("Moment per angle", Kind::TorsionStiffness),
             ("free", false) => ("Length without force, but for its preload", Kind::Length),
             ("free", true) => ("Angle without moment", Kind::Angle),
+            ("near", _) => ("Angle that tells which turn is meant", Kind::Angle),
             _ => ("Tension at its free length", Kind::Force),
         };
         let doc = format!(" {what}, {}.", kind.unit(&model.units));
