@@ -68,6 +68,7 @@ use #runtime::{
 fn name_types_apart(model: &mut Model) {
     let mut taken: BTreeSet<String> = OWN_TYPES.iter().map(|name| (*name).to_owned()).collect();
     taken.insert("Default".into());
+    taken.extend(model.loads.iter().filter(|load| load.kind.is_spring()).map(crate::model::Load::type_name));
     for scene in &mut model.scenes {
         if !scene.name.is_usable() {
             scene.name.text.push('_');

@@ -178,7 +178,7 @@ pub(super) fn two_points(scope: Scope<'_>, ends: &[ast::End; 2]) -> Result<Optio
         return Ok(None);
     };
     if first.link == second.link {
-        let problem = format!("both points belong to `{}`: what acts between them does not move", ends[0].link);
+        let problem = format!("both points belong to `{}`: their distance never changes", ends[0].link);
         return Err(
             Diagnostic::new(ends[0].place().to(ends[1].place()), problem).help("name points of two different links")
         );
@@ -209,6 +209,7 @@ fn spring_values(
         };
         if values[part].is_some() {
             sink.report(Diagnostic::new(name.place(), format!("`{name}` is given twice")).help("keep one of the two"));
+            continue;
         }
         let value = match &field.value {
             None => Some(scope.model.graph.symbol(Symbol::Load(id, [0, 1, 2][part]))),
@@ -295,12 +296,10 @@ impl LoadKind {
             }
             Self::Moment { moment: value, .. } | Self::Thrust { force: value, .. } => vec![("", value)],
             Self::Spring { rate, free, preload, .. } => vec![("rate", rate), ("free", free), ("preload", preload)],
-            Self::Torsion { rate, free, near, .. } => {
-                [("rate", Some(rate)), ("free", Some(free)), ("near", near)]
-                    .into_iter()
-                    .filter_map(|(name, value)| Some((name, value?)))
-                    .collect()
-            }
+            Self::Torsion { rate, free, near, .. } => [("rate", Some(rate)), ("free", Some(free)), ("near", near)]
+                .into_iter()
+                .filter_map(|(name, value)| Some((name, value?)))
+                .collect(),
         }
     }
 

@@ -180,7 +180,7 @@ fn end_of(item: &ResultItem) -> ast::End {
     match item {
         ResultItem::Name(name) => ast::End { link: name.clone(), point: None },
         ResultItem::Point(link, point) => ast::End { link: link.clone(), point: Some(point.clone()) },
-        ResultItem::Along(joint, _) | ResultItem::About(joint, _) => ast::End { link: joint.clone(), point: None },
+        ResultItem::Along(joint, _) | ResultItem::About(joint, _) => joint.clone(),
         ResultItem::Planned { of, .. } => of.clone(),
     }
 }
@@ -190,11 +190,13 @@ fn likely(model: &Model, names: &Names, item: &ResultItem) -> (String, Option<Wa
     let near = |joint: &Name| JointId::new(names.near(Role::Joint, &joint.text).unwrap_or(0));
     match item {
         ResultItem::Along(joint, link) => {
+            let joint = &joint.link;
             return (format!("{joint}_along_{link}"), Some(Wanted::Along(near(joint), GROUND)));
         }
         ResultItem::About(joint, ast::End { link, point }) => {
             let point = point.as_ref().map_or("", |point| point.text.as_str());
             let at = End { link: GROUND, point: PointId::FIRST };
+            let joint = &joint.link;
             return (format!("{joint}_about_{link}_{point}"), Some(Wanted::About(near(joint), at)));
         }
         _ => {}
@@ -281,21 +283,21 @@ fn result(
         ResultItem::Name(name) => named_result(model, given, method, name, names),
         ResultItem::Along(joint, link) => {
             let link_id = names.find(Role::Link, link)?.map(LinkId::new);
-            let joint_id = reaction_of(given, method, joint, names, joint.place().to(link.place()))?;
+            let joint_id = reaction_of(given, method, (joint, "along"), names, joint.place().to(link.place()))?;
             Ok(joint_id.zip(link_id).map(|(joint, link)| Wanted::Along(joint, link)))
         }
         ResultItem::About(joint, point) => {
             let at = end(Scope { model, names }, point, None)?;
-            let Some(id) = reaction_of(given, method, joint, names, joint.place().to(point.place()))? else {
+            let Some(id) = reaction_of(given, method, (joint, "about"), names, joint.place().to(point.place()))? else {
                 return Ok(None);
             };
             let of = model.joints.get(id.index()).map(|joint| joint.kind);
             if let Some(JointKind::Revolute) = of {
                 return Err(Diagnostic::new(
                     joint.place(),
-                    format!("the pin `{joint}` has no couple, about whatever point"),
+                    format!("the pin `{}` has no couple, about whatever point", joint.link),
                 )
-                .help(format!("ask for its force: `{joint}`")));
+                .help(format!("ask for its force: `{}`", joint.link)));
             }
             Ok(at.map(|at| Wanted::About(id, at)))
         }
@@ -306,10 +308,15 @@ fn result(
 fn reaction_of(
     given: &ast::Scene,
     method: Method,
-    joint: &Name,
+    (end, word): (&ast::End, &str),
     names: &Names,
     whole: Place,
 ) -> Result<Option<JointId>, Diagnostic> {
+    let joint = &end.link;
+    if let Some(point) = &end.point {
+        let problem = format!("before `{word}` stands a joint, and `{joint}.{point}` is a point");
+        return Err(Diagnostic::new(end.place(), problem).help("write the name of the joint alone"));
+    }
     let found = names.find(Role::Joint, joint)?.map(JointId::new);
     if matches!(method, Method::Equilibrium | Method::Superposition) {
         return Ok(found);

@@ -2,11 +2,11 @@
 
 use syn::parse::ParseStream;
 use syn::token::Paren;
-use syn::{Error, Result, Token};
+use syn::{Result, Token};
 
-use super::ast::{self, Item, ResultItem, Scene};
+use super::ast::{Item, ResultItem, Scene};
 use super::items::{end, rest};
-use super::tokens::{at_word, between, comma_list, eat_word, name, place_of, take};
+use super::tokens::{between, comma_list, eat_word, name, place_of, take};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
 /// The methods that are carried out.
@@ -72,28 +72,19 @@ fn shown(result: &ResultItem) -> String {
     match result {
         ResultItem::Name(name) => name.text.clone(),
         ResultItem::Point(link, point) => format!("{link}.{point}"),
-        ResultItem::Along(joint, link) => format!("{joint} along {link}"),
-        ResultItem::About(joint, ast::End { link, point: Some(point) }) => format!("{joint} about {link}.{point}"),
-        ResultItem::About(joint, ast::End { link, point: None }) => format!("{joint} about {link}"),
+        ResultItem::Along(joint, link) => format!("{} along {link}", joint.written()),
+        ResultItem::About(joint, point) => format!("{} about {}", joint.written(), point.written()),
         ResultItem::Planned { .. } => "…".into(),
     }
 }
 
 fn result(input: ParseStream<'_>) -> Result<ResultItem> {
     let item = end(input)?;
-    for word in ["along", "about"] {
-        if !at_word(input, word) {
-            continue;
-        }
-        if let Some(point) = item.point {
-            let problem = format!("what stands before `{word}` is a joint, and `{}.{point}` is a point", item.link);
-            return Err(Error::new(point.span, format!("{problem}\nhelp: write the name of the joint alone")));
-        }
-        eat_word(input, word);
-        return Ok(match word {
-            "along" => ResultItem::Along(item.link, name(input)?),
-            _ => ResultItem::About(item.link, end(input)?),
-        });
+    if eat_word(input, "along") {
+        return Ok(ResultItem::Along(item, name(input)?));
+    }
+    if eat_word(input, "about") {
+        return Ok(ResultItem::About(item, end(input)?));
     }
     let planned = |place, what| ResultItem::Planned { of: item.clone(), place, what };
     if item.point.is_none() && item.link.text == "error_bound" {
