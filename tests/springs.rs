@@ -127,3 +127,41 @@ fn elsewhere_the_angle_is_the_one_nearest_to_the_free_angle() {
     assert!((held - 2000.0 * (angle - core::f32::consts::FRAC_PI_2)).abs() < 1e-3, "{held} at {angle}");
     assert!((rocker::other_at(&linkage, 1.0).unwrap().M - held).abs() < 1e-3);
 }
+
+linkage! {
+    /// A torsion spring between a crank that goes round and round and its coupler, which does not.
+    mod winder;
+    units { mm, N }
+    ground       { A0: (0, 0), B0: (140mm, 0) }
+    link crank   { A0 -> A: 60mm }
+    link coupler { A -> B: 100mm }
+    link rocker  { B0 -> B: 120mm }
+    revolute A0: ground -> crank;
+    revolute A: crank -> coupler;
+    revolute B: coupler -> rocker;
+    revolute B0: ground -> rocker;
+    drive theta: A0;
+    assemble B: left(A -> B0);
+    load fixed: torsion(crank -> coupler) { rate: 2N*m/rad, free: 20deg, near: 30deg };
+    load given: torsion(coupler -> crank) { rate: _, free: _, near: _ };
+    scene parts: superposition -> (B);
+    scene work: virtual_work;
+    scene angle: position -> (coupler.angle);
+    scene check: verify;
+}
+
+#[test]
+fn a_torsion_spring_may_say_its_turn() {
+    let given = winder::LoadsGiven { rate: 2000.0, free: -20f64.to_radians(), near: -30f64.to_radians() };
+    let loads = winder::Loads { given };
+    for turns in [-3.0, 0.0, 2.0] {
+        let theta = 1.0 + turns * core::f64::consts::TAU;
+        let work = winder::work_at(theta, &loads).unwrap();
+        let wound = winder::angle_at(theta).unwrap().coupler_angle - theta - 20f64.to_radians();
+        assert!((work.fixed.work + 2000.0 * wound * work.fixed.velocity).abs() < 1e-9 * work.fixed.work.abs());
+        assert!((work.given.work - work.fixed.work).abs() < 1e-9 * work.fixed.work.abs());
+        let parts = winder::parts_at(theta, &loads).unwrap();
+        assert!((parts.given.B - parts.fixed.B).norm() < 1e-9 * parts.fixed.B.norm());
+        assert!(winder::check_at(theta, &loads).unwrap().general < 1e-12);
+    }
+}

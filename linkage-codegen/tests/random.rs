@@ -92,6 +92,14 @@ fn check_exactly(sample: &Sample, linkage: &Linkage) {
     assert!(difference(&totals(linkage, &exact.parts), &exact.all) < EXTENDED, "superposition\n{context}");
     let work = efforts(linkage, &exact.work);
     assert!(difference(&work, &exact.all) < EXTENDED, "virtual work\n{context}");
+    // The terms of the loads make up each effort; of several unknowns every one has terms of its own.
+    let unknowns = &linkage.model.unknowns;
+    for unknown in unknowns {
+        let own = |path: &str| unknowns.len() == 1 || path.contains(&format!(".{}.", unknown.name));
+        let terms = exact.work.iter().filter(|(path, _)| path.ends_with(".work") && own(path));
+        let sum = terms.fold(exact.work[&unknown.name].clone(), |sum, (_, term)| sum.add(term));
+        assert!(sum.to_f64().abs() <= EXTENDED * largest(&exact.work), "terms\n{context}");
+    }
 }
 
 /// In doubles all methods agree to the rounding that the condition of the equations allows.

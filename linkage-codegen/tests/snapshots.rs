@@ -93,9 +93,9 @@ fn every_stage_of_every_example() {
     }
 }
 
-/// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs, slots,
-/// welds, gears, inner slides.
-const OTHERS: [(&str, &str); 9] = [
+/// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
+/// cylinders, slots, welds, gears, inner slides.
+const OTHERS: [(&str, &str); 10] = [
     (
         "adjustable",
         "/// A crank-rocker whose dimensions are given at run time.
@@ -161,6 +161,20 @@ const OTHERS: [(&str, &str); 9] = [
         drive travel: run; drive turn: E;
         load W: gravity = 9.81m/s^2 @ -90deg; load lifted: force(arm.tip);
         scene held: equilibrium; scene work: virtual_work; scene place: position -> (E, arm.tip, arm.angle);",
+    ),
+    (
+        "boom",
+        "/// An excavator's boom and stick, each with its cylinder; the bodies of the cylinders do not matter.
+        pub mod boom; units { m, kN }
+        ground { O: (0, 0), C: (0.9m, -0.3m) } link boom { O -> E: 5m, Q: (2.2m, 0.4m), R: (2.6m, 0.9m) }
+        link stick { E -> tip: 2.8m, K: (-0.6m, 0.2m) }
+        mass boom: 1400kg at (2.4m, 0.3m); mass stick: 600kg at (1m, 0);
+        revolute O: ground -> boom; revolute E: boom -> stick;
+        drive lift: O; drive curl: E;
+        unknown boom_cylinder: thrust(ground.C, boom.Q); unknown stick_cylinder: thrust(boom.R, stick.K);
+        load W: gravity = 9.81m/s^2 @ -90deg; load dig: force(stick.tip);
+        scene held: equilibrium -> (boom_cylinder, stick_cylinder, O along boom, E along stick);
+        scene work: virtual_work;",
     ),
     (
         "balanced_arm",

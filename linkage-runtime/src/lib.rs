@@ -56,7 +56,7 @@ pub use error::Error;
 pub use linkage_macros::linkage;
 /// The plane vector of the public functions; the version of nalgebra is part of this crate's version.
 pub use nalgebra::{self, Vector2};
-pub use results::{GearReaction, SliderReaction, SlotReaction, WeldReaction, WorkTerm, polar};
+pub use results::{GearReaction, ResolvedForce, SliderReaction, SlotReaction, WeldReaction, WorkTerm, polar};
 
 /// What emitted code calls. Not for use by hand: it changes with the compiler.
 #[doc(hidden)]

@@ -2,6 +2,38 @@
 
 use nalgebra::{Scalar, Vector2};
 
+/// A reaction along and across the x axis of a link: the method of resolution of forces.
+///
+/// ```
+/// use linkage_runtime::{Vector2, linkage};
+///
+/// linkage! {
+///     /// A lever that stands at a right angle.
+///     mod lever;
+///     units { mm, N }
+///     ground     { O: (0, 0) }
+///     link lever { O -> P: 250mm }
+///     revolute O: ground -> lever;
+///     drive theta: O;
+///     load F: force(lever.P);
+///     scene held: equilibrium -> (O, O along lever);
+/// }
+///
+/// let loads = lever::Loads { F: Vector2::new(3.0, -50.0) };
+/// let held = lever::held_at(std::f64::consts::FRAC_PI_2, &loads)?;
+/// // The pin pushes the lever upwards, which is along it, and to the left, which is across it.
+/// assert_eq!(held.O, Vector2::new(-3.0, 50.0));
+/// assert!((held.O_along_lever.axial - 50.0).abs() < 1e-14 && (held.O_along_lever.transverse - 3.0).abs() < 1e-14);
+/// # Ok::<(), linkage_runtime::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ResolvedForce<T> {
+    /// Along the link's x axis.
+    pub axial: T,
+    /// Along that axis turned by +90°.
+    pub transverse: T,
+}
+
 /// The reaction of a prismatic joint on its second link.
 ///
 /// Along the line there is no force, as slides are smooth: `force` is `normal` times the line's direction turned by +90°.

@@ -345,19 +345,67 @@ impl<'a> Writer<'a> {
                 format!("spring({}, {}) {{ {fields} }}", self.end(a)?, self.end(b)?)
             }
             LoadKind::TorsionSpring { a, b, stiffness, free_angle, damping } => {
-                let fields = self.fields(&[
+                let mut fields = self.fields(&[
                     ("rate", stiffness.as_ref(), "N*m/rad"),
                     ("free", free_angle.as_ref(), "rad"),
                     ("damping", damping.as_ref().filter(|_| !self.dynamic), "N*m*s/rad"),
                 ])?;
+                if let Some(near) = self.turn(a, b, free_angle.as_ref())? {
+                    fields.push_str(&format!(", near: {near:?}rad"));
+                }
                 format!("torsion({} -> {}) {{ {fields} }}", self.link(a)?, self.link(b)?)
             }
         })
     }
 
+    /// Of a torsion spring that is wound by more than half a turn, near to which angle it stands without what the inputs turn: as the
+    /// guess has it. Where inputs alone give its angle, there is nothing to say.
+    fn turn(&self, a: &str, b: &str, free: Option<&Raw>) -> Result<Option<f64>, String> {
+        let angle = |link: &str| match self.file.guess.get(link) {
+            Some([_, _, angle]) => self.number(angle).map(|angle| angle.value),
+            None => Ok(0.0),
+        };
+        let relative = angle(b)? - angle(a)?;
+        let free = free.map_or(Ok(0.0), |free| self.number(free).map(|free| free.value))?;
+        let (by_a, by_b) = (self.turned(a)?, self.turned(b)?);
+        if (relative - free).abs() < 3.0 || by_a.is_some() && by_b.is_some() {
+            return Ok(None);
+        }
+        Ok(Some(relative + by_a.unwrap_or(0.0) - by_b.unwrap_or(0.0)))
+    }
+
+    /// By how much inputs turn a link, if they alone give its angle.
+    fn turned(&self, link: &str) -> Result<Option<f64>, String> {
+        let mut known = vec![("ground", 0.0)];
+        let mut next = 0;
+        while let Some((at, angle)) = known.get(next).copied() {
+            if at == link {
+                return Ok(Some(angle));
+            }
+            next += 1;
+            for joint in &self.file.joints {
+                let (a, b) = (joint.a.0.as_str(), joint.b.0.as_str());
+                let input = self.file.inputs.iter().find(|input| input.joint == joint.name);
+                let turn = match (joint.kind, input) {
+                    (JointKind::Prismatic, _) => 0.0,
+                    (JointKind::Revolute, Some(input)) => self.number(&input.value)?.value,
+                    _ => continue,
+                };
+                let (other, turn) = if a == at { (b, turn) } else { (a, -turn) };
+                if (a == at || b == at) && known.iter().all(|(link, _)| *link != other) {
+                    known.push((other, angle + turn));
+                }
+            }
+        }
+        Ok(None)
+    }
+
+    /// The fields of a spring. What it must have is zero if the file leaves it out.
     fn fields(&self, fields: &[(&str, Option<&Raw>, &str)]) -> Result<String, String> {
-        let given = fields.iter().filter_map(|(name, raw, unit)| raw.map(|raw| (name, raw, unit)));
-        let written = given.map(|(name, raw, unit)| Ok(format!("{name}: {}", self.quantity(raw, unit)?)));
+        let written = fields.iter().filter_map(|(name, raw, unit)| match raw {
+            Some(raw) => Some(self.quantity(raw, unit).map(|value| format!("{name}: {value}"))),
+            None => matches!(*name, "rate" | "free").then(|| Ok(format!("{name}: 0"))),
+        });
         Ok(written.collect::<Result<Vec<_>, String>>()?.join(", "))
     }
 

@@ -136,7 +136,7 @@ fn named_quantities(linkage: &Linkage) -> String {
     let formula = Formula { model: &linkage.model, terms: Nodes(graph) };
     let lines = named.into_values().map(|(name, inner)| format!("  {name} = {}\n", formula.of(inner)));
     let lines: String = lines.collect();
-    if lines.is_empty() { lines } else { format!("what the loads are made of\n{lines}\n") }
+    if lines.is_empty() { lines } else { format!("with\n{lines}\n") }
 }
 
 /// What stands at the origin of a link's frame: a point of it, or the frame's origin itself.

@@ -43,29 +43,32 @@ pub fn module(mut model: Model) -> TokenStream {
     let own = names.iter().map(|name| name.unraw().to_string());
     let methods = distinct(own.zip(from_pose).chain(accessors));
     quote! {
-        #[allow(warnings, clippy::all, clippy::pedantic, reason = "stands in for a declaration that has errors")]
-        #visibility mod #name {
-            use #runtime::{Error, GearReaction, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm};
-            pub const EQUATIONS: &str = "";
-            pub const OPERATIONS: &str = "";
-            pub const SOURCE: &str = "";
-            #loads
-            #params
-            #pose
-            impl #lifetime Pose #lifetime {
-                pub fn at(#at) -> Result<Self, Error> { loop {} }
-                #methods
+            #[allow(warnings, clippy::all, clippy::pedantic, reason = "stands in for a declaration that has errors")]
+            #visibility mod #name {
+    use #runtime::{
+        Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
+    };
+                pub const EQUATIONS: &str = "";
+                pub const OPERATIONS: &str = "";
+                pub const SOURCE: &str = "";
+                #loads
+                #params
+                #pose
+                impl #lifetime Pose #lifetime {
+                    pub fn at(#at) -> Result<Self, Error> { loop {} }
+                    #methods
+                }
+                #records
+                #(#direct)*
             }
-            #records
-            #(#direct)*
         }
-    }
 }
 
 /// Lets the results of every scene have types of their own, in whatever way its name clashes.
 fn name_types_apart(model: &mut Model) {
     let mut taken: BTreeSet<String> = OWN_TYPES.iter().map(|name| (*name).to_owned()).collect();
     taken.insert("Default".into());
+    taken.extend(model.loads.iter().filter(|load| load.kind.is_spring()).map(crate::model::Load::type_name));
     for scene in &mut model.scenes {
         if !scene.name.is_usable() {
             scene.name.text.push('_');
@@ -197,25 +200,11 @@ fn per_link(model: &Model, one: &dyn Fn() -> Output) -> Output {
 }
 
 fn record(model: &Model, scene: &Scene, zero: NodeId) -> Output {
-    let given = scene.results.iter().filter_map(|wanted| Some((name_of(model, *wanted)?, Some(*wanted))));
+    let given = scene.results.iter().filter_map(|wanted| Some((model.result_name(*wanted)?, Some(*wanted))));
     let refused = scene.refused.iter().cloned();
     let mut seen = BTreeSet::new();
     let all = given.chain(refused).filter(|(name, _)| seen.insert(name.clone()));
     Output::Record(all.map(|(name, wanted)| field(&name, value(model, scene, wanted, zero))).collect())
-}
-
-/// The field of a result.
-fn name_of(model: &Model, wanted: Wanted) -> Option<String> {
-    Some(match wanted {
-        Wanted::Unknown(unknown) => model.unknowns.get(unknown.index())?.name.clone(),
-        Wanted::Joint(joint) => model.joints.get(joint.index())?.name.text.clone(),
-        Wanted::Load(load) => model.loads.get(load.index())?.name.text.clone(),
-        Wanted::Point(end) => {
-            let link = model.links.get(end.link.index())?;
-            format!("{}_{}", link.name, link.points.get(end.point.index())?.name)
-        }
-        Wanted::Angle(link) => format!("{}_angle", model.links.get(link.index())?.name),
-    })
 }
 
 /// What a result is like.
@@ -244,6 +233,7 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
             _ => terms(),
         },
         Some(Wanted::Point(_)) => vector,
-        Some(Wanted::Unknown(_) | Wanted::Angle(_)) | None => Output::Scalar(zero, Meaning::Number),
+        Some(Wanted::Along(..)) => Output::Resolved([zero, zero]),
+        Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..)) | None => Output::Scalar(zero, Meaning::Number),
     }
 }

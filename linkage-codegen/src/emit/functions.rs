@@ -125,6 +125,10 @@ fn result(
             let (x, y) = (next(), next());
             quote!(Vector2::new(#x, #y))
         }
+        Output::Resolved(_) => {
+            let (axial, transverse) = (next(), next());
+            quote!(ResolvedForce { axial: #axial, transverse: #transverse })
+        }
         Output::Reaction { ty, parts, .. } => {
             let (x, y) = (next(), next());
             let parts = parts.iter().map(|(part, _)| {

@@ -69,6 +69,7 @@ fn spring(model: &Model, load: &Load) -> TokenStream {
             ("rate", true) => ("Moment per angle", Kind::TorsionStiffness),
             ("free", false) => ("Length without force, but for its preload", Kind::Length),
             ("free", true) => ("Angle without moment", Kind::Angle),
+            ("near", _) => ("Angle that tells which turn is meant", Kind::Angle),
             _ => ("Tension at its free length", Kind::Force),
         };
         let doc = format!(" {what}, {}.", kind.unit(&model.units));
@@ -210,6 +211,7 @@ pub(super) fn output_type(model: &Model, output: &Output, record: &str) -> Token
     match output {
         Output::Scalar(..) => quote!(#scalar),
         Output::Vector(..) => quote!(Vector2<#scalar>),
+        Output::Resolved(_) => quote!(ResolvedForce<#scalar>),
         Output::Reaction { ty, .. } => {
             let ty = ident(ty);
             quote!(#ty<#scalar>)
@@ -325,6 +327,10 @@ fn total(base: &str, ty: &Ident, output: &Output) -> TokenStream {
             Output::Vector(..) => {
                 let (x, y) = (sum(&quote!(.#name.x)), sum(&quote!(.#name.y)));
                 quote!(Vector2::new(#x, #y))
+            }
+            Output::Resolved(_) => {
+                let (axial, transverse) = (sum(&quote!(.#name.axial)), sum(&quote!(.#name.transverse)));
+                quote!(ResolvedForce { axial: #axial, transverse: #transverse })
             }
             Output::Reaction { ty, parts, .. } => {
                 let (x, y) = (sum(&quote!(.#name.force.x)), sum(&quote!(.#name.force.y)));

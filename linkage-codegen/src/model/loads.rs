@@ -68,7 +68,10 @@ fn stand_in(model: &Model, id: LoadId, word: &str, given: &dyn Fn(&str) -> bool)
                 [(0, "rate"), (1, "free"), (2, "preload")].map(|(part, name)| value(part, name));
             LoadKind::Spring { ends: [nowhere; 2], rate, free, preload }
         }
-        "torsion" => LoadKind::Torsion { from: GROUND, on: GROUND, rate: value(0, "rate"), free: value(1, "free") },
+        "torsion" => {
+            let near = given("near").then(|| value(2, "near"));
+            LoadKind::Torsion { from: GROUND, on: GROUND, rate: value(0, "rate"), free: value(1, "free"), near }
+        }
         _ => LoadKind::Force { at: nowhere, force: vector, frame: GROUND },
     }
 }
@@ -143,7 +146,7 @@ fn kind(scope: Scope<'_>, given: &ast::Load, id: LoadId, sink: &Sink) -> Result<
         }
         ast::LoadKind::Torsion { from, on, fields } => {
             let links = scope.names.find(Role::Link, from)?.zip(scope.names.find(Role::Link, on)?);
-            let [rate, free, _] = spring_values(scope, given, fields, id, sink)?;
+            let [rate, free, near] = spring_values(scope, given, fields, id, sink)?;
             if from.text == on.text {
                 return Err(Diagnostic::new(
                     from.place().to(on.place()),
@@ -151,7 +154,14 @@ fn kind(scope: Scope<'_>, given: &ast::Load, id: LoadId, sink: &Sink) -> Result<
                 )
                 .help(format!("say which other link reacts it: `torsion(ground -> {on})`")));
             }
-            Ok(links.map(|(from, on)| LoadKind::Torsion { from: LinkId::new(from), on: LinkId::new(on), rate, free }))
+            let Some([from, on]) = links.map(|(from, on)| [from, on].map(LinkId::new)) else { return Ok(None) };
+            let known = scope.model.driven_angle(from, on).is_some();
+            if let Some(field) = fields.iter().find(|field| field.name.text == "near" && known) {
+                let problem = "between these two links there is no turn to choose: the drives give their angle";
+                return Err(Diagnostic::new(field.name.place(), problem).help("leave `near` out"));
+            }
+            let near = fields.iter().any(|field| field.name.text == "near").then_some(near);
+            Ok(Some(LoadKind::Torsion { from, on, rate, free, near }))
         }
         ast::LoadKind::Planned(word) => {
             let name = &given.name;
@@ -168,7 +178,7 @@ pub(super) fn two_points(scope: Scope<'_>, ends: &[ast::End; 2]) -> Result<Optio
         return Ok(None);
     };
     if first.link == second.link {
-        let problem = format!("both points belong to `{}`: what acts between them does not move", ends[0].link);
+        let problem = format!("both points belong to `{}`: their distance never changes", ends[0].link);
         return Err(
             Diagnostic::new(ends[0].place().to(ends[1].place()), problem).help("name points of two different links")
         );
@@ -176,7 +186,7 @@ pub(super) fn two_points(scope: Scope<'_>, ends: &[ast::End; 2]) -> Result<Optio
     Ok(Some([first, second]))
 }
 
-/// Rate, free length or angle, and preload of a spring.
+/// Rate, free length or angle, and preload or turn of a spring.
 fn spring_values(
     scope: Scope<'_>,
     given: &ast::Load,
@@ -186,7 +196,7 @@ fn spring_values(
 ) -> Result<[NodeId; 3], Diagnostic> {
     let turns = matches!(given.kind, ast::LoadKind::Torsion { .. });
     let known: &[(&str, Kind)] = if turns {
-        &[("rate", Kind::TorsionStiffness), ("free", Kind::Angle)]
+        &[("rate", Kind::TorsionStiffness), ("free", Kind::Angle), ("near", Kind::Angle)]
     } else {
         &[("rate", Kind::Stiffness), ("free", Kind::Length), ("preload", Kind::Force)]
     };
@@ -199,6 +209,7 @@ fn spring_values(
         };
         if values[part].is_some() {
             sink.report(Diagnostic::new(name.place(), format!("`{name}` is given twice")).help("keep one of the two"));
+            continue;
         }
         let value = match &field.value {
             None => Some(scope.model.graph.symbol(Symbol::Load(id, [0, 1, 2][part]))),
@@ -285,7 +296,10 @@ impl LoadKind {
             }
             Self::Moment { moment: value, .. } | Self::Thrust { force: value, .. } => vec![("", value)],
             Self::Spring { rate, free, preload, .. } => vec![("rate", rate), ("free", free), ("preload", preload)],
-            Self::Torsion { rate, free, .. } => vec![("rate", rate), ("free", free)],
+            Self::Torsion { rate, free, near, .. } => [("rate", Some(rate)), ("free", Some(free)), ("near", near)]
+                .into_iter()
+                .filter_map(|(name, value)| Some((name, value?)))
+                .collect(),
         }
     }
 

@@ -469,6 +469,8 @@ pub enum LoadKind {
         rate: NodeId,
         /// The angle without moment.
         free: NodeId,
+        /// Which turn is meant, if that is said: near to which angle the second link stands while the drives are zero.
+        near: Option<NodeId>,
     },
 }
 
@@ -515,6 +517,10 @@ pub enum Wanted {
     Point(End),
     /// The angle of a link.
     Angle(LinkId),
+    /// The reaction of a joint along and across the x axis of a link.
+    Along(JointId, LinkId),
+    /// The couple of a joint about a point.
+    About(JointId, End),
 }
 
 impl Model {
@@ -574,6 +580,56 @@ impl Model {
             UnknownKind::Force { at, .. } => vec![at.link],
             UnknownKind::Thrust(ends) => ends.map(|end| end.link).to_vec(),
         }
+    }
+
+    /// The field of a result. `None` if the declaration is not sound.
+    #[must_use]
+    pub fn result_name(&self, wanted: Wanted) -> Option<String> {
+        let link = |link: LinkId| Some(&self.links.get(link.index())?.name);
+        let joint = |joint: JointId| Some(&self.joints.get(joint.index())?.name);
+        let point = |end: End| {
+            Some(format!(
+                "{}_{}",
+                link(end.link)?,
+                self.links.get(end.link.index())?.points.get(end.point.index())?.name
+            ))
+        };
+        Some(match wanted {
+            Wanted::Unknown(unknown) => self.unknowns.get(unknown.index())?.name.clone(),
+            Wanted::Joint(id) => joint(id)?.text.clone(),
+            Wanted::Load(load) => self.loads.get(load.index())?.name.text.clone(),
+            Wanted::Point(end) => point(end)?,
+            Wanted::Angle(id) => format!("{}_angle", link(id)?),
+            Wanted::Along(id, along) => format!("{}_along_{}", joint(id)?, link(along)?),
+            Wanted::About(id, end) => format!("{}_about_{}", joint(id)?, point(end)?),
+        })
+    }
+
+    /// The angle of a link from another one, if driven pins, slides and welds lead there: what the drives turn it by, and the rest.
+    #[must_use]
+    pub fn driven_angle(&self, from: LinkId, on: LinkId) -> Option<[Expr<'_>; 2]> {
+        let zero = self.graph.zero();
+        let mut reached = vec![(from, [zero, zero])];
+        let mut next = 0;
+        while let Some((link, angle)) = reached.get(next).copied() {
+            if link == on {
+                return Some(angle);
+            }
+            next += 1;
+            for joint in self.joint_ids() {
+                let data = self.joint(joint);
+                let unknown = |end: &End| reached.iter().all(|(link, _)| *link != end.link);
+                let Some(other) = data.end_off(link).filter(unknown) else { continue };
+                let fixed = data.kind.turn().map(|(_, angle)| [zero, self.graph.expr(angle)]);
+                let turns = |drive: &DriveId| self.drive(*drive).turns;
+                let driven = self.drive_of(joint).filter(turns);
+                let driven = driven.map(|drive| [self.graph.symbol(Symbol::Drive(drive)), zero]);
+                let Some(turn) = fixed.or(driven) else { continue };
+                let sign = if data.to == other { 1 } else { -1 };
+                reached.push((other.link, [0, 1].map(|part| angle[part] + sign * turn[part])));
+            }
+        }
+        None
     }
 
     /// Coordinates of a point in its link's frame.

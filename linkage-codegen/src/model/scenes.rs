@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::ids::{JointId, LinkId, LoadId, PointId, UnknownId};
+use super::evaluate::Scope;
+use super::ids::{GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
+use super::joints::end;
 use super::names::{Names, Role, unread};
-use super::{End, LoadKind, Method, Model, Scene, Wanted};
+use super::{End, JointKind, LoadKind, Method, Model, Scene, Wanted};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
 use crate::syntax::{METHODS, PLANNED_METHODS};
@@ -147,7 +149,16 @@ fn results(
                 let place = end_of(item).place();
                 sink.report(Diagnostic::new(place, "this result is listed twice").help("leave one of them out"));
             }
-            Ok(Some(wanted)) => results.push(wanted),
+            Ok(Some(wanted)) => {
+                let name = model.result_name(wanted);
+                if name.is_some() && results.iter().any(|other| model.result_name(*other) == name) {
+                    let problem = format!("two results would be called `{}`", name.unwrap_or_default());
+                    sink.report(
+                        Diagnostic::new(end_of(item).place(), problem).help("let two scenes give them, or rename one"),
+                    );
+                }
+                results.push(wanted);
+            }
             Ok(None) => refused.push(likely(model, names, item)),
             Err(error) => {
                 sink.report(error);
@@ -169,12 +180,27 @@ fn end_of(item: &ResultItem) -> ast::End {
     match item {
         ResultItem::Name(name) => ast::End { link: name.clone(), point: None },
         ResultItem::Point(link, point) => ast::End { link: link.clone(), point: Some(point.clone()) },
+        ResultItem::Along(joint, _) | ResultItem::About(joint, _) => joint.clone(),
         ResultItem::Planned { of, .. } => of.clone(),
     }
 }
 
 /// The field of a refused result, and what it is like.
 fn likely(model: &Model, names: &Names, item: &ResultItem) -> (String, Option<Wanted>) {
+    let near = |joint: &Name| JointId::new(names.near(Role::Joint, &joint.text).unwrap_or(0));
+    match item {
+        ResultItem::Along(joint, link) => {
+            let joint = &joint.link;
+            return (format!("{joint}_along_{link}"), Some(Wanted::Along(near(joint), GROUND)));
+        }
+        ResultItem::About(joint, ast::End { link, point }) => {
+            let point = point.as_ref().map_or("", |point| point.text.as_str());
+            let at = End { link: GROUND, point: PointId::FIRST };
+            let joint = &joint.link;
+            return (format!("{joint}_about_{link}_{point}"), Some(Wanted::About(near(joint), at)));
+        }
+        _ => {}
+    }
     let ast::End { link, point } = end_of(item);
     if let Some(point) = point {
         let id = LinkId::new(names.near(Role::Link, &link.text).unwrap_or(0));
@@ -255,7 +281,47 @@ fn result(
             }
         }
         ResultItem::Name(name) => named_result(model, given, method, name, names),
+        ResultItem::Along(joint, link) => {
+            let link_id = names.find(Role::Link, link)?.map(LinkId::new);
+            let joint_id = reaction_of(given, method, (joint, "along"), names, joint.place().to(link.place()))?;
+            Ok(joint_id.zip(link_id).map(|(joint, link)| Wanted::Along(joint, link)))
+        }
+        ResultItem::About(joint, point) => {
+            let at = end(Scope { model, names }, point, None)?;
+            let Some(id) = reaction_of(given, method, (joint, "about"), names, joint.place().to(point.place()))? else {
+                return Ok(None);
+            };
+            let of = model.joints.get(id.index()).map(|joint| joint.kind);
+            if let Some(JointKind::Revolute) = of {
+                return Err(Diagnostic::new(
+                    joint.place(),
+                    format!("the pin `{}` has no couple, about whatever point", joint.link),
+                )
+                .help(format!("ask for its force: `{}`", joint.link)));
+            }
+            Ok(at.map(|at| Wanted::About(id, at)))
+        }
     }
+}
+
+/// The joint whose reaction is wanted in some form.
+fn reaction_of(
+    given: &ast::Scene,
+    method: Method,
+    (end, word): (&ast::End, &str),
+    names: &Names,
+    whole: Place,
+) -> Result<Option<JointId>, Diagnostic> {
+    let joint = &end.link;
+    if let Some(point) = &end.point {
+        let problem = format!("before `{word}` stands a joint, and `{joint}.{point}` is a point");
+        return Err(Diagnostic::new(end.place(), problem).help("write the name of the joint alone"));
+    }
+    let found = names.find(Role::Joint, joint)?.map(JointId::new);
+    if matches!(method, Method::Equilibrium | Method::Superposition) {
+        return Ok(found);
+    }
+    Err(cannot(given, whole, &joint.text, "the reaction of a joint").help("`equilibrium` gives it"))
 }
 
 fn word(method: Method) -> &'static str {
@@ -343,7 +409,7 @@ pub fn type_name(name: &str) -> String {
 }
 
 /// Types of the generated module and names that it takes from elsewhere.
-pub(crate) const OWN_TYPES: [&str; 12] = [
+pub(crate) const OWN_TYPES: [&str; 13] = [
     "Pose",
     "Loads",
     "Params",
@@ -351,6 +417,7 @@ pub(crate) const OWN_TYPES: [&str; 12] = [
     "Error",
     "Result",
     "Vector2",
+    "ResolvedForce",
     "SliderReaction",
     "WeldReaction",
     "SlotReaction",

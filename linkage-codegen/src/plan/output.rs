@@ -36,6 +36,8 @@ pub enum Output {
     Scalar(NodeId, Meaning),
     /// A vector.
     Vector([NodeId; 2], Meaning),
+    /// A force along and across a link.
+    Resolved([NodeId; 2]),
     /// A reaction that is more than a vector.
     Reaction {
         /// Its type in the run-time crate.
@@ -146,6 +148,10 @@ impl Output {
             Self::Vector([x, y], _) => {
                 leaf("x", *x);
                 leaf("y", *y);
+            }
+            Self::Resolved([axial, transverse]) => {
+                leaf("axial", *axial);
+                leaf("transverse", *transverse);
             }
             Self::Reaction { force: [x, y], parts, .. } => {
                 leaf("force.x", *x);

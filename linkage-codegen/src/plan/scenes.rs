@@ -7,9 +7,9 @@ use crate::equations::joints::Component;
 use crate::equations::loads::{Action, Case, Line, cases_of};
 use crate::equations::{Exerted, Source, System};
 use crate::graph::{Expr, Symbol};
-use crate::model::ids::{GROUND, JointId, LoadId, UnknownId};
+use crate::model::ids::{GROUND, JointId, LinkId, LoadId, UnknownId};
 use crate::model::units::Kind;
-use crate::model::{JointKind, LoadKind, Method, Model, Scene, UnknownKind, Wanted};
+use crate::model::{End, JointKind, LoadKind, Method, Model, Scene, UnknownKind, Wanted};
 use crate::plan::output::Field;
 use crate::topology::Group;
 
@@ -74,7 +74,7 @@ fn position(forces: &Forces<'_, '_>, scene: &Scene) -> Output {
             ),
             value: Output::scalar(placement.angle(link), Meaning::Angle),
         }),
-        Wanted::Unknown(_) | Wanted::Load(_) => None,
+        Wanted::Unknown(_) | Wanted::Load(_) | Wanted::Along(..) | Wanted::About(..) => None,
     });
     Output::Record(fields.collect())
 }
@@ -135,6 +135,16 @@ impl<'m> Forces<'_, 'm> {
                 name: joint_name(self.model, joint).into(),
                 doc: reaction_doc(self.model, joint),
                 value: reaction(balance, joint),
+            }),
+            Wanted::Along(joint, link) => Some(Field {
+                name: self.model.result_name(*wanted)?,
+                doc: along_doc(self.model, joint, link),
+                value: reaction_along(balance, joint, link),
+            }),
+            Wanted::About(joint, at) => Some(Field {
+                name: self.model.result_name(*wanted)?,
+                doc: about_doc(self.model, joint, at),
+                value: couple_about(balance, joint, at),
             }),
             _ => None,
         });
@@ -411,6 +421,36 @@ pub(crate) fn reaction_type(kind: &JointKind) -> Option<(&'static str, &'static 
         JointKind::Slot { .. } => Some(("SlotReaction", &[Component::Normal])),
         JointKind::Gear(_) => Some(("GearReaction", &[Component::Tangential])),
     }
+}
+
+/// The reaction of a joint along and across the x axis of a link.
+fn reaction_along(balance: &Balance<'_, '_>, joint: JointId, link: LinkId) -> Output {
+    let resolved = balance.reaction(joint).force.along(balance.placement.frame(link));
+    Output::Resolved([resolved.x.id(), resolved.y.id()])
+}
+
+/// The couple of a slide about a point: with the arm from there to its runner, `C + arm × F`, and along the slide there is no force.
+fn couple_about(balance: &Balance<'_, '_>, joint: JointId, at: End) -> Output {
+    let (placement, graph) = (balance.placement, balance.graph());
+    let reaction = balance.reaction(joint);
+    let direction = placement.slide_direction(joint);
+    let arm = placement.way(at, balance.model().joint(joint).place()).resolved_along(direction);
+    let couple = reaction.couple.unwrap_or_else(|| graph.zero()) + arm.x * reaction.force.along(direction).y;
+    Output::scalar(couple, Meaning::Moment)
+}
+
+fn along_doc(model: &Model, joint: JointId, link: LinkId) -> String {
+    let data = model.joint(joint);
+    let (from, to) = (&model.link(data.from.link).name, &model.link(data.to.link).name);
+    let (force, link) = (Kind::Force.unit(&model.units), &model.link(link).name);
+    format!("Force on `{to}` by `{from}` at `{}`, along and across `{link}`, {force}.", data.name)
+}
+
+fn about_doc(model: &Model, joint: JointId, at: End) -> String {
+    let data = model.joint(joint);
+    let (from, to) = (&model.link(data.from.link).name, &model.link(data.to.link).name);
+    let (moment, at) = (Kind::Moment.unit(&model.units), model.end_name(at));
+    format!("Couple on `{to}` by `{from}` at `{}`, about `{at}`, {moment}.", data.name)
 }
 
 fn unknown_meaning(model: &Model, unknown: UnknownId) -> Meaning {

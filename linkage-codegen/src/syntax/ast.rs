@@ -311,6 +311,12 @@ pub struct End {
 }
 
 impl End {
+    /// As it was written.
+    #[must_use]
+    pub fn written(&self) -> String {
+        self.point.as_ref().map_or_else(|| self.link.text.clone(), |point| format!("{}.{point}", self.link))
+    }
+
     /// Where it stands.
     #[must_use]
     pub fn place(&self) -> Place {
@@ -512,6 +518,10 @@ pub enum ResultItem {
     Name(Name),
     /// A point of a link, or its angle.
     Point(Name, Name),
+    /// `B along coupler`
+    Along(End, Name),
+    /// `S about rail.P`
+    About(End, End),
     /// A form that is not carried out yet.
     Planned {
         /// What it is about.

@@ -86,7 +86,7 @@ pub(super) fn two_ends(input: ParseStream<'_>) -> Result<[End; 2]> {
     let first = end(input)?;
     if !input.peek(Token![,]) {
         let help = "name the two points between which it acts: `ground.P, boom.Q`";
-        return Err(Error::new(first.link.span, format!("it acts between two points, and one is given\nhelp: {help}")));
+        return Err(Error::new(first.link.span, format!("two points are needed, and one is given\nhelp: {help}")));
     }
     input.parse::<Token![,]>()?;
     let second = end(input)?;

@@ -72,21 +72,21 @@ fn shown(result: &ResultItem) -> String {
     match result {
         ResultItem::Name(name) => name.text.clone(),
         ResultItem::Point(link, point) => format!("{link}.{point}"),
+        ResultItem::Along(joint, link) => format!("{} along {link}", joint.written()),
+        ResultItem::About(joint, point) => format!("{} about {}", joint.written(), point.written()),
         ResultItem::Planned { .. } => "…".into(),
     }
 }
 
 fn result(input: ParseStream<'_>) -> Result<ResultItem> {
     let item = end(input)?;
-    let planned = |place, what| ResultItem::Planned { of: item.clone(), place, what };
     if eat_word(input, "along") {
-        let place = item.place().to(name(input)?.place());
-        return Ok(planned(place, "a reaction resolved along a link"));
+        return Ok(ResultItem::Along(item, name(input)?));
     }
     if eat_word(input, "about") {
-        let place = item.place().to(end(input)?.place());
-        return Ok(planned(place, "a couple about another point"));
+        return Ok(ResultItem::About(item, end(input)?));
     }
+    let planned = |place, what| ResultItem::Planned { of: item.clone(), place, what };
     if item.point.is_none() && item.link.text == "error_bound" {
         return Ok(planned(item.place(), "the bound of the error"));
     }

@@ -22,13 +22,12 @@ linkage! {
     load F13: force(coupler.C);
     load F14: force(rocker.D) = 100N @ 200deg;
 
+    load K: spring(ground.B0, rocker.D) { rate: 2N/mm, free: 60mm, damping: 0.1N*s/mm };
+    load KT: torsion(ground -> crank) { rate: 3N*m/rad, free: 20deg, damping: _ };
+    load I: inertia;
+
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
-
-    load K:  spring(ground.B0, rocker.D) { rate: 2N/mm, free: 60mm };
-    load KT: torsion(ground -> crank) { rate: 3N*m/rad, free: 20deg };
-    load S:  thrust(ground.B0, coupler.C) = 250N;
-    load I:  inertia;
 }
 
 fn main() {

@@ -23,7 +23,8 @@ linkage! {
     load F14: force(rocker.D) = 100N @ 200deg;
 
     scene statics: equilibrium;
-    scene torque: equilibrium -> (T12, B along coupler, error_bound);
+    scene torque: virtual_work -> (T12);
+    scene bounded: equilibrium -> (T12, error_bound);
 }
 
 fn main() {

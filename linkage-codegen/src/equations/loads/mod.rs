@@ -74,9 +74,9 @@ pub fn cases_of<'m>(posture: &dyn Posture<'m>, load: LoadId) -> Vec<(Case, Vec<A
             let [rate, free, preload] = [rate, free, preload].map(|value| graph.expr(value));
             vec![(whole, spring::actions(&line, rate, free, preload))]
         }
-        LoadKind::Torsion { from, on, rate, free } => {
+        LoadKind::Torsion { from, on, rate, free, near } => {
             let meaning = format!("angle of {} from {} − free angle", model.link(on).name, model.link(from).name);
-            let wound = posture::wound(posture, [from, on], graph.expr(free));
+            let wound = posture::wound(posture, [from, on], graph.expr(free), near.map(|near| graph.expr(near)));
             let wound = wound.named(format!("{name}_wound"), meaning);
             vec![(whole, torsion::actions(from, on, graph.expr(rate), wound))]
         }

@@ -1,8 +1,8 @@
 //! Where points and links are, as loads see them.
 
 use crate::equations::Body;
-use crate::graph::{Expr, Symbol, Vector};
-use crate::model::ids::{DriveId, LinkId};
+use crate::graph::{Expr, Vector};
+use crate::model::ids::{GROUND, LinkId};
 use crate::model::{End, Model};
 
 /// Where points and links are, as loads see them: in the symbols of the equations, or as a plan has placed them.
@@ -36,38 +36,30 @@ impl<'m> Posture<'m> for Symbolic<'m> {
     }
 }
 
-/// The angle of the second link from the first, less a free angle. Where driven pins, slides and welds lead from one to the other, it is what
-/// these give, of any number of turns; elsewhere only directions are known, and it is the smallest one, in (−π, π].
-pub(super) fn wound<'m>(posture: &dyn Posture<'m>, [from, on]: [LinkId; 2], free: Expr<'m>) -> Expr<'m> {
-    if let Some(angle) = driven_angle(posture.model(), from, on) {
-        return angle - free;
+/// The angle of the second link from the first, less a free angle.
+///
+/// Where driven pins, slides and welds lead from one to the other, it is what these give, of any number of turns. Elsewhere only directions
+/// are known, and a turn is chosen: that of the angle nearest to the free one, or, of what drives do not turn, nearest to `near`.
+pub(super) fn wound<'m>(
+    posture: &dyn Posture<'m>,
+    [from, on]: [LinkId; 2],
+    free: Expr<'m>,
+    near: Option<Expr<'m>>,
+) -> Expr<'m> {
+    let (model, graph) = (posture.model(), free.graph());
+    if let Some([driven, rest]) = model.driven_angle(from, on) {
+        return driven + rest - free;
     }
-    let graph = free.graph();
-    let turned = posture.frame(on).resolved_along(posture.frame(from)).resolved_along(free.direction());
-    graph.atan2(turned.y, turned.x)
-}
-
-/// The angle of a link from another one, if driven pins, slides and welds give it.
-fn driven_angle(model: &Model, from: LinkId, on: LinkId) -> Option<Expr<'_>> {
-    let mut reached = vec![(from, model.graph.zero())];
-    let mut next = 0;
-    while let Some((link, angle)) = reached.get(next).copied() {
-        if link == on {
-            return Some(angle);
-        }
-        next += 1;
-        for joint in model.joint_ids() {
-            let data = model.joint(joint);
-            let Some(other) = data.end_off(link).filter(|end| reached.iter().all(|(link, _)| *link != end.link)) else {
-                continue;
-            };
-            let fixed = data.kind.turn().map(|(_, angle)| model.graph.expr(angle));
-            let driven = |drive: DriveId| model.drive(drive).turns.then(|| model.graph.symbol(Symbol::Drive(drive)));
-            let turn = fixed.or_else(|| model.drive_of(joint).and_then(driven));
-            if let Some(turn) = turn {
-                reached.push((other.link, if data.to == other { angle + turn } else { angle - turn }));
-            }
-        }
-    }
-    None
+    let Some(near) = near else {
+        let turned = posture.frame(on).resolved_along(posture.frame(from)).resolved_along(free.direction());
+        return graph.atan2(turned.y, turned.x);
+    };
+    // Without what the drives turn it by, if they alone give its angle.
+    let still = |link: LinkId| match model.driven_angle(GROUND, link) {
+        Some([driven, rest]) => (driven, rest.direction()),
+        None => (graph.zero(), posture.frame(link)),
+    };
+    let ((from_driven, from), (on_driven, on)) = (still(from), still(on));
+    let turned = on.resolved_along(from).resolved_along(near.direction());
+    on_driven - from_driven + graph.atan2(turned.y, turned.x) + (near - free)
 }

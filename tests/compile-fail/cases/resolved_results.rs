@@ -24,14 +24,17 @@ linkage! {
 
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
-
-    load S: thrust(ground.B0, coupler.C);
+    scene along: equilibrium -> (T12, B along coupler, D along rocker, rocker.D along rocker);
+    scene about: superposition -> (B about coupler.C, B along lever);
+    scene work: virtual_work -> (B along coupler);
+    scene place: position -> (B about rocker.D);
 }
 
 fn main() {
-    let loads = four_bar::Loads { F13: polar(50.0, 4.0), S: 250.0 };
+    let loads = four_bar::Loads { F13: polar(50.0, 4.0) };
     let pose = four_bar::Pose::at(1.0).unwrap();
     let all = pose.statics(&loads).unwrap();
     println!("{} {} {}", all.T12, all.B.norm(), pose.coupler_C());
     println!("{}", four_bar::torque_at(1.0, &loads).unwrap().T12);
+    println!("{}", pose.along(&loads).unwrap().B_along_coupler.axial);
 }

@@ -16,18 +16,25 @@ linkage! {
     revolute B0: ground  -> rocker;
 
     drive theta: A0;
-    unknown T12: thrust(ground.B0, coupler.C);
+    unknown T12: torque(ground -> crank);
     assemble B: left(A -> B0);
 
     load F13: force(coupler.C);
     load F14: force(rocker.D) = 100N @ 200deg;
+
+    load K1: spring(ground.B0, coupler.C) { free: 60mm };
+    load K2: spring(ground.B0, coupler.C) { rate: 2N/mm };
+    load K3: spring(ground.B0, coupler.C) { rate: 2N, free: 60mm };
+    load K4: spring(ground.B0, coupler.C) { rate: -2N/mm, free: -60mm, preload: -5N };
+    load K5: spring(ground.B0, coupler.C) { rate: _, free: 60mm, fre: 0, rate: 1N/mm };
+    load K6: spring(ground.B0, coupler.C);
 
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
 }
 
 fn main() {
-    let loads = four_bar::Loads { F13: polar(50.0, 4.0) };
+    let loads = four_bar::Loads { F13: polar(50.0, 4.0), K5: four_bar::LoadsK5 { rate: 2.0 } };
     let pose = four_bar::Pose::at(1.0).unwrap();
     let all = pose.statics(&loads).unwrap();
     println!("{} {} {}", all.T12, all.B.norm(), pose.coupler_C());
