@@ -43,25 +43,25 @@ pub fn module(mut model: Model) -> TokenStream {
     let own = names.iter().map(|name| name.unraw().to_string());
     let methods = distinct(own.zip(from_pose).chain(accessors));
     quote! {
-        #[allow(warnings, clippy::all, clippy::pedantic, reason = "stands in for a declaration that has errors")]
-        #visibility mod #name {
-use #runtime::{
-    Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
-};
-            pub const EQUATIONS: &str = "";
-            pub const OPERATIONS: &str = "";
-            pub const SOURCE: &str = "";
-            #loads
-            #params
-            #pose
-            impl #lifetime Pose #lifetime {
-                pub fn at(#at) -> Result<Self, Error> { loop {} }
-                #methods
+            #[allow(warnings, clippy::all, clippy::pedantic, reason = "stands in for a declaration that has errors")]
+            #visibility mod #name {
+    use #runtime::{
+        Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
+    };
+                pub const EQUATIONS: &str = "";
+                pub const OPERATIONS: &str = "";
+                pub const SOURCE: &str = "";
+                #loads
+                #params
+                #pose
+                impl #lifetime Pose #lifetime {
+                    pub fn at(#at) -> Result<Self, Error> { loop {} }
+                    #methods
+                }
+                #records
+                #(#direct)*
             }
-            #records
-            #(#direct)*
         }
-    }
 }
 
 /// Lets the results of every scene have types of their own, in whatever way its name clashes.

@@ -76,40 +76,40 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
         (TokenStream::new(), TokenStream::new())
     };
     quote! {
-        #attributes
-        #docs
-        #[allow(
-            dead_code, non_snake_case, non_camel_case_types, unused_imports, unused_variables, unused_doc_comments,
-                unused_parens,
-            clippy::all, clippy::pedantic, clippy::nursery,
-            reason = "generated code keeps the names and the formulas of its declaration"
-        )]
-        #visibility mod #name {
-            use #runtime::__private::#math as math;
-use #runtime::{
-    Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
-};
-            #reference
+            #attributes
+            #docs
+            #[allow(
+                dead_code, non_snake_case, non_camel_case_types, unused_imports, unused_variables, unused_doc_comments,
+                    unused_parens,
+                clippy::all, clippy::pedantic, clippy::nursery,
+                reason = "generated code keeps the names and the formulas of its declaration"
+            )]
+            #visibility mod #name {
+                use #runtime::__private::#math as math;
+    use #runtime::{
+        Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
+    };
+                #reference
 
-            /// The derivation: free bodies, equilibrium equations, reduction, closed forms.
-            pub const EQUATIONS: &str = #equations;
-            /// The operations of every function: sums and differences, products, quotients, roots and functions; changes of sign and
-            /// absolute values; checks.
-            pub const OPERATIONS: &str = #operations;
-            #source
+                /// The derivation: free bodies, equilibrium equations, reduction, closed forms.
+                pub const EQUATIONS: &str = #equations;
+                /// The operations of every function: sums and differences, products, quotients, roots and functions; changes of sign and
+                /// absolute values; checks.
+                pub const OPERATIONS: &str = #operations;
+                #source
 
-            #loads
-            #params
-            #pose
-            impl #generics Pose #elided {
-                #pose_at
-                #accessors
-                #from_pose
+                #loads
+                #params
+                #pose
+                impl #generics Pose #elided {
+                    #pose_at
+                    #accessors
+                    #from_pose
+                }
+                #results
+                #direct
             }
-            #results
-            #direct
         }
-    }
 }
 
 /// The operation counts of all functions, a line each.
