@@ -105,3 +105,29 @@ fn without_a_lever_arm_or_a_direction_a_thrust_is_an_error() -> Result<(), Error
     assert!(matches!(outcome, Err(Error::DeadCentre { group: "lever", pivot: "arm_P" })), "{outcome:?}");
     Ok(())
 }
+
+linkage! {
+    /// A bracket that is welded to an arm.
+    mod bracket;
+    units { mm, N }
+    ground       { O: (0, 0) }
+    link arm     { O -> W: 300mm, N: (100mm, -50mm) }
+    link bracket { W, T: (80mm, 20mm) }
+    revolute O: ground -> arm;
+    weld W: arm -> bracket, angle 30deg;
+    drive theta: O;
+    load F: force(bracket.T);
+    scene held: equilibrium -> (W, W along bracket, W about arm.N, W about arm.W);
+    scene place: position -> (W);
+}
+
+#[test]
+fn a_weld_has_a_couple_about_any_point() -> Result<(), Error> {
+    let pose = bracket::Pose::at(0.7)?;
+    let held = pose.held(&bracket::Loads { F: Vector2::new(30.0, -200.0) })?;
+    assert_eq!(held.W_about_arm_W.to_bits(), held.W.couple.to_bits());
+    let about = held.W.couple + cross(pose.place()?.W - pose.arm_N(), held.W.force);
+    assert!((held.W_about_arm_N - about).abs() < 1e-9);
+    assert!((held.W_along_bracket.axial - held.W.force.dot(&pose.bracket_direction())).abs() < 1e-11);
+    Ok(())
+}

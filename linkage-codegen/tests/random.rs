@@ -96,7 +96,7 @@ fn check_exactly(sample: &Sample, linkage: &Linkage) {
     let unknowns = &linkage.model.unknowns;
     for unknown in unknowns {
         let own = |path: &str| unknowns.len() == 1 || path.contains(&format!(".{}.", unknown.name));
-        let terms = exact.work.iter().filter(|(path, _)| path.ends_with(".work") && own(path));
+        let terms = exact.work.iter().filter(|(path, _)| path.rsplit('.').next() == Some("work") && own(path));
         let sum = terms.fold(exact.work[&unknown.name].clone(), |sum, (_, term)| sum.add(term));
         assert!(sum.to_f64().abs() <= EXTENDED * largest(&exact.work), "terms\n{context}");
     }
@@ -111,7 +111,10 @@ fn check_in_doubles(sample: &Sample, linkage: &Linkage) -> f64 {
     let right: Vec<f64> = general.right_side(&|_| true).iter().map(|x| x.0).collect();
     let (reference, condition) = solve_nalgebra(&matrix, &right).expect("regular");
     let reference = general.named(linkage, reference.into_iter().map(Double).collect());
-    let allowed = 50.0 * f64::EPSILON * condition;
+    // The general solution takes lines of action from coordinates of points that are far from the origin; the emitted code does not.
+    let has_lines = sample.text.contains("spring(") || sample.text.contains("thrust(");
+    let far = sample.places.iter().flat_map(|(_, place)| place).fold(0.0f64, |far, x| far.max(x.abs()));
+    let allowed = 50.0 * f64::EPSILON * condition * if has_lines { 1.0 + far } else { 1.0 };
     let error = difference(&reference, &solution.all);
     assert!(error < allowed, "equilibrium {error:e}, allowed {allowed:e}\n{context}");
     let error = difference(&totals(linkage, &solution.parts), &solution.all);

@@ -6,7 +6,7 @@ use super::evaluate::Scope;
 use super::ids::{GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
-use super::{End, JointKind, LoadKind, Method, Model, Scene, Wanted};
+use super::{End, LoadKind, Method, Model, Scene, Wanted};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
 use crate::syntax::{METHODS, PLANNED_METHODS};
@@ -291,13 +291,10 @@ fn result(
             let Some(id) = reaction_of(given, method, (joint, "about"), names, joint.place().to(point.place()))? else {
                 return Ok(None);
             };
-            let of = model.joints.get(id.index()).map(|joint| joint.kind);
-            if let Some(JointKind::Revolute) = of {
-                return Err(Diagnostic::new(
-                    joint.place(),
-                    format!("the pin `{}` has no couple, about whatever point", joint.link),
-                )
-                .help(format!("ask for its force: `{}`", joint.link)));
+            if let Some(of) = model.joints.get(id.index()).filter(|of| of.kind.turn().is_none()) {
+                let (name, noun) = (&of.name, of.kind.noun());
+                let problem = format!("the {noun} `{name}` has no couple, about whatever point");
+                return Err(Diagnostic::new(joint.place(), problem).help(format!("ask for its force: `{name}`")));
             }
             Ok(at.map(|at| Wanted::About(id, at)))
         }

@@ -429,13 +429,12 @@ fn reaction_along(balance: &Balance<'_, '_>, joint: JointId, link: LinkId) -> Ou
     Output::Resolved([resolved.x.id(), resolved.y.id()])
 }
 
-/// The couple of a slide about a point: with the arm from there to its runner, `C + arm × F`, and along the slide there is no force.
+/// The couple of a slide or a weld about a point: with the arm from there to its place, `C + arm × F`.
 fn couple_about(balance: &Balance<'_, '_>, joint: JointId, at: End) -> Output {
-    let (placement, graph) = (balance.placement, balance.graph());
     let reaction = balance.reaction(joint);
-    let direction = placement.slide_direction(joint);
-    let arm = placement.way(at, balance.model().joint(joint).place()).resolved_along(direction);
-    let couple = reaction.couple.unwrap_or_else(|| graph.zero()) + arm.x * reaction.force.along(direction).y;
+    let way = balance.placement.way(at, balance.model().joint(joint).place());
+    let moment = way.resolved_along(reaction.force.axes).cross(reaction.force.components);
+    let couple = reaction.couple.unwrap_or_else(|| balance.graph().zero()) + moment;
     Output::scalar(couple, Meaning::Moment)
 }
 

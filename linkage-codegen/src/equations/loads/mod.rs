@@ -51,13 +51,13 @@ pub enum Action {
 
 /// All load cases, in the order of declaration.
 #[must_use]
-pub fn cases<'m>(posture: &dyn Posture<'m>) -> Vec<(Case, Vec<Action>)> {
+pub fn cases(posture: &dyn Posture<'_>) -> Vec<(Case, Vec<Action>)> {
     (0..posture.model().loads.len()).map(LoadId::new).flat_map(|load| cases_of(posture, load)).collect()
 }
 
 /// The cases of a load.
 #[must_use]
-pub fn cases_of<'m>(posture: &dyn Posture<'m>, load: LoadId) -> Vec<(Case, Vec<Action>)> {
+pub fn cases_of(posture: &dyn Posture<'_>, load: LoadId) -> Vec<(Case, Vec<Action>)> {
     let model = posture.model();
     let graph = &model.graph;
     let whole = Case { load, link: None };
