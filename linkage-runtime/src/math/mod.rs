@@ -23,6 +23,14 @@ macro_rules! horner {
     ($z:expr; $c:expr, $($rest:expr),+) => { $c + $z * horner!($z; $($rest),+) };
 }
 
+/// The same polynomial with six coefficients, in pairs that do not wait for each other (Estrin 1960).
+macro_rules! estrin {
+    ($z:expr; $c0:expr, $c1:expr, $c2:expr, $c3:expr, $c4:expr, $c5:expr) => {{
+        let (z, z2) = ($z, $z * $z);
+        ($c0 + z * $c1) + z2 * (($c2 + z * $c3) + z2 * ($c4 + z * $c5))
+    }};
+}
+
 pub mod f32;
 pub mod f64;
 mod sqrt;

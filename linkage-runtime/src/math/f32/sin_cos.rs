@@ -32,7 +32,11 @@ pub(super) struct Reduced {
 /// errors count most at π/4: 0.13 ulp at most, 0.016 ulp there; C 0.002 ulp.
 ///
 /// Error: at most 0.80 ulp for every finite x, next to multiples of π/2 too. sin(−0) = −0. NaN if x is not finite.
-#[inline]
+#[inline(always)]
+#[allow(
+    clippy::inline_always,
+    reason = "as a call of its own it keeps all else waiting, and loops over angles from being vectorised"
+)]
 #[must_use]
 pub fn sin_cos(x: f32) -> (f32, f32) {
     let reduced = if x.abs() <= FAST { reduce(x) } else { reduce_large(x) };

@@ -32,7 +32,11 @@ pub(super) struct Reduced {
 /// errors count most at π/4: 0.063 ulp at most, 0.006 ulp there; C 0.001 ulp.
 ///
 /// Error: at most 0.80 ulp for every finite x, next to multiples of π/2 too. sin(−0) = −0. NaN if x is not finite.
-#[inline]
+#[inline(always)]
+#[allow(
+    clippy::inline_always,
+    reason = "as a call of its own it keeps all else waiting, and loops over angles from being vectorised"
+)]
 #[must_use]
 pub fn sin_cos(x: f64) -> (f64, f64) {
     let reduced = if x.abs() <= FAST { reduce(x) } else { reduce_large(x) };
@@ -92,9 +96,9 @@ impl Reduced {
         let z = y * y;
         let half = 0.5 * z;
         let w = 1.0 - half;
-        let s = horner!(z; 0.16666666666666596, -0.008333333333314359, 0.00019841269823970287,
+        let s = estrin!(z; 0.16666666666666596, -0.008333333333314359, 0.00019841269823970287,
             -2.755731184826506e-6, 2.5050493313348815e-8, -1.588260855736768e-10);
-        let c = horner!(z; 0.041666666666666595, -0.0013888888888873342, 2.4801587289002052e-5,
+        let c = estrin!(z; 0.041666666666666595, -0.0013888888888873342, 2.4801587289002052e-5,
             -2.755731421702115e-7, 2.0875705392259066e-9, -1.135874897753106e-11);
         let sin = y - (z * y * s + t * w);
         let cos = w + (((1.0 - w) - half) + (z * z * c + sin * t));
