@@ -29,7 +29,8 @@ fn input_name(linkage: &Linkage, input: Input) -> String {
             let load = model.load(load);
             load.value_name(load.kind.values()[usize::from(part)].0)
         }
-        Input::Symbol(Symbol::Coordinate(..) | Symbol::Dimension(_)) => String::new(),
+        Input::Symbol(Symbol::Driven(drive, order)) => model.drive(drive).motion_name(order),
+        Input::Symbol(Symbol::Coordinate(..) | Symbol::Moving(..) | Symbol::Dimension(_)) => String::new(),
         Input::Kept(node) => {
             let kept = linkage.plan.pose.iter().find(|kept| kept.node == node);
             kept.map_or_else(String::new, |kept| kept.name.clone())

@@ -3,25 +3,53 @@
 use std::collections::HashMap;
 
 use super::real::Real;
-use super::{Coordinate, Expr, Graph, Kernel, NodeId, Op, Stage, Symbol};
+use super::{Coordinate, Expr, Graph, Kernel, NodeId, Op, Order, Stage, Symbol};
 use crate::model::ids::LinkId;
 
 impl Graph {
     /// Partial derivative by a coordinate of a link: its place or its angle. Cosine and sine of a link are functions of its angle.
     #[must_use]
     pub fn derivative<'g>(&'g self, of: Expr<'g>, link: LinkId, by: Coordinate) -> Expr<'g> {
-        // Dimensions do not move. They may be worked out in many steps that use each other often; these are not gone into.
-        if of.stage() < Stage::Posed {
-            return self.zero();
-        }
-        let d = |id: NodeId| self.derivative(self.expr(id), link, by);
-        match of.op() {
-            Op::Symbol(Symbol::Coordinate(owner, coordinate)) if owner == link => match (coordinate, by) {
+        self.differentiated(of, &|symbol| match symbol {
+            Symbol::Coordinate(owner, coordinate) if owner == link => match (coordinate, by) {
                 (a, b) if a == b => self.one(),
                 (Coordinate::Cos, Coordinate::Angle) => -self.symbol(Symbol::Coordinate(link, Coordinate::Sin)),
                 (Coordinate::Sin, Coordinate::Angle) => self.symbol(Symbol::Coordinate(link, Coordinate::Cos)),
                 _ => self.zero(),
             },
+            _ => self.zero(),
+        })
+    }
+
+    /// Derivative by time of what coordinates and their rates determine.
+    #[must_use]
+    pub fn rate<'g>(&'g self, of: Expr<'g>) -> Expr<'g> {
+        let moving = |link, which, order| self.symbol(Symbol::Moving(link, which, order));
+        self.differentiated(of, &|symbol| match symbol {
+            Symbol::Coordinate(link, which) => {
+                let turning = moving(link, Coordinate::Angle, Order::Rate);
+                match which {
+                    Coordinate::Cos => -(self.symbol(Symbol::Coordinate(link, Coordinate::Sin)) * turning),
+                    Coordinate::Sin => self.symbol(Symbol::Coordinate(link, Coordinate::Cos)) * turning,
+                    Coordinate::X | Coordinate::Y | Coordinate::Angle => moving(link, which, Order::Rate),
+                }
+            }
+            Symbol::Moving(link, which, Order::Rate) => moving(link, which, Order::Acceleration),
+            Symbol::Drive(drive) => self.symbol(Symbol::Driven(drive, Order::Rate)),
+            Symbol::Driven(drive, Order::Rate) => self.symbol(Symbol::Driven(drive, Order::Acceleration)),
+            _ => self.zero(),
+        })
+    }
+
+    /// The derivative, with those of the symbols given.
+    fn differentiated<'g>(&'g self, of: Expr<'g>, by: &dyn Fn(Symbol) -> Expr<'g>) -> Expr<'g> {
+        // Dimensions do not move. They may be worked out in many steps that use each other often; these are not gone into.
+        if of.stage() < Stage::Posed {
+            return self.zero();
+        }
+        let d = |id: NodeId| self.differentiated(self.expr(id), by);
+        match of.op() {
+            Op::Symbol(symbol) => by(symbol),
             Op::Neg(a) => -d(a),
             Op::Add(a, b) => d(a) + d(b),
             Op::Sub(a, b) => d(a) - d(b),
@@ -40,7 +68,7 @@ impl Graph {
                 let (y, x) = (self.expr(args[0]), self.expr(args[1]));
                 (x * d(args[0]) - y * d(args[1])) / (x * x + y * y)
             }
-            Op::Constant(_) | Op::Symbol(_)
+            Op::Constant(_)
             // Constraints are smooth: they hold none of these.
             | Op::Abs(_)
             | Op::NonNegative(_)

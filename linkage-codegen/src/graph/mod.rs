@@ -90,6 +90,15 @@ pub enum Coordinate {
     Sin,
 }
 
+/// How often a coordinate is differentiated by time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Order {
+    /// Once.
+    Rate,
+    /// Twice.
+    Acceleration,
+}
+
 /// What is not known before run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Symbol {
@@ -97,10 +106,14 @@ pub enum Symbol {
     Parameter(ParamId),
     /// The coordinate of a drive.
     Drive(DriveId),
+    /// Its rate or its acceleration, given at run time.
+    Driven(DriveId, Order),
     /// A component of a load that is given at run time.
     Load(LoadId, u8),
     /// A coordinate of a link in the symbolic equations.
     Coordinate(LinkId, Coordinate),
+    /// The rate or the acceleration of a link's place or angle likewise.
+    Moving(LinkId, Coordinate, Order),
     /// A place in the symbolic equations that stands for any dimension.
     Dimension(u32),
 }
@@ -114,7 +127,7 @@ pub enum Stage {
     Prepared,
     /// When the drives are given.
     Posed,
-    /// When the loads are given.
+    /// When rates and loads are given.
     Loaded,
 }
 
@@ -565,7 +578,7 @@ impl Arena {
     fn stage_of(&self, op: &Op) -> Stage {
         let own = match op {
             Op::Symbol(Symbol::Parameter(_)) => Stage::Prepared,
-            Op::Symbol(Symbol::Load(..)) => Stage::Loaded,
+            Op::Symbol(Symbol::Load(..) | Symbol::Driven(..) | Symbol::Moving(..)) => Stage::Loaded,
             Op::Symbol(_) => Stage::Posed,
             _ => Stage::Constant,
         };

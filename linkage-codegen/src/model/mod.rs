@@ -17,7 +17,7 @@ pub mod units;
 use proc_macro2::TokenStream;
 
 use crate::diagnostics::{Diagnostic, Place, Sink};
-use crate::graph::{Expr, Graph, NodeId, Scalar, Symbol, Vector};
+use crate::graph::{Expr, Graph, NodeId, Order, Scalar, Symbol, Vector};
 use crate::syntax::ast::{Ast, Name};
 use ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
 use units::{Kind, Units};
@@ -314,6 +314,39 @@ pub struct Drive {
     pub joint: JointId,
     /// Whether that is the angle between its links; otherwise it is the travel along its line.
     pub turns: bool,
+    /// The rate at which it changes: declared, or a symbol.
+    pub rate: NodeId,
+    /// Its acceleration likewise.
+    pub acceleration: NodeId,
+}
+
+impl Drive {
+    /// What its rate or its acceleration is called where it is given at run time.
+    #[must_use]
+    pub fn motion_name(&self, order: Order) -> String {
+        match order {
+            Order::Rate => format!("{}_rate", self.name),
+            Order::Acceleration => format!("{}_acceleration", self.name),
+        }
+    }
+
+    /// The dimension of the rate or the acceleration of a coordinate that is an angle or a travel.
+    #[must_use]
+    pub fn kind_of(order: Order, turns: bool) -> Kind {
+        match (order, turns) {
+            (Order::Rate, true) => Kind::AngularRate,
+            (Order::Rate, false) => Kind::Velocity,
+            (Order::Acceleration, true) => Kind::AngularAcceleration,
+            (Order::Acceleration, false) => Kind::Acceleration,
+        }
+    }
+
+    /// What of its motion is given at run time.
+    pub fn given_motion(&self, graph: &Graph) -> impl Iterator<Item = Order> {
+        let symbol = |id| matches!(graph.op(id), crate::graph::Op::Symbol(Symbol::Driven(..)));
+        let orders = [(Order::Rate, symbol(self.rate)), (Order::Acceleration, symbol(self.acceleration))];
+        orders.into_iter().filter(|(_, given)| *given).map(|(order, _)| order)
+    }
 }
 
 /// What balances the loads.
@@ -571,10 +604,10 @@ impl Model {
         &self.unknowns[id.index()]
     }
 
-    /// The links on which an unknown acts.
+    /// The links on which an effort acts.
     #[must_use]
-    pub fn links_of(&self, unknown: UnknownId) -> Vec<LinkId> {
-        match self.unknown(unknown).kind {
+    pub fn links_of(&self, effort: UnknownKind) -> Vec<LinkId> {
+        match effort {
             UnknownKind::Drive(drive) => self.joint(self.drive(drive).joint).ends().map(|end| end.link).to_vec(),
             UnknownKind::Torque(from, to) => vec![from, to],
             UnknownKind::Force { at, .. } => vec![at.link],

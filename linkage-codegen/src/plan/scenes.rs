@@ -175,13 +175,13 @@ impl<'m> Forces<'_, 'm> {
         Output::Record(fields.collect())
     }
 
-    /// The virtual motion of every unknown.
-    fn motions(&self) -> Vec<Motion<'m, '_>> {
+    /// The virtual motion of every unknown, each with the unknown.
+    fn motions(&self) -> Vec<(UnknownId, Motion<'m, '_>)> {
         let unknowns = (0..self.model.unknowns.len()).map(UnknownId::new);
         let single = self.model.unknowns.len() == 1;
         let prefix =
             |unknown: UnknownId| if single { String::new() } else { format!("{}_", self.model.unknown(unknown).name) };
-        unknowns.map(|unknown| self.motion(unknown, prefix(unknown))).collect()
+        unknowns.map(|unknown| (unknown, self.motion(unknown, prefix(unknown)))).collect()
     }
 
     /// Some loads on the links, nothing solved.
@@ -202,7 +202,7 @@ impl<'m> Forces<'_, 'm> {
         let fields = scene.results.iter().filter_map(|wanted| match *wanted {
             Wanted::Unknown(unknown) => {
                 let name = &self.model.unknown(unknown).name;
-                let effort = self.effort_by_work(&motions[unknown.index()], &loads);
+                let effort = self.effort_by_work(&motions[unknown.index()].1, &loads);
                 let effort = effort.named(name.clone(), "−(Σ F·v + Σ M ω), at unit rate of its own coordinate");
                 let value = Output::scalar(effort, unknown_meaning(self.model, unknown));
                 Some(Field { name: name.clone(), doc: unknown_doc(self.model, unknown), value })
@@ -211,10 +211,10 @@ impl<'m> Forces<'_, 'm> {
                 let name = self.model.load(load).name.text.clone();
                 let doc = format!("Term of `{name}`: velocity along it for unit rate, and the work.");
                 let value = if single {
-                    self.terms(&motions[0], load)
+                    self.terms(&motions[0].1, load)
                 } else {
-                    let each = motions.iter().map(|motion| {
-                        let unknown = &self.model.unknown(motion.unknown).name;
+                    let each = motions.iter().map(|(unknown, motion)| {
+                        let unknown = &self.model.unknown(*unknown).name;
                         let doc = format!("In the motion at unit rate of the coordinate of `{unknown}`.");
                         Field { name: unknown.clone(), doc, value: self.terms(motion, load) }
                     });
@@ -242,7 +242,7 @@ impl<'m> Forces<'_, 'm> {
         }
         let motions = self.motions();
         let loads = self.applied(&scene.loads);
-        let virtual_work = motions.iter().map(|motion| self.effort_by_work(motion, &loads).id()).collect();
+        let virtual_work = motions.iter().map(|(_, motion)| self.effort_by_work(motion, &loads).id()).collect();
         // The symbols of the equations are the coordinates that the pose gives.
         graph.begin_section("General equations");
         let placed = |symbol: Symbol| match symbol {
@@ -282,7 +282,7 @@ impl<'m> Forces<'_, 'm> {
     }
 
     fn motion(&self, unknown: UnknownId, prefix: String) -> Motion<'m, '_> {
-        let mut motion = Motion::new(&self.assembly.placement, &self.assembly.pivots, unknown, prefix);
+        let mut motion = Motion::of_unknown(&self.assembly.placement, &self.assembly.pivots, unknown, prefix);
         for (index, (group, rule)) in self.groups.iter().zip(self.rules).enumerate() {
             self.model.graph.begin_section(heading(self.model, index, group, rule.class(), "virtual velocities"));
             self.report(rule.follow(&mut motion, group));

@@ -391,7 +391,16 @@ pub struct Drive {
     /// `.angle` or `.travel`
     pub coordinate: Option<Name>,
     /// `{ … }`
-    pub motion: Option<Place>,
+    pub motion: DriveMotion,
+}
+
+/// `{ rate: 3000rpm, acceleration: 0 }`
+#[derive(Clone, Debug, Default)]
+pub struct DriveMotion {
+    /// `rate: …`
+    pub rate: Option<Value>,
+    /// `acceleration: …`
+    pub acceleration: Option<Value>,
 }
 
 /// `assemble JOINT: side;`

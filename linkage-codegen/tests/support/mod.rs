@@ -13,7 +13,7 @@ use std::collections::HashMap;
 
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{NodeId, Symbol};
+use linkage_codegen::graph::{NodeId, Order, Symbol};
 use linkage_codegen::program::{Fault, Input, Program, Run};
 
 /// A declaration's linkage; its errors make the test fail.
@@ -43,6 +43,8 @@ pub struct Arguments {
     /// The components of each load, zeros where it is constant.
     pub loads: Vec<[f64; 2]>,
     pub params: Vec<f64>,
+    /// Rate and acceleration of each drive.
+    pub motion: Vec<[f64; 2]>,
 }
 
 impl Arguments {
@@ -51,7 +53,11 @@ impl Arguments {
             Symbol::Drive(drive) => self.drives[drive.index()],
             Symbol::Load(load, part) => self.loads[load.index()][usize::from(part)],
             Symbol::Parameter(param) => self.params[param.index()],
-            Symbol::Coordinate(..) | Symbol::Dimension(_) => f64::NAN,
+            Symbol::Driven(drive, order) => self.motion.get(drive.index()).map_or(f64::NAN, |motion| match order {
+                Order::Rate => motion[0],
+                Order::Acceleration => motion[1],
+            }),
+            Symbol::Coordinate(..) | Symbol::Moving(..) | Symbol::Dimension(_) => f64::NAN,
         }
     }
 }

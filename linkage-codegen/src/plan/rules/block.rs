@@ -9,8 +9,9 @@
 
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
+use crate::equations::joints::Component;
 use crate::graph::{Expr, Vector};
-use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
+use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model};
 use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
@@ -43,7 +44,7 @@ enum Unknown {
     /// A component of the reaction of a joint that no member has, in the order of [`reactions::parts`].
     Joint(JointId, usize),
     /// An effort.
-    Effort(UnknownId),
+    Effort(Input),
 }
 
 /// What has equations.
@@ -101,11 +102,7 @@ impl<'p, 'm> Parts<'p, 'm> {
                 _ => {}
             }
         }
-        for input in &group.inputs {
-            if let Input::Unknown(unknown) = input {
-                unknowns.push(Unknown::Effort(*unknown));
-            }
-        }
+        unknowns.extend(group.inputs.iter().copied().map(Unknown::Effort));
         Self { placement, model, members, unknowns, free }
     }
 
@@ -207,7 +204,7 @@ impl<'p, 'm> Parts<'p, 'm> {
         }
     }
 
-    fn unit_of_effort(&self, effort: UnknownId) -> Unit<'m> {
+    fn unit_of_effort(&self, effort: Input) -> Unit<'m> {
         Unit::of(self.placement, effort)
     }
 
@@ -218,6 +215,38 @@ impl<'p, 'm> Parts<'p, 'm> {
             Unknown::Effort(effort) => spread * self.unit_of_effort(*effort).spread,
             _ => spread,
         })
+    }
+
+    /// The power of an unknown's unit if the motion keeps the joints: none of a velocity. Of an acceleration it is what curved paths and
+    /// sliding along turning lines bring.
+    fn beyond(&self, motion: &Motion<'m, '_>, unknown: Unknown) -> Expr<'m> {
+        let zero = self.placement.graph().zero();
+        match unknown {
+            Unknown::Member(index) => {
+                let member = &self.members[index];
+                if self.is_slide(member.far) {
+                    // n·(a_pin − a_guide) − α x = 2 ω ṡ − ω² y at the pin (x, y) from the runner.
+                    let coriolis = motion.coriolis(member.far, member.link).components.y;
+                    return motion.centripetal(member.link, self.slide_arm(member).y) - coriolis;
+                }
+                // u·(a_near − a_far) = −ω² r.
+                motion.centripetal(member.link, self.rod(member).0)
+            }
+            Unknown::Joint(joint, part) => {
+                let component = reactions::parts(self.placement, joint).get(part).map(|part| part.component);
+                let data = self.model.joint(joint);
+                match (component, data.kind) {
+                    (Some(Component::Normal), _) => motion.coriolis(joint, data.to.link).components.y,
+                    // The centres turn about each other.
+                    (Some(Component::Tangential), JointKind::Gear(gear)) => {
+                        let incline = self.placement.graph().expr(gear.incline);
+                        -(incline * motion.centripetal(gear.arm[0].link, gear.distance(self.model)))
+                    }
+                    _ => zero,
+                }
+            }
+            Unknown::Effort(_) => zero,
+        }
     }
 
     /// The place about which a carrier's moments are taken: its first joint, but for a tooth or a slot, which holds no point.
@@ -289,10 +318,7 @@ fn members(model: &Model, group: &Group) -> Vec<Member> {
             .copied()
             .filter(|joint| model.joint(*joint).end_on(*link).is_some())
             .collect();
-        let acted_on = group.inputs.iter().any(|input| match input {
-            Input::Unknown(unknown) => model.links_of(*unknown).contains(link),
-            Input::Drive(_) => false,
-        });
+        let acted_on = group.inputs.iter().any(|input| model.links_of(input.effort(model)).contains(link));
         let [a, b] = joints.as_slice() else { continue };
         if acted_on || ![a, b].into_iter().all(|joint| slides(joint) || pins(joint)) {
             continue;
@@ -365,12 +391,14 @@ impl Rule for Block {
                     put_joint(balance, joint, &own.map(|(_, value)| *value).collect::<Vec<_>>(), &links);
                 }
                 Unknown::Joint(..) => {}
-                Unknown::Effort(effort) => {
+                Unknown::Effort(Input::Unknown(effort)) => {
                     let name = &model.unknown(effort).name;
                     let value = value.named(balance.name(name), format!("from the equilibrium of {links}"));
                     balance.found(effort, value);
-                    parts.unit_of_effort(effort).exert_outside(balance, value, &group.links);
+                    parts.unit_of_effort(effort.into()).exert_outside(balance, value, &group.links);
                 }
+                // Forces know no drives.
+                Unknown::Effort(Input::Drive(_)) => {}
             }
         }
         Ok(())
@@ -381,16 +409,27 @@ impl Rule for Block {
         let (determinant, links) = parts.names(group);
         let graph = motion.graph();
         let columns = parts.matrix();
-        // The power of a unit of each unknown on all links is the rate of its coordinate: one, or zero.
+        // If the carriers neither moved nor turned.
+        for free in &parts.free {
+            if let Free::Carrier(link) = free {
+                let velocity = Framed { components: graph.zero_vector(), axes: parts.ground() };
+                motion.found(*link, Twist { rate: graph.zero(), at: parts.centre(*link), velocity });
+            }
+        }
+        // The power of a unit of each unknown on all links is the rate of its coordinate: of an unknown of the joints zero, but for what
+        // an acceleration has beyond a velocity.
         let equations = parts
             .unknowns
             .iter()
             .zip(&columns)
             .map(|(unknown, column)| {
-                let own = if let Unknown::Effort(effort) = unknown { motion.rate_of(*effort) } else { graph.zero() };
-                let outside =
-                    parts.unit(*unknown).iter().fold(graph.zero(), |sum, act| sum + power_outside(motion, group, act));
-                Equation { coefficients: column.clone(), right: own - outside }
+                let own = match *unknown {
+                    Unknown::Effort(effort) => motion.rate_of(effort),
+                    _ => parts.beyond(motion, *unknown),
+                };
+                let supposed =
+                    parts.unit(*unknown).iter().fold(graph.zero(), |sum, act| sum + power(motion, &parts, act));
+                Equation { coefficients: column.clone(), right: own - supposed }
             })
             .collect();
         let values = solve(graph, equations, Core { name: &determinant, group: &links, spread: parts.spread() })
@@ -403,8 +442,7 @@ impl Rule for Block {
             match free {
                 Free::Carrier(link) => {
                     let name = &parts.model.link(*link).name;
-                    let rate = values[row + 2]
-                        .named(motion.name(&format!("rate_{name}")), format!("rate of rotation of {name}"));
+                    let rate = motion.named_rate(values[row + 2], &name.text, "");
                     motion.found(*link, Twist { rate, at: parts.centre(*link), velocity });
                     row += 3;
                 }
@@ -433,7 +471,7 @@ impl Rule for Block {
                 motion.part(&gap, direction.perp()) / length
             };
             let name = &parts.model.link(member.link).name;
-            let rate = rate.named(motion.name(&format!("rate_{name}")), format!("rate of rotation of {name}"));
+            let rate = motion.named_rate(rate, &name.text, "");
             motion.found(member.link, Twist { rate, at, velocity });
         }
         Ok(())
@@ -445,14 +483,14 @@ fn too_large(model: &Model, group: &Group, size: usize) -> Diagnostic {
         .note(format!("its equilibrium equations leave a core of {size}; up to 3 are supported"))
 }
 
-/// The power of an act on links outside the group.
-fn power_outside<'m>(motion: &Motion<'m, '_>, group: &Group, act: &Act<'m>) -> Expr<'m> {
-    let outside = |link: LinkId| link != GROUND && !group.links.contains(&link);
+/// The power of an act on a link. Members have no motion before their ends have one.
+fn power<'m>(motion: &Motion<'m, '_>, parts: &Parts<'_, 'm>, act: &Act<'m>) -> Expr<'m> {
+    let moves = |link: LinkId| link != GROUND && !parts.is_member(link);
     match act {
-        Act::Force(link, at, force) if outside(*link) => {
+        Act::Force(link, at, force) if moves(*link) => {
             motion.of_place(*link, *at).along(force.axes).dot(force.components)
         }
-        Act::Couple(link, moment) if outside(*link) => *moment * motion.rate(*link),
+        Act::Couple(link, moment) if moves(*link) => *moment * motion.rate(*link),
         _ => motion.graph().zero(),
     }
 }
