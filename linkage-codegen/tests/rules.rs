@@ -4,7 +4,7 @@ mod support;
 
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::plan::rules::RULES;
-use support::general::{equations, solve_extended};
+use support::general::{equations, open_motion, solve_extended};
 use support::numbers::Extended;
 use support::{Arguments, Number, compile, scene};
 
@@ -317,7 +317,9 @@ const CASES: [(&str, &[f64], &str); 35] = [
 #[test]
 fn every_rule_satisfies_the_equations_of_its_group() {
     for (class, drives, items) in CASES {
-        let text = format!("pub mod sample; {items} scene all: equilibrium; scene work: virtual_work;");
+        let text = format!(
+            "pub mod sample; {items} scene all: equilibrium; scene work: virtual_work; scene moved: acceleration;"
+        );
         let linkage = compile(&text);
         let used = linkage.plan.motion_rules.iter().chain(&linkage.plan.force_rules);
         assert!(used.into_iter().any(|rule| *rule == class), "{class} is not used\n{text}");
@@ -327,6 +329,19 @@ fn every_rule_satisfies_the_equations_of_its_group() {
             let drives = if linkage.model.drives.len() == 2 { vec![*drive, second] } else { vec![*drive] };
             let arguments = Arguments { drives, loads: vec![[0.0; 2]; linkage.model.loads.len()], params: Vec::new(), ..Arguments::default() };
             check(&linkage, &arguments, &text);
+            check_motion(&linkage, &arguments, &text);
+        }
+    }
+}
+
+/// Velocities keep the constraints, and so do accelerations: `J q̇ = 0` and `J q̈ + J̇ q̇ = 0`, the drives' own coordinates as given.
+fn check_motion(linkage: &linkage_codegen::Linkage, arguments: &Arguments, text: &str) {
+    for motion in [[[1.3, -0.7], [0.6, 2.1]], [[-0.4, 0.0], [1.9, -1.0]]] {
+        let arguments = Arguments { motion: motion.to_vec(), ..arguments.clone() };
+        for (source, [rate, acceleration]) in open_motion::<Extended>(linkage, &arguments).unwrap() {
+            assert!(rate.to_f64().abs() < 1e-50, "velocity at {source:?}: {:e}\n{text}", rate.to_f64());
+            let open = acceleration.to_f64();
+            assert!(open.abs() < 1e-50, "acceleration at {source:?}: {open:e}\n{text}");
         }
     }
 }

@@ -93,8 +93,9 @@ fn parts(linkage: &Linkage) -> String {
             LoadKind::Moment { moment: value, .. } | LoadKind::Thrust { force: value, .. } => {
                 format!(" = {}", formula.of(value))
             }
+            LoadKind::Inertia => String::new(),
         };
-        format!("  load      {}{value}: {}\n", load.name, plain(load_doc(model, &load.kind)))
+        format!("  load      {}{value}: {}\n", load.name, plain(load_doc(model, load)))
     });
     joints.chain(unknowns).chain(loads).chain(["\n".to_owned()]).collect()
 }

@@ -178,7 +178,7 @@ impl<S> Formula<'_, S> {
             Symbol::Drive(drive) => self.model.drive(drive).name.text.clone(),
             Symbol::Load(load, part) => {
                 let load = self.model.load(load);
-                let value = load.kind.values()[usize::from(part)].0;
+                let value = load.kind.value_name(part);
                 format!("{}{}{value}", load.name, if value.is_empty() { "" } else { "." })
             }
             Symbol::Coordinate(link, coordinate) => {

@@ -328,6 +328,11 @@ pub enum Failure<T = NodeId> {
         /// What acts between them.
         of: String,
     },
+    /// A vector vanishes whose direction is needed.
+    NoDirection {
+        /// Which one, as `the velocity of C`.
+        of: String,
+    },
     /// A parameter is out of its range.
     Parameter {
         /// What is wrong with it, as `crank: |A0 A| must be positive`.
@@ -354,6 +359,7 @@ impl<T: Copy> Failure<T> {
             }
             Self::DeadCentre { group, pivot } => Failure::DeadCentre { group: group.clone(), pivot: pivot.clone() },
             Self::CoincidentEnds { of } => Failure::CoincidentEnds { of: of.clone() },
+            Self::NoDirection { of } => Failure::NoDirection { of: of.clone() },
             Self::Parameter { requirement } => Failure::Parameter { requirement: requirement.clone() },
         }
     }

@@ -432,6 +432,8 @@ pub struct Load {
     pub name: Name,
     /// What it is.
     pub kind: LoadKind,
+    /// Of inertia the links whose it is.
+    pub links: Vec<LinkId>,
 }
 
 impl Load {
@@ -491,6 +493,8 @@ pub enum LoadKind {
         free: NodeId,
         /// The tension at that length.
         preload: NodeId,
+        /// Force per rate of the length, if it damps.
+        damping: Option<NodeId>,
     },
     /// A torsion spring between two links: on the second `−rate (angle − free)`, with its angle from the first.
     Torsion {
@@ -504,7 +508,11 @@ pub enum LoadKind {
         free: NodeId,
         /// Which turn is meant, if that is said: near to which angle the second link stands while the drives are zero.
         near: Option<NodeId>,
+        /// Moment per rate of the angle, if it damps.
+        damping: Option<NodeId>,
     },
+    /// D'Alembert's forces and couples of links that have mass.
+    Inertia,
 }
 
 /// What is wanted.
@@ -527,6 +535,10 @@ pub struct Scene {
 pub enum Method {
     /// Where everything is.
     Position,
+    /// How fast everything moves.
+    Velocity,
+    /// How that changes.
+    Acceleration,
     /// All loads at once.
     Equilibrium,
     /// Every load by itself.
@@ -535,6 +547,14 @@ pub enum Method {
     VirtualWork,
     /// All of these against the general solution.
     Verify,
+}
+
+impl Method {
+    /// Whether its results depend on loads.
+    #[must_use]
+    pub fn has_loads(self) -> bool {
+        !matches!(self, Self::Position | Self::Velocity | Self::Acceleration)
+    }
 }
 
 /// A wanted result.
@@ -554,6 +574,30 @@ pub enum Wanted {
     Along(JointId, LinkId),
     /// The couple of a joint about a point.
     About(JointId, End),
+    /// The velocity or the acceleration of a joint or a point along and across the x axis of a link, or along and across its path.
+    Resolved(Spot, Along),
+    /// D'Alembert's force and couple of a link.
+    Inertia(LinkId),
+    /// Where a single force is equivalent to them.
+    Offset(LinkId),
+}
+
+/// What moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spot {
+    /// A joint.
+    Joint(JointId),
+    /// A point of a link.
+    Point(End),
+}
+
+/// Along what a vector is resolved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Along {
+    /// The x axis of a link.
+    Link(LinkId),
+    /// The path of the point.
+    Path,
 }
 
 impl Model {
@@ -635,6 +679,18 @@ impl Model {
             Wanted::Angle(id) => format!("{}_angle", link(id)?),
             Wanted::Along(id, along) => format!("{}_along_{}", joint(id)?, link(along)?),
             Wanted::About(id, end) => format!("{}_about_{}", joint(id)?, point(end)?),
+            Wanted::Resolved(spot, along) => {
+                let spot = match spot {
+                    Spot::Joint(id) => joint(id)?.text.clone(),
+                    Spot::Point(end) => point(end)?,
+                };
+                match along {
+                    Along::Link(id) => format!("{spot}_along_{}", link(id)?),
+                    Along::Path => format!("{spot}_along_path"),
+                }
+            }
+            Wanted::Inertia(id) => format!("{}_inertia", link(id)?),
+            Wanted::Offset(id) => format!("{}_offset", link(id)?),
         })
     }
 
@@ -691,6 +747,28 @@ impl Model {
             Some((.., distance)) => self.graph.expr(*distance),
             None => (self.local(End { link, point: b }) - self.local(End { link, point: a })).size(),
         }
+    }
+
+    /// Whether anything is asked for that depends on velocities.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.accelerates()
+            || self.scenes.iter().any(|scene| scene.method == Method::Velocity)
+            || self.loads.iter().any(|load| load.kind.depends_on_motion())
+    }
+
+    /// Whether the results of a scene depend on velocities.
+    #[must_use]
+    pub fn scene_moves(&self, scene: &Scene) -> bool {
+        let load = |load: &LoadId| self.loads.get(load.index()).is_some_and(|load| load.kind.depends_on_motion());
+        matches!(scene.method, Method::Velocity | Method::Acceleration) || scene.loads.iter().any(load)
+    }
+
+    /// Whether anything is asked for that depends on accelerations.
+    #[must_use]
+    pub fn accelerates(&self) -> bool {
+        self.scenes.iter().any(|scene| scene.method == Method::Acceleration)
+            || self.loads.iter().any(|load| matches!(load.kind, LoadKind::Inertia))
     }
 
     /// All links but the ground.

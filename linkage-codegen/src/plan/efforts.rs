@@ -3,6 +3,7 @@
 use super::balance::Balance;
 use super::framed::Framed;
 use super::placement::Placement;
+use super::posed::Posed;
 use super::velocities::Motion;
 use crate::equations::loads::Line;
 use crate::graph::{Expr, Vector};
@@ -76,7 +77,7 @@ impl<'m> Unit<'m> {
                 Self { acts: vec![Act::Force(at.link, placement.point(at), force)], spread: one }
             }
             UnknownKind::Thrust(ends) => {
-                let line = Line::between(placement, input.name(model), ends);
+                let line = Line::between(&Posed::at_rest(placement), input.name(model), ends);
                 let direction = line.direction();
                 let components = Vector::new(line.checked(direction.x), line.checked(direction.y));
                 let force = Framed { components, axes: placement.direction(GROUND) };

@@ -15,11 +15,14 @@ use super::balance::Balance;
 use super::framed::Framed;
 use super::pivots::Pivots;
 use super::placement::Placement;
+use super::rules::Rule;
+use super::heading;
+use crate::diagnostics::Sink;
 use crate::equations::loads::Action;
 use crate::graph::{Expr, Graph, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
-use crate::model::{End, Model, UnknownKind};
-use crate::topology::Input;
+use crate::model::{End, JointKind, Model, UnknownKind};
+use crate::topology::{Group, Input};
 
 /// The motion of a link: its rate of rotation, and the velocity of one of its places. Of accelerations the same with one dot more.
 #[derive(Clone, Copy, Debug)]
@@ -91,6 +94,24 @@ impl<'m, 'p> Motion<'m, 'p> {
         Self::new(placement, pivots, Purpose::Acceleration(velocities), String::new())
     }
 
+    /// The same, once all groups are solved, each by its rule.
+    #[must_use]
+    pub fn through(mut self, groups: &[Group], rules: &[&dyn Rule], sink: &Sink) -> Self {
+        let what = match self.purpose {
+            Purpose::Virtual(_) => "virtual velocities",
+            Purpose::Velocity => "velocities",
+            Purpose::Acceleration(_) => "accelerations",
+        };
+        for (index, (group, rule)) in groups.iter().zip(rules).enumerate() {
+            self.graph().begin_section(heading(self.model(), index, group, rule.class(), what));
+            // An error of a rule is the same in every scene: once is enough.
+            if let (Err(error), true) = (rule.follow(&mut self, group), sink.is_clean()) {
+                sink.report(error);
+            }
+        }
+        self
+    }
+
     /// The linkage.
     #[must_use]
     pub fn model(&self) -> &'m Model {
@@ -114,12 +135,12 @@ impl<'m, 'p> Motion<'m, 'p> {
         self.twists[link.index()].rate
     }
 
-    /// A link's rate of rotation if these are accelerations, which it bends towards the centre.
-    fn angular_velocity(&self, link: LinkId) -> Option<Expr<'m>> {
-        match self.purpose {
-            Purpose::Acceleration(velocities) => Some(velocities.rate(link)).filter(|rate| !rate.is_zero()),
-            Purpose::Virtual(_) | Purpose::Velocity => None,
-        }
+    /// `ω²` of a link, if these are accelerations and it turns.
+    fn angular_velocity_squared(&self, link: LinkId) -> Option<Expr<'m>> {
+        let Purpose::Acceleration(velocities) = self.purpose else { return None };
+        let omega = velocities.rate(link);
+        let name = &self.model().link(link).name;
+        (!omega.is_zero()).then(|| omega.squared().named(format!("omega2_{name}"), format!("ω² of {name}")))
     }
 
     /// The rate at which the coordinate of a drive or an unknown changes: of a virtual motion one or zero.
@@ -148,14 +169,25 @@ impl<'m, 'p> Motion<'m, 'p> {
         self.of_place(end.link, self.placement.point(end))
     }
 
+    /// The velocity of a joint: of its point, of a gear pair where the wheels touch, as a place of the link that keeps them apart.
+    #[must_use]
+    pub fn of_joint(&self, joint: JointId) -> Framed<'m> {
+        let data = self.model().joint(joint);
+        let JointKind::Gear(gear) = data.kind else { return self.of_point(data.place()) };
+        let (arm, placement) = (gear.arm[1], self.placement);
+        let [_, radius] = gear.rolling_radii(self.model());
+        let towards = placement.carried(arm.link, gear.centres(self.model()));
+        self.of_place(arm.link, placement.point(arm) - towards.scaled(radius))
+    }
+
     /// The velocity of a place along and across a link's direction: `v + ω r⊥`. Its acceleration is `a + α r⊥ − ω² r`.
     #[must_use]
     pub fn of_place(&self, link: LinkId, at: Vector<'m>) -> Framed<'m> {
         let twist = &self.twists[link.index()];
         let arm = at - twist.at;
         let turning = arm.perp().scaled(twist.rate);
-        let turning = match self.angular_velocity(link) {
-            Some(omega) => turning - arm.scaled(omega.squared()),
+        let turning = match self.angular_velocity_squared(link) {
+            Some(squared) => turning - arm.scaled(squared),
             None => turning,
         };
         let turning = Framed { components: turning, axes: self.placement.direction(link) };
@@ -227,7 +259,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     /// The acceleration by which a place of a link is drawn towards another one, times their distance: `ω² r`. None of a velocity.
     #[must_use]
     pub fn centripetal(&self, link: LinkId, distance: Expr<'m>) -> Expr<'m> {
-        self.angular_velocity(link).map_or_else(|| self.graph().zero(), |omega| omega.squared() * distance)
+        self.angular_velocity_squared(link).map_or_else(|| self.graph().zero(), |squared| squared * distance)
     }
 
     fn other(&self, joint: JointId, link: LinkId) -> LinkId {
@@ -239,6 +271,20 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn difference(&self, of: &Framed<'m>, from: &Framed<'m>) -> Framed<'m> {
         of.plus(&from.opposite(), self.placement.direction(GROUND))
+    }
+
+    /// What a link lacks of the velocity that it must have at a joint, as long as it does not turn or slide by itself.
+    #[must_use]
+    pub fn lacking(&self, joint: JointId, needed: &Framed<'m>, has: &Framed<'m>) -> Framed<'m> {
+        let gap = self.difference(needed, has);
+        let (letter, what) = match self.purpose {
+            Purpose::Virtual(_) => return gap,
+            Purpose::Velocity => ('v', "velocity"),
+            Purpose::Acceleration(_) => ('a', "acceleration"),
+        };
+        let joint = &self.model().joint(joint).name;
+        let meaning = format!("relative {what} at {joint} as long as its links do not turn or slide by themselves");
+        Framed { components: gap.components.named(&format!("d{letter}_{joint}"), &meaning), axes: gap.axes }
     }
 
     /// A velocity's part along a direction.

@@ -494,8 +494,8 @@ pub enum LoadKind {
         /// What is said of it.
         fields: Vec<SpringField>,
     },
-    /// A kind that is not carried out yet, by its keyword.
-    Planned(Name),
+    /// `inertia` or `inertia(rod, piston)`
+    Inertia(Option<Vec<Name>>),
 }
 
 /// `rate: 2N/mm` of a spring.
@@ -531,6 +531,8 @@ pub enum ResultItem {
     Along(End, Name),
     /// `S about rail.P`
     About(End, End),
+    /// `inertia(rod)` or `offset(rod)`
+    OfLink(Name, Name),
     /// A form that is not carried out yet.
     Planned {
         /// What it is about.

@@ -124,7 +124,7 @@ impl Rule for Prp {
             dyad.follow_rest(motion, leg, leg.link())?;
         }
         let carried = dyad.legs.each_ref().map(|leg| motion.of_point(leg.tip));
-        let gap = motion.difference(&carried[1], &carried[0]);
+        let gap = motion.lacking(dyad.inner, &carried[1], &carried[0]);
         let across = -motion.part(&gap, motion.placement.slide_direction(second.outer).perp());
         let speed = if across.is_zero() {
             across

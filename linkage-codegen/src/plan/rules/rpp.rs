@@ -127,7 +127,7 @@ impl Rule for Rpp {
         dyad.follow_rest(motion, slider, slider.link())?;
         motion.found(pinned.tip.link, motion.carried(dyad.inner, pinned.tip.link));
         dyad.follow_rest(motion, pinned, pinned.tip.link)?;
-        let gap = motion.difference(&pin, &motion.of_point(pinned.near));
+        let gap = motion.lacking(pinned.outer, &pin, &motion.of_point(pinned.near));
         let across = -motion.part(&gap, motion.placement.slide_direction(dyad.inner).perp());
         let speed = if across.is_zero() {
             across

@@ -21,7 +21,7 @@ use super::dyad::{Dyad, Leg, dyad, towards_unit};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
-use crate::model::ids::JointId;
+use crate::model::ids::{GROUND, JointId};
 use crate::model::{Model, Side};
 use crate::plan::assembly::{Assembly, DyadPivot};
 use crate::plan::balance::Balance;
@@ -98,7 +98,7 @@ impl Rule for Rpr {
         super::slide::guide(balance, dyad.inner, leg.link(), acting, pin);
         let guided = balance.reaction(dyad.inner).force;
         let guided = if leg.link() == second.link() { guided } else { guided.opposite() };
-        let ground = balance.placement.direction(crate::model::ids::GROUND);
+        let ground = balance.placement.direction(GROUND);
         balance.pin(leg.outer, leg.link(), loads.plus(&guided, ground).opposite());
         // The guide has put its part on the other link.
         let held = balance.total(other.link());
@@ -112,9 +112,9 @@ impl Rule for Rpr {
         let e = motion.placement.slide_direction(dyad.inner);
         // If the bodies that slide along each other did not turn; what drives within the legs turn them by is taken off.
         let own = turns_within(&dyad, motion)?;
-        let gap = motion.difference(&place_on(&dyad, motion, second), &place_on(&dyad, motion, first));
-        let beyond = motion.coriolis(dyad.inner, second.tip.link);
-        let gap = motion.difference(&gap, &beyond);
+        let ground = motion.placement.direction(GROUND);
+        let carried = place_on(&dyad, motion, first).plus(&motion.coriolis(dyad.inner, second.tip.link), ground);
+        let gap = motion.lacking(dyad.inner, &place_on(&dyad, motion, second), &carried);
         let across = motion.part(&gap, e.perp());
         let rate = if across.is_zero() { across } else { across / reach(&dyad, motion.placement, motion.pivots) };
         let [one, other] = [first, second].map(|leg| dyad.link_name(leg));

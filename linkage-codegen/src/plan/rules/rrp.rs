@@ -107,7 +107,7 @@ impl Rule for Rrp {
         motion.found(slider_leg.link(), motion.carried(slide, slider_leg.link()));
         dyad.follow_rest(motion, slider_leg, slider_leg.link())?;
         dyad.turn(motion, rod_leg, motion.graph().zero())?;
-        let gap = motion.difference(&motion.of_point(slider_leg.tip), &motion.of_point(rod_leg.tip));
+        let gap = motion.lacking(dyad.inner, &motion.of_point(slider_leg.tip), &motion.of_point(rod_leg.tip));
         let cosine = motion.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
         let rod = dyad.link_name(rod_leg);
         let across = motion.part(&gap, e.perp());

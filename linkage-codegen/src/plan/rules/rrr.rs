@@ -152,7 +152,7 @@ impl Rule for Rrr {
         // u₁.
         dyad.legs.iter().try_for_each(|leg| dyad.turn(motion, leg, motion.graph().zero()))?;
         let [first, second] = dyad.legs.each_ref().map(|leg| motion.of_point(leg.tip));
-        let gap = motion.difference(&second, &first);
+        let gap = motion.lacking(dyad.inner, &second, &first);
         let sine = motion.pivots.dividing_sine(u1, u2, &dyad.pivot_name(), &dyad.group_name());
         let rates = [(u2, &dyad.legs[0]), (u1, &dyad.legs[1])].map(|(along, leg)| {
             let part = motion.part(&gap, along);

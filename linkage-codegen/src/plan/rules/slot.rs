@@ -97,7 +97,7 @@ impl<'m> Parts<'m> {
         let [own, other] = [self.link, self.far(self.slot)]
             .map(|link| motion.of_place(link, motion.placement.slide_point(self.slot, link)));
         let beyond = motion.coriolis(self.slot, self.link);
-        motion.difference(&other.plus(&beyond, motion.placement.direction(GROUND)), &own)
+        motion.lacking(self.slot, &other.plus(&beyond, motion.placement.direction(GROUND)), &own)
     }
 
     /// The lever arm of the slot's normal about the pin, as a divisor.
