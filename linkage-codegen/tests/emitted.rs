@@ -82,8 +82,12 @@ fn four_bar() {
     let force: Vector2<f64> = polar(50.0, 230f64.to_radians());
     let loads = four_bar::Loads { F13: force };
     for theta in angles() {
-        let arguments =
-            Arguments { drives: vec![theta], loads: vec![[force.x, force.y], [0.0; 2]], params: Vec::new(), ..Arguments::default() };
+        let arguments = Arguments {
+            drives: vec![theta],
+            loads: vec![[force.x, force.y], [0.0; 2]],
+            params: Vec::new(),
+            ..Arguments::default()
+        };
         let pose = four_bar::Pose::at(theta);
         let from = |scene: fn(&four_bar::Pose, &four_bar::Loads) -> Result<four_bar::Statics, Error>| {
             pose.and_then(|pose| scene(&pose, &loads))
@@ -117,7 +121,12 @@ fn slider_crank() {
     let interpreted = Interpreted::of("slider_crank");
     let loads = engine::Loads { gas: Vector2::new(12.5, -4000.0) };
     for theta in angles() {
-        let arguments = Arguments { drives: vec![theta], loads: vec![[12.5, -4000.0], [0.0; 2]], params: Vec::new(), ..Arguments::default() };
+        let arguments = Arguments {
+            drives: vec![theta],
+            loads: vec![[12.5, -4000.0], [0.0; 2]],
+            params: Vec::new(),
+            ..Arguments::default()
+        };
         let pose = engine::Pose::at(theta);
         interpreted.check(
             "hold",
@@ -177,7 +186,8 @@ fn three_loads() {
     let [f12, f13, f14] = given.map(Vector2::from);
     let loads = three_loads::Loads { F12: f12, F13: f13, F14: f14 };
     for theta in angles() {
-        let arguments = Arguments { drives: vec![theta], loads: given.to_vec(), params: Vec::new(), ..Arguments::default() };
+        let arguments =
+            Arguments { drives: vec![theta], loads: given.to_vec(), params: Vec::new(), ..Arguments::default() };
         let pose = three_loads::Pose::at(theta);
         interpreted.check(
             "parts",

@@ -327,7 +327,12 @@ fn every_rule_satisfies_the_equations_of_its_group() {
         for drive in drives {
             // A second drive stays where the linkage closes.
             let drives = if linkage.model.drives.len() == 2 { vec![*drive, second] } else { vec![*drive] };
-            let arguments = Arguments { drives, loads: vec![[0.0; 2]; linkage.model.loads.len()], params: Vec::new(), ..Arguments::default() };
+            let arguments = Arguments {
+                drives,
+                loads: vec![[0.0; 2]; linkage.model.loads.len()],
+                params: Vec::new(),
+                ..Arguments::default()
+            };
             check(&linkage, &arguments, &text);
             check_motion(&linkage, &arguments, &text);
         }

@@ -166,9 +166,10 @@ impl Comparison<'_> {
         for (link, [x, y, angle]) in self.answers.pose.iter() {
             let name = self.declaration.links.find(link)?;
             let missing = || format!("the pose has no `{link}`");
-            let at = own.fields().iter().find(|(field, value)| {
-                field.starts_with(name) && field.ends_with(ORIGIN) && value.vector().is_some()
-            });
+            let at = own
+                .fields()
+                .iter()
+                .find(|(field, value)| field.starts_with(name) && field.ends_with(ORIGIN) && value.vector().is_some());
             let at = at.and_then(|(_, value)| value.vector()).ok_or_else(missing)?;
             let turn = own.field(&format!("{name}_angle")).and_then(Value::number).ok_or_else(missing)?;
             let off = difference(at[0], x)?.hypot(difference(at[1], y)?);
@@ -179,18 +180,13 @@ impl Comparison<'_> {
     }
 
     /// Velocities or accelerations, measured by the largest of them: what turns by what that is over the length of the linkage.
-    fn motion(
-        &self,
-        own: &Value,
-        answers: &Ordered<LinkMotion>,
-        scene: &str,
-        worst: &mut Worst,
-    ) -> Result<(), String> {
+    fn motion(&self, own: &Value, answers: &Ordered<LinkMotion>, scene: &str, worst: &mut Worst) -> Result<(), String> {
         let size = |[x, y]: &[String; 2]| Ok::<f64, String>(nearest(x)?.hypot(nearest(y)?));
         let mut scale: f64 = 0.0;
         for (_, answer) in answers.iter() {
             let centroid = answer.centroid.as_ref().map_or(Ok(0.0), size)?;
-            scale = scale.max(size(&answer.origin)?).max(centroid).max(nearest(&answer.angle)?.abs() * self.scales.length);
+            scale =
+                scale.max(size(&answer.origin)?).max(centroid).max(nearest(&answer.angle)?.abs() * self.scales.length);
         }
         let limits = [self.scales.motion * scale; 2];
         for (link, answer) in answers.iter() {

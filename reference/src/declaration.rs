@@ -29,8 +29,6 @@ pub(crate) const WEIGHT: &str = "W";
 pub(crate) const INERTIA: &str = "I";
 /// The point at the centre of mass of each link.
 pub(crate) const CENTROID: &str = "centroid";
-/// The scenes of every file.
-pub(crate) const SCENES: [&str; 4] = [PLACES, ALL, PARTS, WORK];
 
 /// The names of one kind of item: in the file, and declared.
 #[derive(Debug, Default)]

@@ -32,16 +32,13 @@ impl fmt::Display for Verdict {
             Self::Refused(how) => write!(f, "passed         {how}"),
             Self::Failed(why) => write!(f, "FAILED         {why}"),
             Self::Unsupported(what) => write!(f, "not supported  {what}"),
-            Self::NotYetRun(why) => write!(f, "not yet run    {why}"),
         }
     }
 }
 
 /// The verdict on a file whose declaration the compiler refuses: right where there is no answer.
 pub(crate) fn of_refusal(file: &File, refused: &Refused) -> Verdict {
-    if refused.is_unsupported() && needs_motion(file) {
-        Verdict::NotYetRun(refused.summary())
-    } else if refused.is_unsupported() {
+    if refused.is_unsupported() {
         Verdict::Unsupported(refused.summary())
     } else if file.expect.is_some() {
         Verdict::Refused(format!("refused: {}", refused.summary()))
@@ -60,11 +57,7 @@ pub(crate) fn of_results(file: &File, declaration: &Declaration, printed: &Print
     } else {
         positions(file, declaration, printed).map(|worst| {
             let text = format!("{:9.2e} of the limit: {}", worst.ratio, worst.what);
-            if worst.ratio > 1.0 {
-                Verdict::Failed(text)
-            } else {
-                Verdict::Passed(worst)
-            }
+            if worst.ratio > 1.0 { Verdict::Failed(text) } else { Verdict::Passed(worst) }
         })
     };
     found.unwrap_or_else(Verdict::Failed)

@@ -32,9 +32,11 @@ pub fn module(mut model: Model) -> TokenStream {
     let given: Vec<Vec<TokenStream>> = model.scenes.iter().map(|scene| given_arguments(model, scene)).collect();
     let at = arguments(bound, &drives, &[]);
     let accessors = accessors(model);
-    let from_pose = names.iter().zip(&types).zip(&given).map(|((name, ty), given)| {
-        quote!(pub fn #name(&self #(, #given)*) -> Result<#ty, Error> { loop {} })
-    });
+    let from_pose = names
+        .iter()
+        .zip(&types)
+        .zip(&given)
+        .map(|((name, ty), given)| quote!(pub fn #name(&self #(, #given)*) -> Result<#ty, Error> { loop {} }));
     let direct = direct.iter().zip(&types).zip(&given).map(|((name, ty), given)| {
         let arguments = arguments(prepared.clone(), &drives, given);
         quote!(pub fn #name(#arguments) -> Result<#ty, Error> { loop {} })

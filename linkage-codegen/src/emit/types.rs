@@ -81,7 +81,11 @@ pub(super) fn motion(model: &Model) -> TokenStream {
             Order::Rate => "Rate",
             Order::Acceleration => "Acceleration",
         };
-        let doc = format!(" {what} of the drive `{}`, {}.", drive.name, Drive::kind_of(order, drive.turns).unit(&model.units));
+        let doc = format!(
+            " {what} of the drive `{}`, {}.",
+            drive.name,
+            Drive::kind_of(order, drive.turns).unit(&model.units)
+        );
         quote!(#[doc = #doc] pub #name: #scalar)
     });
     let fields: Vec<TokenStream> = fields.collect();

@@ -123,7 +123,9 @@ fn inertia_of(scope: Scope<'_>, listed: Option<&[ast::Name]>, massless: bool, si
         let link = LinkId::new(link);
         let Some(body) = model.links.get(link.index()) else { continue };
         if links.contains(&link) {
-            sink.report(Diagnostic::new(name.place(), format!("`{name}` is listed twice")).help("leave one of them out"));
+            sink.report(
+                Diagnostic::new(name.place(), format!("`{name}` is listed twice")).help("leave one of them out"),
+            );
         } else if link == GROUND {
             sink.report(
                 Diagnostic::new(name.place(), "the ground does not move: it has no inertia").help("leave it out"),
@@ -237,7 +239,12 @@ fn spring_values(
 ) -> Result<([NodeId; 3], Option<NodeId>), Diagnostic> {
     let turns = matches!(given.kind, ast::LoadKind::Torsion { .. });
     let known: &[(&str, Kind)] = if turns {
-        &[("rate", Kind::TorsionStiffness), ("free", Kind::Angle), ("near", Kind::Angle), ("damping", Kind::TorsionDamping)]
+        &[
+            ("rate", Kind::TorsionStiffness),
+            ("free", Kind::Angle),
+            ("near", Kind::Angle),
+            ("damping", Kind::TorsionDamping),
+        ]
     } else {
         &[("rate", Kind::Stiffness), ("free", Kind::Length), ("preload", Kind::Force), ("damping", Kind::Damping)]
     };

@@ -302,7 +302,9 @@ fn result(
             if link.text == "path" && !link_called_so {
                 if method == Method::Velocity {
                     let problem = "a velocity is along the path: across it there is nothing";
-                    return Err(Diagnostic::new(link.place(), problem).help("resolve it along a link, or ask for the vector"));
+                    return Err(
+                        Diagnostic::new(link.place(), problem).help("resolve it along a link, or ask for the vector")
+                    );
                 }
                 return Ok(spot.map(|spot| Wanted::Resolved(spot, Along::Path)));
             }

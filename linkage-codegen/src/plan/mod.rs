@@ -12,8 +12,8 @@ mod linear;
 mod output;
 mod pivots;
 mod placement;
-mod reactions;
 mod posed;
+mod reactions;
 pub mod rules;
 pub(crate) mod scenes;
 mod velocities;
@@ -152,9 +152,10 @@ impl Plan {
             let motion = Motion::velocities(&assembly.placement, &assembly.pivots);
             motion.through(&topology.motion, &motion_rules, sink)
         });
-        let accelerations = velocities.as_ref().filter(|_| model.accelerates()).map(|velocities| {
-            Motion::accelerations(velocities).through(&topology.motion, &motion_rules, sink)
-        });
+        let accelerations = velocities
+            .as_ref()
+            .filter(|_| model.accelerates())
+            .map(|velocities| Motion::accelerations(velocities).through(&topology.motion, &motion_rules, sink));
         let posed = Posed {
             placement: &assembly.placement,
             velocities: velocities.as_ref(),

@@ -1,8 +1,8 @@
 //! The results of every scene, by its method.
 
-use super::rules::{Rule, RuleResult};
 use super::framed::Framed;
 use super::posed::Posed;
+use super::rules::{Rule, RuleResult};
 use super::{Assembly, Balance, Comparison, Meaning, Motion, Output, PlacedLink, heading, joint_name};
 use crate::diagnostics::Sink;
 use crate::equations::joints::Component;
@@ -11,9 +11,7 @@ use crate::equations::{Exerted, Source, System};
 use crate::graph::{Expr, Failure, Order, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, LoadId, UnknownId};
 use crate::model::units::Kind;
-use crate::model::{
-    Along, Drive, End, JointKind, LoadKind, Method, Model, Scene, Spot, UnknownKind, Wanted,
-};
+use crate::model::{Along, Drive, End, JointKind, LoadKind, Method, Model, Scene, Spot, UnknownKind, Wanted};
 use crate::plan::output::Field;
 use crate::topology::Group;
 
@@ -344,7 +342,11 @@ impl<'m> Forces<'_, 'm> {
                 Output::vector(acceleration, Meaning::Acceleration),
             ),
             field("force", format!("−m a, {force_unit}, ground axes."), Output::vector(force, Meaning::Force)),
-            field("couple", format!("−I α, {moment_unit}, counter-clockwise."), Output::scalar(couple, Meaning::Moment)),
+            field(
+                "couple",
+                format!("−I α, {moment_unit}, counter-clockwise."),
+                Output::scalar(couple, Meaning::Moment),
+            ),
         ];
         (format!("Inertia of `{name}` by D'Alembert."), Output::Record(fields))
     }

@@ -13,10 +13,10 @@ use std::collections::BTreeMap;
 
 use super::balance::Balance;
 use super::framed::Framed;
+use super::heading;
 use super::pivots::Pivots;
 use super::placement::Placement;
 use super::rules::Rule;
-use super::heading;
 use crate::diagnostics::Sink;
 use crate::equations::loads::Action;
 use crate::graph::{Expr, Graph, Vector};

@@ -6,8 +6,8 @@ use syn::token::{Brace, Paren};
 use syn::{Error, Result, Token};
 
 use super::ast::{
-    Assemble, Distances, Drive, DriveMotion, Effort, End, Gear, Item, Joint, Link, Mass, Name, Param, PointPlace, PointRef, Smooth,
-    Unknown, Value, words,
+    Assemble, Distances, Drive, DriveMotion, Effort, End, Gear, Item, Joint, Link, Mass, Name, Param, PointPlace,
+    PointRef, Smooth, Unknown, Value, words,
 };
 use super::quantity::{at_pair, direction, value, vector};
 use super::tokens::{at_word, between, comma_list, eat_word, expect_word, name, peek_word, place_of, take};

@@ -86,7 +86,11 @@ fn result(input: ParseStream<'_>) -> Result<ResultItem> {
         let content;
         let _ = syn::parenthesized!(content in input);
         let link = name(&content)?;
-        return if content.is_empty() { Ok(ResultItem::OfLink(item.link, link)) } else { Err(content.error("expected `)`")) };
+        return if content.is_empty() {
+            Ok(ResultItem::OfLink(item.link, link))
+        } else {
+            Err(content.error("expected `)`"))
+        };
     }
     if eat_word(input, "along") {
         return Ok(ResultItem::Along(item, name(input)?));

@@ -817,7 +817,12 @@ impl Builder {
         text.push_str(
             "scene all: equilibrium;\nscene parts: superposition;\nscene work: virtual_work;\nscene whole: position;\n",
         );
-        let arguments = Arguments { drives: self.drives.iter().map(|(_, at)| *at).collect(), loads, params, ..Arguments::default() };
+        let arguments = Arguments {
+            drives: self.drives.iter().map(|(_, at)| *at).collect(),
+            loads,
+            params,
+            ..Arguments::default()
+        };
         Sample { text, arguments, places: self.places }
     }
 }

@@ -11,9 +11,8 @@ pub(super) fn actions<'m>(
     preload: Expr<'m>,
     damped: Option<Expr<'m>>,
 ) -> Vec<Action> {
-    let pull = |tension: Expr<'m>, equation: &str| {
-        line.along(-tension.named(format!("{}_tension", line.name), equation))
-    };
+    let pull =
+        |tension: Expr<'m>, equation: &str| line.along(-tension.named(format!("{}_tension", line.name), equation));
     // In proportion to the length, the force is the rate times the vector between the points, and needs no direction: it is exact, and
     // zero where they coincide.
     if (preload - rate * free).is_zero() {

@@ -122,7 +122,8 @@ impl Rule for Rpr {
         let rate = motion.named_rate(rate, &one, &how);
         if [first, second].into_iter().all(Leg::is_single) {
             // Turning, the slide's places on the two links move apart along it.
-            let arm = |leg: &Leg| motion.placement.slide_point(dyad.inner, leg.link()) - motion.placement.point(leg.near);
+            let arm =
+                |leg: &Leg| motion.placement.slide_point(dyad.inner, leg.link()) - motion.placement.point(leg.near);
             let apart = (arm(second) - arm(first)).perp().dot(motion.placement.slide_along(dyad.inner));
             let sliding = motion.part(&gap, e) + rate * apart;
             motion.records(dyad.inner, second.link(), sliding);
