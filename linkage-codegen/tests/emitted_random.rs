@@ -35,6 +35,7 @@ fn cases() -> Vec<Case> {
             sliders: true,
             joints: seed % 4 == 1,
             unknown_anywhere: seed.is_multiple_of(2),
+            moving: false,
             params: seed % 5 == 4,
             scalar,
         };
@@ -66,7 +67,7 @@ fn module(case: &Case) -> String {
             }
             LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
                 let place = |name| load.kind.values().iter().position(|(other, _)| *other == name).expect("a value");
-                let fields = load.kind.given(model).map(|name| format!("{name}: {}", number(values[place(name)])));
+                let fields = load.kind.given(model).map(|name| format!("{name}: {}", number(values[place(name) % 2])));
                 format!("sample::{} {{ {} }}", load.type_name(), fields.collect::<Vec<_>>().join(", "))
             }
         };

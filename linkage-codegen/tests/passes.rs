@@ -31,6 +31,7 @@ fn passes_keep_the_results() {
             sliders: true,
             joints: false,
             unknown_anywhere: false,
+            moving: false,
             params: false,
             scalar: "f64",
         };
@@ -69,8 +70,15 @@ fn passes_keep_the_results() {
 #[test]
 fn a_scene_from_a_pose_goes_on_where_the_pose_ends() {
     for seed in 0..40 {
-        let kind =
-            Kind { dyads: 2, sliders: true, joints: true, unknown_anywhere: false, params: false, scalar: "f64" };
+        let kind = Kind {
+            dyads: 2,
+            sliders: true,
+            joints: true,
+            unknown_anywhere: false,
+            moving: false,
+            params: false,
+            scalar: "f64",
+        };
         let sample = sample(seed, kind);
         let linkage = compile(&sample.text);
         for (index, functions) in linkage.functions.scenes.iter().enumerate() {
