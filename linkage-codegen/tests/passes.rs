@@ -106,8 +106,15 @@ fn a_scene_from_a_pose_goes_on_where_the_pose_ends() {
 fn fewer_checks_find_the_same() {
     let (mut refused, mut checks) = (0, [0, 0]);
     for seed in 0..20 {
-        let kind =
-            Kind { dyads: 2, sliders: true, joints: true, unknown_anywhere: false, params: false, scalar: "f64" };
+        let kind = Kind {
+            dyads: 2,
+            sliders: true,
+            joints: true,
+            unknown_anywhere: false,
+            moving: true,
+            params: false,
+            scalar: "f64",
+        };
         let sample = sample(seed, kind);
         let linkage = compile(&sample.text);
         let graph = &linkage.model.graph;

@@ -9,7 +9,7 @@ use support::numbers::Extended;
 use support::{Arguments, Number, compile, scene};
 
 /// A linkage for each class of groups, with the class named, drives at which it closes, and how the rule is used.
-const CASES: [(&str, &[f64], &str); 35] = [
+const CASES: [(&str, &[f64], &str); 40] = [
     // Motion and forces of a crank, its arrow either way, with an inclined dyad.
     (
         "link on a pin",
@@ -311,6 +311,49 @@ const CASES: [(&str, &[f64], &str); 35] = [
          link ram { C: (0, 0), T: (-0.2m, -0.06m) } revolute O: ground -> crank; revolute Q: ground -> lever; slot S: lever.Q -> crank.A along 0deg of lever;
          revolute B: lever -> rod; revolute C: rod -> ram; prismatic R: ground.R -> ram.C along 0deg; drive q: O; unknown E: torque(crank -> rod);
          assemble S: ahead(Q); assemble C: behind(B); load F: force(ram.T) = (-30N, 4N); load M: moment(crank) = 2N*m;",
+    ),
+    // An oscillating block whose rod is bent by a drive, and one whose rod is lengthened.
+    (
+        "RPR dyad",
+        &[0.4, 2.0],
+        "ground { O: (0, 0), C: (2m, -0.3m) } link crank { O -> A: 0.6m } link rod { A: (0.1m, 0.2m), E: (0.5m, 0.1m) } link tip { E: (0, 0.1m), S: (0.3m, 0.1m), P: (1m, 1m) }
+         link block { C: (0.2m, 0.1m), S: (-0.1m, 0.3m), P: (0.5m, 0) } revolute O: ground -> crank; revolute A: rod -> crank; revolute C: ground -> block;
+         revolute E: tip -> rod; prismatic S: block -> tip along 25deg of tip, angle 40deg; drive q: O; drive r: E; assemble S: behind(C);
+         load F: force(tip.P) = (3N, -2N); load H: force(block.P) in rod = (1N, 4N);",
+    ),
+    (
+        "RPR dyad",
+        &[0.4, 2.0],
+        "ground { O: (0, 0), C: (2m, -0.3m) } link crank { O -> A: 0.6m } link rod { A: (0.1m, 0.2m), E: (0.5m, 0.1m) } link tip { E: (0, 0.1m), S: (0.3m, 0.1m), P: (1m, 1m) }
+         link block { C: (0.2m, 0.1m), S: (-0.1m, 0.3m), P: (0.5m, 0) } revolute O: ground -> crank; revolute A: rod -> crank; revolute C: ground -> block;
+         prismatic E: tip -> rod along 70deg of rod, angle 20deg; prismatic S: block -> tip along 25deg of tip, angle 40deg; drive q: O; drive r: E; assemble S: behind(C);
+         load F: force(tip.P) = (3N, -2N); load H: force(block.P) in rod = (1N, 4N);",
+    ),
+    // Two sliders, one of them bent by a drive.
+    (
+        "PRP dyad",
+        &[0.4, 1.0],
+        "ground { O: (0, 0) } link crank { O -> G: 0.5m } link one { E: (0.1m, 0.2m), G: (0.4m, 0.3m) } link mid { E: (0, 0.1m), B: (0.3m, 0.2m), P: (1m, 0) }
+         link two { B: (0.3m, -0.2m), H: (0.2m, 0.3m), P: (0.3m, 1m) } revolute O: ground -> crank; revolute E: one -> mid; revolute B: two -> mid;
+         prismatic G: one -> crank along 80deg of crank, angle 15deg; prismatic H: ground.O -> two along 15deg of two, angle -35deg;
+         drive q: O; drive r: E; load F: force(mid.P) = (3N, -2N); load K: force(two.P) in crank = (1N, 4N);",
+    ),
+    // A slider on a slider, each of them bent by a drive.
+    (
+        "RPP dyad",
+        &[0.4, 1.0],
+        "ground { O: (0, 0), H: (1m, 1m) } link crank { O -> A: 0.5m } link one { A: (0.1m, 0.2m), E: (0.4m, 0.3m) } link mid { E: (0, 0.1m), S: (0.3m, 0.2m), P: (1m, 0) }
+         link two { S: (0.3m, -0.2m), H: (0.2m, 0.3m), P: (0.3m, 1m) } revolute O: ground -> crank; revolute A: crank -> one; revolute E: one -> mid;
+         prismatic S: mid -> two along 80deg of mid, angle 15deg; prismatic H: crank.A -> two along 15deg of two, angle -35deg;
+         drive q: O; drive r: E; load F: force(mid.P) = (3N, -2N); load K: force(two.P) in crank = (1N, 4N);",
+    ),
+    (
+        "RPP dyad",
+        &[0.4, 1.0],
+        "ground { O: (0, 0) } link crank { O -> A: 0.5m, H: (0.2m, 0.7m) } link one { A: (0.1m, 0.2m), S: (0.4m, 0.3m), P: (1m, 0) } link mid { E: (0, 0.1m), S: (0.3m, 0.2m) }
+         link two { E: (0.3m, -0.2m), H: (0.2m, 0.3m), P: (0.3m, 1m) } revolute O: ground -> crank; revolute A: crank -> one; revolute E: two -> mid;
+         prismatic S: one -> mid along 80deg of one, angle 15deg; prismatic H: crank -> two along 15deg of two, angle -35deg;
+         drive q: O; drive r: E; load F: force(one.P) = (3N, -2N); load K: force(two.P) in crank = (1N, 4N);",
     ),
 ];
 

@@ -35,7 +35,7 @@ use crate::equations::System;
 use crate::graph::{Coordinate, Expr, NodeId, Op, Order, Symbol};
 use crate::model::ids::{DriveId, JointId, LinkId, ParamId};
 use crate::model::units::Kind;
-use crate::model::{End, Model, Pair};
+use crate::model::{Along, End, Model, Pair, Scene, Wanted};
 use crate::topology::{Group, Input, Topology};
 
 /// The solution of a linkage.
@@ -340,7 +340,13 @@ fn check_possible(model: &Model, sink: &Sink) {
             .note("the unknown does no work on the motion that the loads drive, whatever the pose")
             .help("let it act on a coordinate that changes when the drive moves"),
             Failure::NoDirection { of } => {
-                Diagnostic::new(model.name.place(), format!("{of} vanishes at every pose: it has no direction"))
+                let asks = |scene: &&Scene| {
+                    let directed =
+                        |wanted: &Wanted| matches!(wanted, Wanted::Offset(_) | Wanted::Resolved(_, Along::Path));
+                    scene.results.iter().any(directed)
+                };
+                let place = model.scenes.iter().find(asks).map_or(model.name.place(), |scene| scene.name.place());
+                Diagnostic::new(place, format!("{of} vanishes at every pose: it has no direction"))
                     .help("leave out the result that asks for it")
             }
             Failure::CoincidentEnds { of } => {

@@ -143,17 +143,10 @@ impl<'m> Moved<'_, 'm> {
         }
     }
 
-    fn framed(&self, motion: &Motion<'m, '_>, spot: Spot) -> Framed<'m> {
-        match spot {
-            Spot::Joint(joint) => motion.of_joint(joint),
-            Spot::Point(end) => motion.of_point(end),
-        }
-    }
-
     fn vector(&self, spot: Spot) -> (String, Output) {
         let (what, letter, unit, meaning) = self.words();
         let (of, name) = self.of(spot);
-        let vector = self.framed(self.motion, spot).ground();
+        let vector = of_spot(self.motion, spot).ground();
         let vector = vector.named(&format!("{letter}_{name}"), &format!("{} of {name}", what.to_lowercase()));
         (format!("{what} of {of}, {unit}, ground axes."), Output::vector(vector, meaning))
     }
@@ -171,7 +164,7 @@ impl<'m> Moved<'_, 'm> {
     fn along_link(&self, spot: Spot, link: LinkId) -> (String, Output) {
         let (what, _, unit, meaning) = self.words();
         let (of, _) = self.of(spot);
-        let resolved = self.framed(self.motion, spot).along(self.motion.placement.frame(link));
+        let resolved = of_spot(self.motion, spot).along(self.motion.placement.frame(link));
         let name = &self.model.link(link).name;
         let field = |part: &str, how: &str, value| Field {
             name: part.to_owned(),
@@ -188,7 +181,7 @@ impl<'m> Moved<'_, 'm> {
         let (of, name) = self.of(spot);
         let graph = &self.model.graph;
         let Some(velocities) = self.velocities else { return (String::new(), Output::Record(Vec::new())) };
-        let velocity = self.framed(velocities, spot).ground();
+        let velocity = of_spot(velocities, spot).ground();
         let velocity = velocity.named(&format!("v_{name}"), &format!("velocity of {name}"));
         let direction = graph.unit(velocity).named_direction(&format!("path_{name}"), &format!("v_{name}/|v_{name}|"));
         let shown = match spot {
@@ -198,7 +191,7 @@ impl<'m> Moved<'_, 'm> {
         let failure = Failure::NoDirection { of: format!("the velocity of {shown}") };
         let (speed, rounding) = (direction.dot(velocity), rounding_of(velocity));
         let checked = |value: Expr<'m>| value.require_above(speed, rounding, failure.clone());
-        let acceleration = self.framed(self.motion, spot).ground().resolved_along(direction);
+        let acceleration = of_spot(self.motion, spot).ground().resolved_along(direction);
         let field = |part: &str, doc: &str, value| Field {
             name: part.to_owned(),
             doc: format!("{doc}, {unit}."),
@@ -518,6 +511,13 @@ impl<'m> Forces<'_, 'm> {
                 |(_, actions)| term(motion, &load_name.text, kind, actions),
             ),
         }
+    }
+}
+
+fn of_spot<'m>(motion: &Motion<'m, '_>, spot: Spot) -> Framed<'m> {
+    match spot {
+        Spot::Joint(joint) => motion.of_joint(joint),
+        Spot::Point(end) => motion.of_point(end),
     }
 }
 

@@ -65,12 +65,12 @@ impl<'m> Posture<'m> for Symbolic<'m> {
 }
 
 impl<'m> Symbolic<'m> {
-    fn moving(&self, link: LinkId, which: Coordinate, order: Order) -> Expr<'m> {
+    fn moving(self, link: LinkId, which: Coordinate, order: Order) -> Expr<'m> {
         let graph = &self.0.graph;
         if link == GROUND { graph.zero() } else { graph.symbol(Symbol::Moving(link, which, order)) }
     }
 
-    fn of_origin(&self, link: LinkId, order: Order) -> Vector<'m> {
+    fn of_origin(self, link: LinkId, order: Order) -> Vector<'m> {
         Vector::new(self.moving(link, Coordinate::X, order), self.moving(link, Coordinate::Y, order))
     }
 }

@@ -390,15 +390,14 @@ impl Rule for Block {
                     let own = own.filter(|(unknown, _)| matches!(unknown, Unknown::Joint(of, _) if *of == joint));
                     put_joint(balance, joint, &own.map(|(_, value)| *value).collect::<Vec<_>>(), &links);
                 }
-                Unknown::Joint(..) => {}
                 Unknown::Effort(Input::Unknown(effort)) => {
                     let name = &model.unknown(effort).name;
                     let value = value.named(balance.name(name), format!("from the equilibrium of {links}"));
                     balance.found(effort, value);
                     parts.unit_of_effort(effort.into()).exert_outside(balance, value, &group.links);
                 }
-                // Forces know no drives.
-                Unknown::Effort(Input::Drive(_)) => {}
+                // A joint is recorded with its first component; forces know no drives.
+                Unknown::Joint(..) | Unknown::Effort(Input::Drive(_)) => {}
             }
         }
         Ok(())
@@ -583,4 +582,89 @@ fn put_joint<'m>(balance: &mut Balance<'m, '_>, joint: JointId, values: &[Expr<'
     });
     let values: Vec<Expr<'m>> = values.collect();
     balance.react(joint, &values);
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::Block;
+    use crate::diagnostics::Sink;
+    use crate::graph::{Order, Symbol};
+    use crate::model::{self, Model};
+    use crate::plan::assembly::Assembly;
+    use crate::plan::rules::{Rule, placing_rule};
+    use crate::plan::velocities::Motion;
+    use crate::syntax;
+    use crate::topology::Topology;
+
+    /// Groups that the closed forms of other rules move, too: members between pins, on a slide, on each other; carriers with slots,
+    /// slides and welds.
+    const CASES: [&str; 6] = [
+        "link b { A -> B: 3m, P: (1m, 1m) } link c { Q -> B: 2.5m } revolute A: crank -> b; revolute B: b -> c; revolute Q: ground -> c;
+         assemble B: left(A -> Q);",
+        "link rod { A -> B: 3m } link piston { B: (0.1m, 0.3m), G: (0.4m, 0.2m) } revolute A: crank -> rod; revolute B: rod -> piston;
+         prismatic G: piston -> arm.Q along 10deg of piston, angle 25deg; assemble B: ahead(A);",
+        "link rod { A: (0.1m, 0.2m), S: (0.5m, 0.3m) } link block { Q: (0.2m, 0.1m), S: (-0.1m, 0.3m) } revolute A: rod -> crank;
+         revolute Q: arm -> block; prismatic S: block -> rod along 25deg of rod, angle 40deg; assemble S: behind(Q);",
+        "link lever { Q: (0.2m, 0.3m), S: (3m, 2m) } revolute Q: lever -> ground; slot S: crank.A -> lever.S along 70deg of lever;
+         assemble S: behind(Q);",
+        "link runner { A: (0.2m, 0.3m), S: (1m, 2m), W: (1m, 0) } link tip { W: (0.2m, 0.1m) } revolute A: runner -> crank;
+         slot S: runner.S -> arm.Q along 70deg of arm; weld W: tip -> runner, angle 40deg; assemble S: behind(A);",
+        "link slider { G: (0.2m, 0.3m), S: (1m, 2m) } prismatic G: slider -> crank.A along 20deg of slider, angle 65deg;
+         slot S: arm.Q -> slider.S along -30deg of slider;",
+    ];
+
+    /// Rates of all links, and how fast their origins move, one motion after another.
+    fn moved(model: &Model, topology: &Topology, assembly: &Assembly<'_>, rules: &[&dyn Rule]) -> Vec<f64> {
+        let sink = Sink::default();
+        let velocities = Motion::velocities(&assembly.placement, &assembly.pivots);
+        let velocities = velocities.through(&topology.motion, rules, &sink);
+        let accelerations = Motion::accelerations(&velocities).through(&topology.motion, rules, &sink);
+        assert!(sink.is_clean());
+        let known = |symbol: Symbol| match symbol {
+            Symbol::Drive(drive) => [0.4, 1.1][drive.index()],
+            Symbol::Driven(drive, Order::Rate) => [1.3, -0.6][drive.index()],
+            Symbol::Driven(drive, Order::Acceleration) => [0.7, 2.1][drive.index()],
+            _ => f64::NAN,
+        };
+        let mut done = HashMap::new();
+        let mut all = Vec::new();
+        for motion in [&velocities, &accelerations] {
+            for link in model.moving_links() {
+                let origin = motion.of_place(link, model.graph.zero_vector()).ground();
+                let values = [origin.x, origin.y, motion.rate(link)];
+                all.extend(values.map(|value| model.graph.evaluate(value.id(), &known, &mut done)));
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn elimination_moves_links_as_closed_forms_do() {
+        for items in CASES {
+            let text = format!(
+                "mod sample; ground {{ O: (0, 0), Q: (3m, 0.5m) }} link crank {{ O -> A: 1m }} link arm {{ Q: (0.2m, 0) , R: (0.1m, 0.4m) }}
+                 revolute O: ground -> crank; revolute R: ground.Q -> arm; drive q: O; drive r: R; {items}
+                 scene speeds: acceleration;"
+            );
+            let sink = Sink::default();
+            let ast = syntax::parse(text.parse().expect("tokens"), &sink).expect("a declaration");
+            let model = model::resolve(&ast, &sink);
+            let topology = Topology::of(&model, &sink).expect("groups");
+            let rules: Vec<&dyn Rule> =
+                topology.motion.iter().map(|group| placing_rule(&model, group).expect("a rule")).collect();
+            let mut assembly = Assembly::new(&model, &topology);
+            for (group, rule) in topology.motion.iter().zip(&rules) {
+                assert!(rule.place(&mut assembly, group).is_ok(), "{text}");
+            }
+            let blocks: Vec<&dyn Rule> = topology.motion.iter().map(|_| &Block as &dyn Rule).collect();
+            let closed = moved(&model, &topology, &assembly, &rules);
+            let eliminated = moved(&model, &topology, &assembly, &blocks);
+            for (index, (own, other)) in closed.iter().zip(&eliminated).enumerate() {
+                let size = own.abs().max(1.0);
+                assert!((own - other).abs() <= 1e-11 * size, "{index}: {own} and {other}\n{text}");
+            }
+        }
+    }
 }
