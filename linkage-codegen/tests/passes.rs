@@ -18,7 +18,7 @@ fn results<T: Number>(linkage: &Linkage, program: &Program, arguments: &Argument
     run.with(&|input| match input {
         Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
         Input::Kept(node) => kept[&node].clone(),
-        Input::Prepared(_) => T::exactly(f64::NAN),
+        Input::Prepared(_) | Input::Known(_) => T::exactly(f64::NAN),
     })
     .expect("results")
 }

@@ -1,4 +1,4 @@
-//! Any other group of forces: block elimination of its equilibrium equations.
+//! Any other group: its links are placed by iteration, its forces found by block elimination of its equilibrium equations.
 //!
 //! A link that is held by two pins alone, or by a pin and a slide, and on which no unknown acts, is a *member*: the moment about one
 //! pin, or the force along the slide, gives one part of the force at its end, and a single number `N` is left, the force along the
@@ -16,7 +16,7 @@ use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
 use crate::plan::efforts::{self, Unit};
 use crate::plan::framed::Framed;
-use crate::plan::linear::{Core, Equation, solve};
+use crate::plan::linear::{CORE, Core, Equation, solve};
 use crate::plan::placement::Placement;
 use crate::plan::reactions;
 use crate::plan::velocities::{Motion, Twist};
@@ -313,16 +313,12 @@ impl Rule for Block {
         "block"
     }
 
-    fn places(&self) -> bool {
-        false
-    }
-
     fn fits(&self, _: &Model, _: &Group) -> bool {
         true
     }
 
-    fn place(&self, _: &mut Assembly<'_>, _: &Group) -> RuleResult {
-        Ok(())
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
+        super::newton::place(assembly, group)
     }
 
     fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
@@ -442,7 +438,7 @@ impl Rule for Block {
 
 fn too_large(model: &Model, group: &Group, size: usize) -> Diagnostic {
     crate::plan::unsupported(model, group, "find the forces of")
-        .note(format!("its equilibrium equations leave a core of {size}; up to 3 are supported"))
+        .note(format!("its equilibrium equations leave a core of {size}; up to {CORE} are supported"))
 }
 
 /// The power of an act on links outside the group.
