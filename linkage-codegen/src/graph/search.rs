@@ -122,6 +122,15 @@ impl Graph {
         self.arena.borrow().searches[id.0 as usize].start[usize::from(number)]
     }
 
+    /// Whether a result of a search is a component of a direction.
+    #[must_use]
+    pub fn finds_direction(&self, id: SearchId, part: u8) -> bool {
+        let search = self.search(id);
+        let mut numbers =
+            search.sought.iter().flat_map(|sought| core::iter::repeat_n(sought.size() == 2, sought.size()));
+        part.checked_sub(1).and_then(|number| numbers.nth(usize::from(number))).unwrap_or(false)
+    }
+
     /// Whether a search is given this node.
     #[must_use]
     pub fn is_known_to(&self, id: SearchId, node: NodeId) -> bool {
