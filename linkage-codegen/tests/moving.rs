@@ -12,7 +12,7 @@ use linkage_codegen::model::ids::LinkId;
 use linkage_codegen::model::{End, LoadKind, Pair};
 use linkage_codegen::program::{Input, Run};
 use support::general::{equations, open_motion, solve_extended};
-use support::linkages::{Kind, Sample, sample};
+use support::linkages::{Kind, Sample, sample, sample_with_search};
 use support::numbers::{Double, Extended};
 use support::{Arguments, Number, compile, prepared, scene};
 
@@ -68,7 +68,7 @@ impl Moment<'_> {
         let values = run.with(&|input| match input {
             Input::Symbol(symbol) => self.known(symbol),
             Input::Prepared(node) => prepared[&node].clone(),
-            Input::Kept(_) => Extended::zero(),
+            Input::Kept(_) | Input::Known(_) => Extended::zero(),
         });
         self.linkage.plan.pose.iter().map(|kept| kept.node).zip(values.expect("a pose")).collect()
     }
@@ -283,7 +283,8 @@ fn check_equations(sample: &Sample, linkage: &Linkage) {
 }
 
 fn check(seed: u64) {
-    let sample = sample(seed, kind(seed));
+    // Among them such as are placed by iteration.
+    let sample = if seed % 6 == 5 { sample_with_search(seed, kind(seed)) } else { sample(seed, kind(seed)) };
     let linkage = compile(&sample.text);
     let passing = Passing::of(&linkage, &sample.arguments);
     check_equations(&sample, &linkage);

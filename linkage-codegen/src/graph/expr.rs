@@ -1,7 +1,7 @@
 //! Expressions written with operators.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::number::Number;
 use super::{Condition, Failure, Graph, Guard, Kernel, Label, NodeId, Op, Stage, Vector};
@@ -119,12 +119,13 @@ impl<'g> Expr<'g> {
     /// The sum of the magnitudes of the terms that make up the value: how large its rounding may be, in epsilons.
     #[must_use]
     pub fn magnitude(self) -> Self {
-        self.magnitude_with(&mut HashMap::new())
+        self.magnitude_with(&mut BTreeMap::new())
     }
 
-    fn magnitude_with(self, done: &mut HashMap<NodeId, NodeId>) -> Self {
+    /// Values may use each other often: each is gone into once.
+    fn magnitude_with(self, done: &mut BTreeMap<NodeId, Self>) -> Self {
         if let Some(found) = done.get(&self.id) {
-            return self.graph.expr(*found);
+            return *found;
         }
         let mut of = |id| self.graph.expr(id).magnitude_with(done);
         let found = match self.op() {
@@ -134,7 +135,7 @@ impl<'g> Expr<'g> {
             Op::Div(a, b) => of(a) / self.graph.expr(b).abs(),
             _ => self.abs(),
         };
-        done.insert(self.id, found.id);
+        done.insert(self.id, found);
         found
     }
 
