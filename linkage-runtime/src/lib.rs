@@ -52,18 +52,21 @@ pub mod math;
 pub mod reference;
 mod results;
 mod support;
+mod sweep;
 
 pub use error::Error;
 pub use linkage_macros::linkage;
 /// The plane vector of the public functions; the version of nalgebra is part of this crate's version.
 pub use nalgebra::{self, Vector2};
-pub use results::{GearReaction, ResolvedForce, SliderReaction, SlotReaction, WeldReaction, WorkTerm, polar};
+pub use results::{GearReaction, ResolvedForce, SliderReaction, SlotReaction, WeldReaction, WorkTerm, Wrench, polar};
+pub use sweep::{Series, SweepError};
 
 /// What emitted code calls. Not for use by hand: it changes with the compiler.
 #[doc(hidden)]
 pub mod __private {
     #[cfg(feature = "reference")]
     pub use crate::reference::{Compared, verify};
+    pub use crate::sweep::{same_length, store, sweep};
 
     pub mod f32 {
         pub use crate::math::f32::*;

@@ -208,6 +208,41 @@ pub struct WorkTerm<T> {
     pub work: T,
 }
 
+/// The resultant of forces: a force, and the moment about a point.
+///
+/// ```
+/// use linkage_runtime::{Vector2, linkage};
+///
+/// linkage! {
+///     /// A rotor that is out of balance.
+///     mod rotor;
+///     ground     { O: (0, 0), P: (2m, 0) }
+///     link rotor { O -> G: 0.5m }
+///     mass rotor: 3kg at G;
+///     revolute O: ground -> rotor;
+///     drive theta: O { rate: 10rad/s, acceleration: 0 };
+///     load I: inertia;
+///     scene shakes: acceleration -> (shaking(ground.P));
+///     scene felt: equilibrium -> (ground about ground.P);
+/// }
+///
+/// // Upright it pulls the ground up by m r ω², which turns clockwise about what is to the right of it.
+/// let up = core::f64::consts::FRAC_PI_2;
+/// let shaking = rotor::shakes_at(up)?.shaking_ground_P;
+/// assert!((shaking.force - Vector2::new(0.0, 150.0)).norm() < 1e-12 && (shaking.moment + 300.0).abs() < 1e-12);
+/// // As inertia is its only load, that is what the ground feels.
+/// let felt = rotor::felt_at(up)?.ground_about_ground_P;
+/// assert!((felt.force - shaking.force).norm() < 1e-12 && (felt.moment - shaking.moment).abs() < 1e-12);
+/// # Ok::<(), linkage_runtime::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrench<T: Scalar> {
+    /// The force, ground axes.
+    pub force: Vector2<T>,
+    /// The moment about the point, counter-clockwise.
+    pub moment: T,
+}
+
 /// A vector by its size and its angle in radians, counter-clockwise from the x axis.
 ///
 /// ```

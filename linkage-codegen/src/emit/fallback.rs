@@ -32,6 +32,8 @@ pub fn module(mut model: Model) -> TokenStream {
     let given: Vec<Vec<TokenStream>> = model.scenes.iter().map(|scene| given_arguments(model, scene)).collect();
     let at = arguments(bound, &drives, &[]);
     let accessors = accessors(model);
+    let wrench = super::uses_wrench(&runtime, wrenches(model));
+    let sweeps: TokenStream = sweeps(model, &runtime);
     let from_pose = names
         .iter()
         .zip(&types)
@@ -53,6 +55,7 @@ pub fn module(mut model: Model) -> TokenStream {
     use #runtime::{
         Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
     };
+                #wrench
                 pub const EQUATIONS: &str = "";
                 pub const OPERATIONS: &str = "";
                 pub const SOURCE: &str = "";
@@ -67,8 +70,30 @@ pub fn module(mut model: Model) -> TokenStream {
                 }
                 #records
                 #(#direct)*
+                #sweeps
             }
         }
+}
+
+/// Whether results that were asked for, in vain or not, are resultants.
+fn wrenches(model: &Model) -> bool {
+    let refused = |(_, like): &(String, Option<Wanted>)| matches!(like, Some(Wanted::Shaking(_) | Wanted::OnGround(_)));
+    model.has_wrenches() || model.scenes.iter().any(|scene| scene.refused.iter().any(refused))
+}
+
+/// The sweeps, but for those that have the name of a scene.
+fn sweeps(model: &Model, runtime: &TokenStream) -> TokenStream {
+    let mut seen: BTreeSet<String> = model.scenes.iter().map(|scene| type_name(&scene.name.text)).collect();
+    let distinct = model.sweeps.iter().filter(|sweep| seen.insert(type_name(&sweep.name.text)));
+    let all = distinct.map(|sweep| {
+        let scene = &model.scenes[sweep.scene];
+        let output = match scene.method {
+            Method::Verify => Output::Record(Vec::new()),
+            _ => shape(model, scene),
+        };
+        super::sweeps::stand_in(model, sweep, &output, runtime)
+    });
+    all.collect()
 }
 
 /// Lets the results of every scene have types of their own, in whatever way its name clashes.
@@ -253,8 +278,11 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
             let parts = [("acceleration", vector.clone()), ("force", vector), ("couple", number)];
             Output::Record(parts.map(|(name, value)| field(name, value)).into())
         }
+        Some(Wanted::Shaking(_) | Wanted::OnGround(_)) => {
+            Output::Reaction { ty: "Wrench", force: [zero, zero], parts: vec![("moment", zero)] }
+        }
         Some(Wanted::Offset(_)) => Output::Record(vec![field("distance", number), field("vector", vector)]),
         Some(Wanted::Along(..)) => Output::Resolved([zero, zero]),
-        Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..)) | None => number,
+        Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..) | Wanted::Power(_)) | None => number,
     }
 }

@@ -8,6 +8,7 @@ mod formula;
 mod functions;
 mod literals;
 mod search;
+mod sweeps;
 mod types;
 
 use proc_macro2::TokenStream;
@@ -70,6 +71,8 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
             use #runtime::reference::Verification;
         }
     });
+    let wrench = uses_wrench(&runtime, model.has_wrenches());
+    let sweeps: TokenStream = model.sweeps.iter().map(|sweep| sweeps::function(linkage, sweep, &runtime)).collect();
     let scenes = 0..model.scenes.len();
     let results: TokenStream = scenes.clone().map(|s| types::results(model, s, &linkage.plan.scenes[s])).collect();
     let from_pose: TokenStream = scenes.clone().map(|s| functions::from_pose(linkage, s)).collect();
@@ -94,6 +97,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
         Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
     };
                 #reference
+                #wrench
 
                 /// The derivation: free bodies, equilibrium equations, reduction, closed forms.
                 pub const EQUATIONS: &str = #equations;
@@ -113,9 +117,15 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
                 }
                 #results
                 #direct
+                #sweeps
                 #searches
             }
         }
+}
+
+/// The type of resultants, if there are any.
+fn uses_wrench(runtime: &TokenStream, any: bool) -> Option<TokenStream> {
+    any.then(|| quote!(use #runtime::Wrench;))
 }
 
 /// The operation counts of all functions, a line each.

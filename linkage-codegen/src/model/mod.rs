@@ -12,6 +12,7 @@ mod options;
 mod scenes;
 pub(crate) use scenes::OWN_TYPES;
 pub use scenes::type_name;
+mod sweeps;
 pub mod units;
 
 use proc_macro2::TokenStream;
@@ -20,6 +21,7 @@ use crate::diagnostics::{Diagnostic, Place, Sink};
 use crate::graph::{Expr, Graph, NodeId, Order, Scalar, Symbol, Vector};
 use crate::syntax::ast::{Ast, Name};
 use ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
+pub use sweeps::Sweep;
 use units::{Kind, Units};
 
 /// A pair of nodes: a point or a direction.
@@ -80,6 +82,8 @@ pub struct Model {
     pub loads: Vec<Load>,
     /// What is wanted.
     pub scenes: Vec<Scene>,
+    /// Which scenes are solved at many positions.
+    pub sweeps: Vec<Sweep>,
 }
 
 /// A run-time dimension.
@@ -547,6 +551,14 @@ pub struct Scene {
     pub refused: Vec<(String, Option<Wanted>)>,
 }
 
+impl Scene {
+    /// Whether powers are among its results: these depend on velocities.
+    #[must_use]
+    pub fn has_power(&self) -> bool {
+        self.results.iter().any(|wanted| matches!(wanted, Wanted::Power(_)))
+    }
+}
+
 /// How a scene is solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
@@ -597,6 +609,12 @@ pub enum Wanted {
     Inertia(LinkId),
     /// Where a single force is equivalent to them.
     Offset(LinkId),
+    /// The resultant of all links' inertia, about a point.
+    Shaking(End),
+    /// The resultant of all that the linkage exerts on the ground, about a point.
+    OnGround(End),
+    /// The power of an unknown; of all of them.
+    Power(Option<UnknownId>),
 }
 
 /// What moves.
@@ -708,6 +726,10 @@ impl Model {
             }
             Wanted::Inertia(id) => format!("{}_inertia", link(id)?),
             Wanted::Offset(id) => format!("{}_offset", link(id)?),
+            Wanted::Shaking(end) => format!("shaking_{}", point(end)?),
+            Wanted::OnGround(end) => format!("ground_about_{}", point(end)?),
+            Wanted::Power(None) => "power".to_owned(),
+            Wanted::Power(Some(unknown)) => format!("{}_power", self.unknowns.get(unknown.index())?.name),
         })
     }
 
@@ -770,7 +792,7 @@ impl Model {
     #[must_use]
     pub fn moves(&self) -> bool {
         self.accelerates()
-            || self.scenes.iter().any(|scene| scene.method == Method::Velocity)
+            || self.scenes.iter().any(|scene| scene.method == Method::Velocity || scene.has_power())
             || self.loads.iter().any(|load| load.kind.depends_on_motion())
     }
 
@@ -778,7 +800,24 @@ impl Model {
     #[must_use]
     pub fn scene_moves(&self, scene: &Scene) -> bool {
         let load = |load: &LoadId| self.loads.get(load.index()).is_some_and(|load| load.kind.depends_on_motion());
-        matches!(scene.method, Method::Velocity | Method::Acceleration) || scene.loads.iter().any(load)
+        matches!(scene.method, Method::Velocity | Method::Acceleration)
+            || scene.has_power()
+            || scene.loads.iter().any(load)
+    }
+
+    /// Whether the results of a scene depend on accelerations.
+    #[must_use]
+    pub fn scene_accelerates(&self, scene: &Scene) -> bool {
+        let inertia = |load: &LoadId| self.loads.get(load.index()).map(|load| &load.kind);
+        scene.method == Method::Acceleration
+            || scene.loads.iter().filter_map(inertia).any(|kind| matches!(kind, LoadKind::Inertia))
+    }
+
+    /// Whether any result is a resultant of forces.
+    #[must_use]
+    pub fn has_wrenches(&self) -> bool {
+        let resultant = |wanted: &Wanted| matches!(wanted, Wanted::Shaking(_) | Wanted::OnGround(_));
+        self.scenes.iter().any(|scene| scene.results.iter().any(resultant))
     }
 
     /// Whether anything is asked for that depends on accelerations.
@@ -833,6 +872,7 @@ pub fn resolve(ast: &Ast, sink: &Sink) -> Model {
         starts: Vec::new(),
         loads: Vec::new(),
         scenes: Vec::new(),
+        sweeps: Vec::new(),
     };
     links::params(&mut model, ast, &mut names, sink);
     links::links(&mut model, ast, &names, sink);

@@ -6,6 +6,7 @@ use super::evaluate::Scope;
 use super::ids::{GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
+use super::sweeps;
 use super::{Along, End, Method, Model, Scene, Spot, Wanted};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
@@ -20,6 +21,9 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
             model.scenes.push(stand_in(model, broken, name));
         }
         let Item::Scene(given) = item else { continue };
+        if sweeps::is_sweep(given) {
+            continue;
+        }
         // A scene that is refused still brings its names.
         let method = sink.absorb(method(given)).unwrap_or_else(|| likely_method(&given.method.text));
         let loads = loads(model, given, method, names, sink);
@@ -33,6 +37,7 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         }
         model.scenes.push(Scene { name: given.name.clone(), method, loads, results, refused });
     }
+    sweeps::sweeps(model, ast, sink);
     if sink.is_clean() {
         check_generated_names(model, sink);
     }
@@ -190,7 +195,7 @@ fn end_of(item: &ResultItem) -> ast::End {
         ResultItem::Name(name) => ast::End { link: name.clone(), point: None },
         ResultItem::Point(link, point) => ast::End { link: link.clone(), point: Some(point.clone()) },
         ResultItem::Along(joint, _) | ResultItem::About(joint, _) => joint.clone(),
-        ResultItem::OfLink(what, _) => ast::End { link: what.clone(), point: None },
+        ResultItem::OfLink(what, _) | ResultItem::OfPoint(what, _) => ast::End { link: what.clone(), point: None },
         ResultItem::Planned { of, .. } => of.clone(),
     }
 }
@@ -208,8 +213,22 @@ fn likely(model: &Model, names: &Names, item: &ResultItem) -> (String, Option<Wa
             return (name, Some(Wanted::Resolved(Spot::Joint(JointId::new(0)), Along::Path)));
         }
         ResultItem::OfLink(what, link) => {
-            let like = if what.text == "offset" { Wanted::Offset(GROUND) } else { Wanted::Inertia(GROUND) };
+            let like = match what.text.as_str() {
+                "offset" => Wanted::Offset(GROUND),
+                "power" => Wanted::Power(None),
+                _ => Wanted::Inertia(GROUND),
+            };
             return (format!("{link}_{what}"), Some(like));
+        }
+        ResultItem::OfPoint(what, ast::End { link, point }) => {
+            let point = point.as_ref().map_or("", |point| point.text.as_str());
+            let at = End { link: GROUND, point: PointId::FIRST };
+            return (format!("{what}_{link}_{point}"), Some(Wanted::Shaking(at)));
+        }
+        ResultItem::About(joint, ast::End { link, point }) if joint.link.text == "ground" => {
+            let point = point.as_ref().map_or("", |point| point.text.as_str());
+            let at = End { link: GROUND, point: PointId::FIRST };
+            return (format!("ground_about_{link}_{point}"), Some(Wanted::OnGround(at)));
         }
         ResultItem::About(joint, ast::End { link, point }) => {
             let point = point.as_ref().map_or("", |point| point.text.as_str());
@@ -311,6 +330,11 @@ fn result(
             let along = names.find(Role::Link, link)?.map(|link| Along::Link(LinkId::new(link)));
             Ok(spot.zip(along).map(|(spot, along)| Wanted::Resolved(spot, along)))
         }
+        ResultItem::OfLink(what, unknown) if what.text == "power" => {
+            let place = what.place().to(unknown.place());
+            power(model, given, method, (place, Some(unknown)), names)
+        }
+        ResultItem::OfPoint(what, point) => shaking(model, given, method, (what, point), names),
         ResultItem::OfLink(what, link) => of_link(model, given, method, (what, link), names),
         ResultItem::Along(joint, link) => {
             let link_id = names.find(Role::Link, link)?.map(LinkId::new);
@@ -319,6 +343,16 @@ fn result(
         }
         ResultItem::About(joint, point) => {
             let at = end(Scope { model, names }, point, None)?;
+            if joint.point.is_none() && joint.link.text == "ground" {
+                let place = joint.place().to(point.place());
+                return match method {
+                    Method::Equilibrium | Method::Superposition => Ok(at.map(Wanted::OnGround)),
+                    _ => {
+                        Err(cannot(given, place, &format!("ground about {}", point.written()), "what the ground feels")
+                            .help("`equilibrium` gives it"))
+                    }
+                };
+            }
             let Some(id) = reaction_of(given, method, (joint, "about"), names, joint.place().to(point.place()))? else {
                 return Ok(None);
             };
@@ -361,7 +395,7 @@ fn of_link(
         "offset" => Wanted::Offset,
         other => {
             return Err(Diagnostic::new(what.place(), format!("there is no result `{shown}`"))
-                .suggest(other, ["inertia", "offset"]));
+                .suggest(other, ["inertia", "offset", "shaking", "power"]));
         }
     };
     if method != Method::Acceleration {
@@ -378,6 +412,55 @@ fn of_link(
             .help(format!("give it one, as in `mass {link}: 0.5kg at (0, 0);`, or leave the result out")));
     }
     Ok(Some(wanted(id)))
+}
+
+/// `shaking(ground.O)`
+fn shaking(
+    model: &Model,
+    given: &ast::Scene,
+    method: Method,
+    (what, point): (&Name, &ast::End),
+    names: &Names,
+) -> Result<Option<Wanted>, Diagnostic> {
+    let (place, shown) = (what.place().to(point.place()), format!("{what}({})", point.written()));
+    if what.text != "shaking" {
+        return Err(Diagnostic::new(what.place(), format!("there is no result `{shown}`"))
+            .suggest(&what.text, ["inertia", "offset", "shaking", "power"]));
+    }
+    if method != Method::Acceleration {
+        return Err(cannot(given, place, &shown, "the resultant of inertia").help("`acceleration` gives it"));
+    }
+    let at = end(Scope { model, names }, point, None)?;
+    if model.links.iter().all(|link| link.mass.is_none()) && !model.links.iter().any(|link| link.unread) {
+        return Err(Diagnostic::new(place, "no link has a mass: nothing shakes")
+            .help("declare one, as in `mass rod: 0.5kg at (0, 0);`, or leave the result out"));
+    }
+    Ok(at.map(Wanted::Shaking))
+}
+
+/// `power`, `power(T)`
+fn power(
+    model: &Model,
+    given: &ast::Scene,
+    method: Method,
+    (place, of): (Place, Option<&Name>),
+    names: &Names,
+) -> Result<Option<Wanted>, Diagnostic> {
+    let shown = of.map_or_else(|| "power".to_owned(), |of| format!("power({of})"));
+    if !method.has_loads() || method == Method::Verify {
+        return Err(
+            cannot(given, place, &shown, "the power of an effort").help("`equilibrium` and `virtual_work` give it")
+        );
+    }
+    let Some(name) = of else { return Ok(Some(Wanted::Power(None))) };
+    match model.unknowns.iter().position(|unknown| unknown.name == name.text) {
+        Some(index) => Ok(Some(Wanted::Power(Some(UnknownId::new(index))))),
+        None if names.may_be(Role::Unknown) => Ok(None),
+        None => {
+            let known = model.unknowns.iter().map(|unknown| unknown.name.as_str());
+            Err(Diagnostic::new(name.place(), format!("there is no unknown `{name}`")).suggest(&name.text, known))
+        }
+    }
 }
 
 /// The joint whose reaction is wanted in some form.
@@ -456,6 +539,7 @@ fn named_result(
             Err(Diagnostic::new(name.place(), format!("of the link `{name}`, its angle or a point?"))
                 .help(format!("write `{name}.angle`, or a point of it, such as `{name}.{point}`")))
         }
+        None if name.text == "power" => power(model, given, method, (name.place(), None), names),
         None if names.may_be(Role::Joint) || names.may_be(Role::Load) || names.may_be(Role::Unknown) => Ok(None),
         _ => {
             let known: Vec<&str> = match method {
@@ -503,8 +587,8 @@ pub(crate) const OWN_TYPES: [&str; 14] = [
     "GearReaction",
     "WorkTerm",
 ];
-/// The same, where there are parameters, and where there is something to verify.
-const FURTHER_TYPES: [&str; 2] = ["Default", "Verification"];
+/// The same, where there are parameters, where there is something to verify, and where there are resultants.
+const FURTHER_TYPES: [&str; 3] = ["Default", "Verification", "Wrench"];
 
 /// What the generated functions read may not have two meanings under one name.
 fn check_values(model: &Model, sink: &Sink) {
@@ -580,7 +664,8 @@ fn check_generated_names(model: &Model, sink: &Sink) {
             }
         }
     }
-    let further = [!model.params.is_empty(), model.scenes.iter().any(|scene| scene.method == Method::Verify)];
+    let verifies = model.scenes.iter().any(|scene| scene.method == Method::Verify);
+    let further = [!model.params.is_empty(), verifies, model.has_wrenches()];
     let further = FURTHER_TYPES.iter().zip(further).filter(|(_, there)| *there).map(|(name, _)| name);
     let mut types: BTreeMap<String, String> = OWN_TYPES
         .iter()
@@ -608,6 +693,19 @@ fn check_generated_names(model: &Model, sink: &Sink) {
                 clash(&scene.name, format!("the results of `{}` would be the type `{made}`, and {other}", scene.name));
                 break;
             }
+        }
+    }
+    for sweep in &model.sweeps {
+        let own = format!("belongs to the sweep `{}`", sweep.name);
+        if let Some(other) = methods.insert(sweep.name.text.clone(), own.clone()) {
+            let made = &sweep.name;
+            clash(made, format!("there would be two functions `{made}`: the other one {other}"));
+            continue;
+        }
+        if let Some((made, other)) =
+            sweep.types().into_iter().find_map(|made| Some((made.clone(), types.insert(made, own.clone())?)))
+        {
+            clash(&sweep.name, format!("the sweep `{}` would have the type `{made}`, and {other}", sweep.name));
         }
     }
 }

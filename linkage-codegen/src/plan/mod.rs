@@ -14,8 +14,10 @@ mod pivots;
 mod placement;
 mod posed;
 mod reactions;
+mod resultants;
 pub mod rules;
 pub(crate) mod scenes;
+mod sweeps;
 mod velocities;
 
 pub use assembly::Assembly;
@@ -24,6 +26,7 @@ pub use output::{Comparison, Field, Meaning, Output};
 pub use pivots::Pivots;
 pub use placement::Placement;
 pub(crate) use scenes::reaction_type;
+pub(crate) use sweeps::slice_name;
 pub use velocities::Motion;
 
 use posed::Posed;
@@ -171,6 +174,7 @@ impl Plan {
             motion_rules: motion_rules.iter().map(|rule| rule.class()).collect(),
             force_rules: force_rules.iter().map(|rule| rule.class()).collect(),
         };
+        sweeps::check_names(model, &plan.scenes, sink);
         check_possible(model, sink);
         check_defaults(model, sink);
         sink.is_clean().then_some(plan)

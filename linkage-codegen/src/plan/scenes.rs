@@ -2,6 +2,7 @@
 
 use super::framed::Framed;
 use super::posed::Posed;
+use super::resultants::{Resultant, rate_of, reacted_by_ground};
 use super::rules::{Rule, RuleResult};
 use super::{Assembly, Balance, Comparison, Meaning, Motion, Output, PlacedLink, heading, joint_name};
 use crate::diagnostics::Sink;
@@ -103,6 +104,7 @@ fn motion(forces: &Forces<'_, '_>, scene: &Scene, motion: Option<&Motion<'_, '_>
             Wanted::Resolved(spot, Along::Path) => wanted.along_path(spot),
             Wanted::Inertia(link) => forces.inertia(link),
             Wanted::Offset(link) => forces.offset(link),
+            Wanted::Shaking(at) => forces.shaking(at),
             _ => return None,
         };
         Some(Field { name: model.result_name(*result)?, doc, value })
@@ -238,7 +240,13 @@ impl<'m> Forces<'_, 'm> {
     fn equilibrium(&self, scene: &Scene) -> Output {
         let prefix = self.prefix_of(scene);
         let balance = self.balance(&prefix, &self.actions(&scene.loads));
-        Output::Record(self.results(&balance, &scene.results))
+        Output::Record(self.results(&balance, &scene.results, &self.reacted_by_ground(&scene.loads)))
+    }
+
+    /// What loads exert on links that act between these and the ground.
+    fn reacted_by_ground(&self, loads: &[LoadId]) -> Vec<Action> {
+        let reacted = loads.iter().copied().filter(|load| reacted_by_ground(self.model.load(*load).kind));
+        self.actions(&reacted.collect::<Vec<_>>())
     }
 
     /// Scenes under other loads than all name their quantities apart.
@@ -250,7 +258,8 @@ impl<'m> Forces<'_, 'm> {
         }
     }
 
-    fn results(&self, balance: &Balance<'m, '_>, wanted: &[Wanted]) -> Vec<Field> {
+    /// What is wanted of a load case; of the loads in it, with what links get by those that the ground reacts.
+    fn results(&self, balance: &Balance<'m, '_>, wanted: &[Wanted], reacted: &[Action]) -> Vec<Field> {
         let fields = wanted.iter().filter_map(|wanted| match *wanted {
             Wanted::Unknown(unknown) => Some(Field {
                 name: self.model.unknown(unknown).name.clone(),
@@ -272,6 +281,16 @@ impl<'m> Forces<'_, 'm> {
                 doc: about_doc(self.model, joint, at),
                 value: couple_about(balance, joint, at),
             }),
+            Wanted::OnGround(at) => {
+                let mut resultant = Resultant::about(balance.placement, at);
+                resultant.joints(balance);
+                resultant.efforts(balance);
+                resultant.opposite_of(reacted);
+                let name = self.model.result_name(*wanted)?;
+                let doc = format!("All that the linkage exerts on the ground: {}.", wrench_doc(self.model, at));
+                Some(Field { value: resultant.output(&balance.name(&name)), name, doc })
+            }
+            Wanted::Power(of) => Some(self.power(*wanted, of, |unknown| balance.effort(unknown))?),
             _ => None,
         });
         fields.collect()
@@ -283,7 +302,9 @@ impl<'m> Forces<'_, 'm> {
             let cases = self.cases_of(*load);
             let one = |case: &Case, actions: &[Action]| {
                 let balance = self.balance(&case_prefix(self.model, case), actions);
-                Output::Record(self.results(&balance, &scene.results))
+                let reacted = self.reacted_by_ground(&[*load]);
+                let reacted = if reacted.is_empty() { &[] } else { actions };
+                Output::Record(self.results(&balance, &scene.results, reacted))
             };
             let value = match self.model.load(*load).kind {
                 kind if kind.is_per_link() => {
@@ -362,6 +383,35 @@ impl<'m> Forces<'_, 'm> {
         (acceleration, force, couple)
     }
 
+    /// The resultant of all links' inertia about a point: `Σ −m a`, `Σ r × (−m a) − I α`.
+    fn shaking(&self, at: End) -> (String, Output) {
+        let graph = &self.model.graph;
+        let mut resultant = Resultant::about(self.posed.placement, at);
+        for link in self.model.moving_links() {
+            let Some(mass) = self.model.link(link).mass else { continue };
+            let (_, force, couple) = self.inertia_of(link);
+            resultant.inertia(link, mass.centroid.vector(graph), force, couple);
+        }
+        let name = self.model.result_name(Wanted::Shaking(at)).unwrap_or_default();
+        let doc = format!("What the inertia of all links exerts: {}.", wrench_doc(self.model, at));
+        (doc, resultant.output(&name))
+    }
+
+    /// The power of an unknown or of all: effort times the rate of the coordinate on which it works.
+    fn power(&self, wanted: Wanted, of: Option<UnknownId>, effort: impl Fn(UnknownId) -> Expr<'m>) -> Option<Field> {
+        let velocities = self.posed.velocities?;
+        let all = (0..self.model.unknowns.len()).map(UnknownId::new).filter(|own| of.is_none_or(|of| of == *own));
+        let power = all.map(|unknown| effort(unknown) * rate_of(velocities, unknown));
+        let power = power.fold(self.model.graph.zero(), |sum, power| sum + power);
+        let name = self.model.result_name(wanted)?;
+        let unit = Kind::Moment.unit(&self.model.units);
+        let doc = match of {
+            Some(unknown) => format!("Power of `{}`, {unit}/s.", self.model.unknown(unknown).name),
+            None => format!("Power that the efforts put in, {unit}/s."),
+        };
+        Some(Field { name, doc, value: Output::scalar(power, Meaning::Number) })
+    }
+
     /// Where the force `−m a` alone does what force and couple do together: `h = I α/(m |a|)`, to the right of a where α is positive.
     fn offset(&self, link: LinkId) -> (String, Output) {
         let (model, graph) = (self.model, &self.model.graph);
@@ -407,6 +457,9 @@ impl<'m> Forces<'_, 'm> {
                 let effort = effort.named(name.clone(), "−(Σ F·v + Σ M ω), at unit rate of its own coordinate");
                 let value = Output::scalar(effort, unknown_meaning(self.model, unknown));
                 Some(Field { name: name.clone(), doc: unknown_doc(self.model, unknown), value })
+            }
+            Wanted::Power(of) => {
+                self.power(*wanted, of, |unknown| self.effort_by_work(&motions[unknown.index()].1, &loads))
             }
             Wanted::Load(load) => {
                 let name = self.model.load(load).name.text.clone();
@@ -662,6 +715,12 @@ fn along_doc(model: &Model, joint: JointId, link: LinkId) -> String {
     let (from, to) = (&model.link(data.from.link).name, &model.link(data.to.link).name);
     let (force, link) = (Kind::Force.unit(&model.units), &model.link(link).name);
     format!("Force on `{to}` by `{from}` at `{}`, along and across `{link}`, {force}.", data.name)
+}
+
+/// A force, and a moment about a point.
+fn wrench_doc(model: &Model, at: End) -> String {
+    let (force, moment) = (Kind::Force.unit(&model.units), Kind::Moment.unit(&model.units));
+    format!("force, {force}, ground axes, and moment about `{}`, {moment}", model.end_name(at))
 }
 
 fn about_doc(model: &Model, joint: JointId, at: End) -> String {

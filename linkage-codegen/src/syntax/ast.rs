@@ -534,7 +534,7 @@ pub struct Scene {
     pub name: Name,
     /// The method's keyword.
     pub method: Name,
-    /// Its loads; all if left out.
+    /// Its loads; all if left out. Of a sweep, the scene that it goes through.
     pub loads: Option<Vec<Name>>,
     /// Its results; all if left out.
     pub results: Option<Vec<ResultItem>>,
@@ -553,6 +553,8 @@ pub enum ResultItem {
     About(End, End),
     /// `inertia(rod)` or `offset(rod)`
     OfLink(Name, Name),
+    /// `shaking(ground.O)`
+    OfPoint(Name, End),
     /// A form that is not carried out yet.
     Planned {
         /// What it is about.

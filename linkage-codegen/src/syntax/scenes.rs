@@ -10,10 +10,10 @@ use super::tokens::{between, comma_list, eat_word, name, place_of, take};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
 /// The methods that are carried out.
-pub(crate) const METHODS: [&str; 7] =
-    ["position", "velocity", "acceleration", "equilibrium", "superposition", "virtual_work", "verify"];
+pub(crate) const METHODS: [&str; 8] =
+    ["position", "velocity", "acceleration", "equilibrium", "superposition", "virtual_work", "verify", "sweep"];
 /// The methods that are not carried out yet.
-pub(crate) const PLANNED: [&str; 4] = ["motion", "sweep", "derivative", "inverse"];
+pub(crate) const PLANNED: [&str; 3] = ["motion", "derivative", "inverse"];
 
 pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let name_ = name(input)?;
@@ -76,6 +76,7 @@ fn shown(result: &ResultItem) -> String {
         ResultItem::Along(joint, link) => format!("{} along {link}", joint.written()),
         ResultItem::About(joint, point) => format!("{} about {}", joint.written(), point.written()),
         ResultItem::OfLink(what, link) => format!("{what}({link})"),
+        ResultItem::OfPoint(what, point) => format!("{what}({})", point.written()),
         ResultItem::Planned { .. } => "…".into(),
     }
 }
@@ -85,11 +86,13 @@ fn result(input: ParseStream<'_>) -> Result<ResultItem> {
     if item.point.is_none() && input.peek(Paren) {
         let content;
         let _ = syn::parenthesized!(content in input);
-        let link = name(&content)?;
-        return if content.is_empty() {
-            Ok(ResultItem::OfLink(item.link, link))
-        } else {
+        let of = end(&content)?;
+        return if !content.is_empty() {
             Err(content.error("expected `)`"))
+        } else if of.point.is_none() {
+            Ok(ResultItem::OfLink(item.link, of.link))
+        } else {
+            Ok(ResultItem::OfPoint(item.link, of))
         };
     }
     if eat_word(input, "along") {

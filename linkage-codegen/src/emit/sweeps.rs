@@ -1,0 +1,199 @@
+//! Sweeps: a scene at many positions, from slices into slices.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::literals::ident;
+use super::types::{drive_doc, given_motion, has_params, load_doc, run_time_loads, scalar};
+use crate::Linkage;
+use crate::graph::Order;
+use crate::model::{Drive, LoadKind, Model, Sweep};
+use crate::plan::{Output, slice_name};
+
+/// What is given at each position.
+fn inputs(model: &Model, sweep: &Sweep, runtime: &TokenStream) -> TokenStream {
+    let scalar = scalar(model);
+    let scene = &model.scenes[sweep.scene];
+    let ty = ident(&sweep.types()[0]);
+    let drives = model.drives.iter().map(|drive| {
+        let (name, doc) = (ident(&drive.name.text), format!(" {}", drive_doc(model, &drive.name.text)));
+        quote!(#[doc = #doc] pub #name: #runtime::Series<'a, #scalar>)
+    });
+    let motion = model.swept_motion(scene).into_iter().map(|(drive, order)| {
+        let what = match order {
+            Order::Rate => "Rate",
+            Order::Acceleration => "Acceleration",
+        };
+        let unit = Drive::kind_of(order, drive.turns).unit(&model.units);
+        let (name, doc) = (ident(&drive.motion_name(order)), format!(" {what} of the drive `{}`, {unit}.", drive.name));
+        quote!(#[doc = #doc] pub #name: #runtime::Series<'a, #scalar>)
+    });
+    let loads = model.swept_loads(scene).into_iter().map(|load| {
+        let load = model.load(load);
+        let (name, doc) = (ident(&load.name.text), format!(" {}", load_doc(model, load)));
+        let value = match load.kind {
+            LoadKind::Moment { .. } | LoadKind::Thrust { .. } | LoadKind::Inertia => quote!(#scalar),
+            LoadKind::Force { .. } | LoadKind::Gravity { .. } => quote!(Vector2<#scalar>),
+            LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
+                let ty = ident(&load.type_name());
+                quote!(#ty)
+            }
+        };
+        quote!(#[doc = #doc] pub #name: #runtime::Series<'a, #value>)
+    });
+    let doc = format!(" What is given at each position of the sweep `{}`.", sweep.name);
+    quote! {
+        #[doc = #doc]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct #ty<'a> { #(#drives,)* #(#motion,)* #(#loads,)* }
+    }
+}
+
+/// The numbers of a scene's results, each with the name of its slice. In a module that is only a stand-in, names may meet.
+fn slices(output: &Output) -> Vec<(String, String)> {
+    let mut seen = BTreeSet::new();
+    let all = output.leaves().into_iter().map(|(path, _)| (slice_name(&path), path));
+    all.filter(|(name, _)| seen.insert(name.clone())).collect()
+}
+
+/// Where the results go.
+fn results(model: &Model, sweep: &Sweep, output: &Output) -> TokenStream {
+    let scalar = scalar(model);
+    let ty = ident(&sweep.types()[1]);
+    let scene = &model.scenes[sweep.scene].name;
+    let fields = slices(output).into_iter().map(|(name, path)| {
+        let (name, doc) = (ident(&name), format!(" `{path}` of the scene `{scene}`."));
+        quote!(#[doc = #doc] pub #name: &'a mut [#scalar])
+    });
+    let doc = format!(" Where the results of the sweep `{}` go: a slice for every number.", sweep.name);
+    quote! {
+        #[doc = #doc]
+        #[derive(Debug, PartialEq)]
+        pub struct #ty<'a> { #(#fields,)* }
+    }
+}
+
+/// A sweep with its types.
+pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) -> TokenStream {
+    let model = &linkage.model;
+    let scene = &model.scenes[sweep.scene];
+    let functions = &linkage.functions.scenes[sweep.scene];
+    let output = &linkage.plan.scenes[sweep.scene];
+    let (inputs, results) = (inputs(model, sweep, runtime), results(model, sweep, output));
+    let name = ident(&sweep.name.text);
+    let [inputs_ty, results_ty] = sweep.types().map(|ty| ident(&ty));
+    let slices = slices(output);
+    let fields: Vec<_> = slices.iter().map(|(name, _)| ident(name)).collect();
+    let texts: Vec<_> = slices.iter().map(|(name, _)| name).collect();
+    let paths = slices.iter().map(|(_, path)| {
+        let parts = path.split('.').map(ident);
+        quote!(results #(.#parts)*)
+    });
+    let (motion, loads) = (model.swept_motion(scene), model.swept_loads(scene));
+    let given_names = model.drives.iter().map(|drive| drive.name.text.clone());
+    let given_names = given_names.chain(motion.iter().map(|(drive, order)| drive.motion_name(*order)));
+    let given_names = given_names.chain(loads.iter().map(|load| model.load(*load).name.text.clone()));
+    let given_names: Vec<String> = given_names.collect();
+    let given = given_names.iter().map(|name| ident(name));
+    let drives: Vec<TokenStream> = model
+        .drives
+        .iter()
+        .map(|drive| {
+            let name = ident(&drive.name.text);
+            quote!(inputs.#name.at(index))
+        })
+        .collect();
+    let member = |name: String| {
+        let name = ident(&name);
+        quote!(#name: inputs.#name.at(index))
+    };
+    // What the scene does not read is left as it is.
+    let rest = |all: bool, ty: &str| {
+        let ty = ident(ty);
+        (!all).then(|| quote!(..#ty::default()))
+    };
+    let program = if linkage.functions.near.is_some() { &functions.from_pose } else { &functions.direct };
+    let motion_of = program.reads_motion().then(|| {
+        let rest = rest(motion.len() == given_motion(model).len(), "Motion");
+        let members = motion.iter().map(|(drive, order)| member(drive.motion_name(*order)));
+        quote!(let motion = Motion { #(#members,)* #rest };)
+    });
+    let loads_of = program.reads_loads().then(|| {
+        let rest = rest(loads.len() == run_time_loads(model).len(), "Loads");
+        let members = loads.iter().map(|load| member(model.load(*load).name.text.clone()));
+        quote!(let loads = Loads { #(#members,)* #rest };)
+    });
+    let arguments: Vec<TokenStream> =
+        [program.reads_motion().then(|| quote!(&motion)), program.reads_loads().then(|| quote!(&loads))]
+            .into_iter()
+            .flatten()
+            .collect();
+    let (prepared, passed) =
+        if has_params(linkage) { (Some(quote!(linkage: &Linkage,)), Some(quote!(linkage,))) } else { (None, None) };
+    let scene_name = ident(&scene.name.text);
+    let direct = ident(&format!("{}_at", scene.name));
+    let (before, solved, branch) = if linkage.functions.near.is_some() {
+        let before = quote!(let mut before: Option<Pose> = None;);
+        let solved = quote! {
+            let pose = match before {
+                Some(before) => before.moved_to(#(#drives),*)?,
+                None => Pose::at(#passed #(#drives),*)?,
+            };
+            before = Some(pose);
+            let results = pose.#scene_name(#(#arguments),*)?;
+        };
+        let branch = "From the second position on, groups that are placed by Newton's method are searched from the pose before, so that \
+                      the sweep stays on their branch: that is [`Pose::moved_to`].";
+        (Some(before), solved, branch.to_owned())
+    } else {
+        let solved = quote!(let results = #direct(#passed #(#drives,)* #(#arguments),*)?;);
+        (None, solved, format!("Each position has the numbers of [`{}_at`], bit by bit.", scene.name))
+    };
+    let docs = [
+        format!(" The scene `{}` at every position, in order.", scene.name),
+        String::new(),
+        format!(" {branch}"),
+        " There are as many positions as the results have room; a series of values has one for each of them.".to_owned(),
+        String::new(),
+        " # Errors".to_owned(),
+        String::new(),
+        " `SweepError::Length` if slices are not all of one length: then nothing is computed. `SweepError::Position` with the first position that".to_owned(),
+        " has no answer, and why; those before it have theirs, those behind it are untouched.".to_owned(),
+    ];
+    let count = fields.first().map_or_else(|| quote!(0), |first| quote!(#first.len()));
+    quote! {
+        #inputs
+        #results
+        #(#[doc = #docs])*
+        pub fn #name(#prepared inputs: &#inputs_ty<'_>, results: #results_ty<'_>) -> Result<(), #runtime::SweepError> {
+            use #runtime::__private::{same_length, store, sweep};
+            let #results_ty { #(#fields,)* } = results;
+            let count = #count;
+            #(same_length(#texts, #fields.len(), count)?;)*
+            #(inputs.#given.check(#given_names, count)?;)*
+            #before
+            sweep(count, |index| {
+                #motion_of
+                #loads_of
+                #solved
+                #(store(#fields, index, #paths);)*
+                Ok(())
+            })
+        }
+    }
+}
+
+/// The same without a body, for a declaration that has errors.
+pub(super) fn stand_in(model: &Model, sweep: &Sweep, output: &Output, runtime: &TokenStream) -> TokenStream {
+    let (inputs, results) = (inputs(model, sweep, runtime), results(model, sweep, output));
+    let name = ident(&sweep.name.text);
+    let [inputs_ty, results_ty] = sweep.types().map(|ty| ident(&ty));
+    let prepared = (!model.params.is_empty()).then(|| quote!(linkage: &Linkage,));
+    quote! {
+        #inputs
+        #results
+        pub fn #name(#prepared inputs: &#inputs_ty<'_>, results: #results_ty<'_>) -> Result<(), #runtime::SweepError> { loop {} }
+    }
+}

@@ -1,0 +1,122 @@
+//! Sweeps: scenes that are solved at many positions.
+
+use std::collections::BTreeSet;
+
+use super::{Drive, LoadKind, Method, Model, Scene, type_name};
+use crate::diagnostics::{Diagnostic, Sink};
+use crate::graph::Order;
+use crate::model::ids::LoadId;
+use crate::syntax::ast::{self, Ast, Item, Name};
+
+/// A scene at many positions.
+#[derive(Debug)]
+pub struct Sweep {
+    /// Its name.
+    pub name: Name,
+    /// The scene, by its place in the list of scenes.
+    pub scene: usize,
+}
+
+impl Sweep {
+    /// The types of its arguments: what is given at each position, and where its results go.
+    #[must_use]
+    pub fn types(&self) -> [String; 2] {
+        let results = type_name(&self.name.text);
+        [format!("{results}Inputs"), results]
+    }
+}
+
+pub(super) fn is_sweep(given: &ast::Scene) -> bool {
+    given.method.text == "sweep"
+}
+
+/// Reads the sweeps, once all scenes are known.
+pub(super) fn sweeps(model: &mut Model, ast: &Ast, sink: &Sink) {
+    for item in &ast.items {
+        let Item::Scene(given) = item else { continue };
+        if !is_sweep(given) {
+            continue;
+        }
+        match scene_of(model, ast, given) {
+            Ok(Some(scene)) => model.sweeps.push(Sweep { name: given.name.clone(), scene }),
+            Ok(None) => {}
+            Err(error) => sink.report(error),
+        }
+    }
+    for sweep in &model.sweeps {
+        check_inputs(model, sweep, sink);
+    }
+}
+
+/// The scene of a sweep.
+fn scene_of(model: &Model, ast: &Ast, given: &ast::Scene) -> Result<Option<usize>, Diagnostic> {
+    let named = given.loads.as_deref().unwrap_or_default();
+    let [name] = named else {
+        let place = named.get(1).map_or(given.method.place(), Name::place);
+        return Err(Diagnostic::new(place, "a sweep goes through one scene")
+            .help("name it in parentheses, as in `scene cycle: sweep(statics);`"));
+    };
+    if let Some(results) = &given.results {
+        let place = given.method.place();
+        let problem = "a sweep has the results of its scene";
+        return Err(Diagnostic::new(place, problem).help(if results.is_empty() {
+            "leave the list out"
+        } else {
+            "list them in that scene"
+        }));
+    }
+    let scene = model.scenes.iter().position(|scene| scene.name.text == name.text);
+    match scene.map(|index| (index, &model.scenes[index])) {
+        Some((_, Scene { method: Method::Verify, .. })) => {
+            Err(Diagnostic::new(name.place(), "a scene that verifies is solved at one position after the other")
+                .help("sweep another scene, and verify single positions in a test"))
+        }
+        Some((index, _)) => Ok(Some(index)),
+        None => {
+            let swept =
+                ast.items.iter().any(|item| matches!(item, Item::Scene(s) if is_sweep(s) && s.name.text == name.text));
+            let problem =
+                if swept { format!("`{name}` is a sweep itself") } else { format!("there is no scene `{name}`") };
+            let known = model.scenes.iter().map(|scene| scene.name.text.as_str());
+            Err(Diagnostic::new(name.place(), problem).suggest(&name.text, known))
+        }
+    }
+}
+
+/// What is given at each position stands in one struct: drives, their motion, and loads.
+fn check_inputs(model: &Model, sweep: &Sweep, sink: &Sink) {
+    let scene = &model.scenes[sweep.scene];
+    let mut names: BTreeSet<String> = model.drives.iter().map(|drive| drive.name.text.clone()).collect();
+    let motion = model.swept_motion(scene).into_iter().map(|(drive, order)| drive.motion_name(order));
+    names.extend(motion);
+    for load in model.swept_loads(scene) {
+        let name = &model.load(load).name;
+        if !names.insert(name.text.clone()) {
+            let problem = format!("the sweep `{}` would be given two things `{name}`", sweep.name);
+            sink.report(Diagnostic::new(name.place(), problem).help("choose another name"));
+        }
+    }
+}
+
+impl Model {
+    /// Rates and accelerations of drives that a scene may depend on and that are given at run time.
+    #[must_use]
+    pub fn swept_motion(&self, scene: &Scene) -> Vec<(&Drive, Order)> {
+        let read = |order: &Order| match order {
+            Order::Rate => self.scene_moves(scene),
+            Order::Acceleration => self.scene_accelerates(scene),
+        };
+        let of = |drive| Drive::given_motion(drive, &self.graph).filter(read).map(move |order| (drive, order));
+        self.drives.iter().flat_map(of).collect()
+    }
+
+    /// The loads of a scene that are given at run time.
+    #[must_use]
+    pub fn swept_loads(&self, scene: &Scene) -> Vec<LoadId> {
+        let given = |load: &LoadId| {
+            let kind = self.loads.get(load.index()).map(|load| &load.kind);
+            kind.is_some_and(|kind| !matches!(kind, LoadKind::Inertia) && kind.is_given_at_run_time(self))
+        };
+        scene.loads.iter().copied().filter(given).collect()
+    }
+}
