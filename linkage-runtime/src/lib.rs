@@ -45,6 +45,7 @@
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+pub mod cycle;
 mod error;
 mod linear;
 pub mod math;

@@ -7,7 +7,8 @@
 use std::collections::BTreeMap;
 
 use crate::declaration::{
-    ACCELERATIONS, ALL, CENTROID, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, SPEEDS, WEIGHT, WORK,
+    ACCELERATIONS, ALL, CENTROID, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, POWERS, SHAKING, SPEEDS, WEIGHT,
+    WORK,
 };
 use crate::exact::{difference, difference_of_angles, nearest};
 use crate::file::{Answers, File, Limits, LinkMotion, Ordered, Reaction};
@@ -71,6 +72,12 @@ pub(crate) fn compare(
         let field = format!("{name}_offset");
         let own = scene(&format!("{OFFSET}{name}"))?.field(&field).ok_or_else(|| format!("no line of `{link}`"))?;
         comparison.line(own, (link, line), worst)?;
+    }
+    if let Some(power) = &answers.power {
+        comparison.power(scene(POWERS)?, power, worst)?;
+    }
+    if let Some(shaking) = &answers.shaking {
+        comparison.shaking(scene(SHAKING)?, shaking, worst)?;
     }
     comparison.equilibrium(scene(ALL)?, worst)?;
     comparison.work(scene(WORK)?, worst)?;
@@ -222,6 +229,47 @@ impl Comparison<'_> {
         worst.see(difference(distance, &answer.h)?.abs(), limits, || format!("offset of {link}"));
         let off = difference(x, &answer.offset[0])?.hypot(difference(y, &answer.offset[1])?);
         worst.see(off, limits, || format!("line of {link}"));
+        Ok(())
+    }
+
+    /// Powers, each measured by its effort's limit: a rate is as it is given, or as exact as the pose. That of all by the sum of their
+    /// sizes, with what the loads and the masses take.
+    fn power(&self, own: &Value, answer: &crate::file::Power, worst: &mut Worst) -> Result<(), String> {
+        let number =
+            |name: &str| own.field(name).and_then(Value::number).ok_or_else(|| format!("there is no power `{name}`"));
+        let mut scale = nearest(&answer.loads)?.abs().max(nearest(&answer.kinetic_energy_rate)?.abs());
+        for power in &answer.inputs {
+            scale = scale.max(nearest(power)?.abs());
+        }
+        let limits =
+            self.scales.limits.each_ref().map(|limits| scale * limits.effort.iter().fold(0.0, |a: f64, b| a.max(*b)));
+        for (index, known) in answer.inputs.iter().enumerate() {
+            let unknown = self.declaration.unknowns.get(index).ok_or_else(|| format!("there is no input {index}"))?;
+            worst.see(difference(number(&format!("{unknown}_power"))?, known)?.abs(), limits, || {
+                format!("power {index}")
+            });
+        }
+        worst.see(difference(number("power")?, &answer.effort)?.abs(), limits, || "power".into());
+        Ok(())
+    }
+
+    /// The resultant of inertia, measured by the largest of its links' forces, which cancel in a balanced machine; the moment by these
+    /// at the length of the linkage, or at the distance from the origin.
+    fn shaking(&self, own: &Value, answer: &crate::file::Shaking, worst: &mut Worst) -> Result<(), String> {
+        let found = own.fields().first().map(|(_, value)| value);
+        let missing = || "there is no resultant of inertia".to_owned();
+        let [x, y] = found.and_then(|value| value.field("force")?.vector()).ok_or_else(missing)?;
+        let moment = found.and_then(|value| value.field("moment")?.number()).ok_or_else(missing)?;
+        let [known_x, known_y] = [nearest(&answer.force[0])?, nearest(&answer.force[1])?];
+        let scale = self.scales.reaction.max(known_x.hypot(known_y));
+        let mut distance = self.scales.length;
+        for (_, [x, y, _]) in self.answers.pose.iter() {
+            distance = distance.max(nearest(x)?.hypot(nearest(y)?));
+        }
+        let limits = [self.scales.motion * scale; 2];
+        let off = difference(x, &answer.force[0])?.hypot(difference(y, &answer.force[1])?);
+        worst.see(off, limits, || "shaking force".into());
+        worst.see(difference(moment, &answer.moment)?.abs() / distance, limits, || "shaking moment".into());
         Ok(())
     }
 

@@ -23,6 +23,12 @@ pub(crate) const SPEEDS: &str = "speeds";
 pub(crate) const ACCELERATIONS: &str = "accelerations";
 /// Before the name of a link: the line of its inertia.
 pub(crate) const OFFSET: &str = "offset_";
+/// The resultant of inertia, of a file that moves.
+pub(crate) const SHAKING: &str = "shaking_";
+/// The point of the ground at its origin.
+pub(crate) const GROUND_ORIGIN: &str = "ground_origin";
+/// Powers of the efforts, of a file that moves.
+pub(crate) const POWERS: &str = "powers";
 /// The load that gravity is.
 pub(crate) const WEIGHT: &str = "W";
 /// The load that inertia is.
@@ -180,6 +186,13 @@ impl<'a> Writer<'a> {
                 items.push(format!("scene {OFFSET}{link}: acceleration -> (offset({link}));"));
             }
         }
+        if moves(self.file) {
+            let powers: Vec<String> = unknowns.iter().map(|unknown| format!("power({unknown})")).collect();
+            items.push(format!("scene {POWERS}: equilibrium -> ({}, power);", powers.join(", ")));
+            if self.weighty()? {
+                items.push(format!("scene {SHAKING}: acceleration -> (shaking(ground.{GROUND_ORIGIN}));"));
+            }
+        }
         items.push(format!("scene {ALL}: equilibrium;"));
         items.push(format!("scene {PARTS}: superposition;"));
         items.push(format!("scene {WORK}: virtual_work;"));
@@ -204,6 +217,7 @@ impl<'a> Writer<'a> {
             };
             let mut places: Vec<String> = points.iter().map(place).collect::<Result<_, String>>()?;
             if name == "ground" {
+                places.push(format!("{GROUND_ORIGIN}: (0, 0)"));
                 return Ok(format!("ground {{ {} }}", places.join(", ")));
             }
             places.push(format!("{ORIGIN}: (0, 0)"));
@@ -466,6 +480,12 @@ impl<'a> Writer<'a> {
             items.push(format!("load {WEIGHT}: gravity = {};", self.vector(gravity, "m/s^2")?));
         }
         Ok(())
+    }
+
+    /// Whether any link has a mass.
+    fn weighty(&self) -> Result<bool, String> {
+        let masses = self.file.links.iter().filter_map(|(_, body)| body.mass.as_ref());
+        masses.map(|mass| self.number(mass)).try_fold(false, |any, mass| Ok(any || !mass?.is_zero()))
     }
 
     fn motion(&self) -> Result<Vec<[f64; 2]>, String> {

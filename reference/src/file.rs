@@ -233,6 +233,8 @@ pub(crate) struct Answers {
     #[serde(default)]
     pub(crate) contributions: Ordered<Contribution>,
     pub(crate) virtual_work: Option<VirtualWork>,
+    pub(crate) power: Option<Power>,
+    pub(crate) shaking: Option<Shaking>,
     pub(crate) f64_floor: Option<Floor>,
     pub(crate) accept: Option<Accept>,
 }
@@ -282,6 +284,23 @@ pub(crate) struct Reaction {
 pub(crate) struct Contribution {
     pub(crate) efforts: Vec<String>,
     pub(crate) reactions: Ordered<Reaction>,
+}
+
+/// What the efforts put in.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Power {
+    pub(crate) inputs: Vec<String>,
+    pub(crate) effort: String,
+    /// The same of each load, by which it is measured.
+    pub(crate) loads: String,
+    pub(crate) kinetic_energy_rate: String,
+}
+
+/// The resultant of inertia about the origin of the ground.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Shaking {
+    pub(crate) force: [String; 2],
+    pub(crate) moment: String,
 }
 
 /// Efforts without the equilibrium equations.

@@ -26,7 +26,7 @@ linkage! {
     scene torque: virtual_work -> (T12);
 
     scene control: motion;
-    scene cycle: sweep(statics);
+    scene cycle: inverse(A0);
 }
 
 fn main() {

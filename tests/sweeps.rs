@@ -1,0 +1,289 @@
+//! Sweeps, resultants and powers as a user has them.
+
+use core::f64::consts::TAU;
+
+use linkage_runtime::{Error, Series, SweepError, Vector2, linkage};
+
+linkage! {
+    /// An engine with everything that the ground may feel: gas, weights, a spring and a torque between a link and the ground.
+    mod engine;
+    ground      { O: (10mm, 20mm), P: (-40mm, 30mm), K: (0, 150mm) }
+    link crank  { O -> A: 40mm, G: (-10mm, 5mm) }
+    link rod    { A -> B: 140mm, C: (45mm, 8mm) }
+    link piston { B, H: (12mm, 1mm) }
+    mass crank: 1.1kg at G, inertia 900kg*mm^2;
+    mass rod: 0.62kg at C, inertia 1900kg*mm^2;
+    mass piston: 0.45kg at H;
+    revolute O: ground -> crank;
+    revolute A: crank -> rod;
+    revolute B: rod -> piston;
+    prismatic S: ground.O -> piston.B along 0deg;
+    drive theta: O;
+    assemble B: ahead(A);
+    load gas: force(piston.B);
+    load I: inertia;
+    load W: gravity = 9.81m/s^2 @ -90deg;
+    load K: spring(ground.K, rod.C) { rate: _, free: 60mm, damping: 4N*s/m };
+    load M: moment(ground -> rod) = 3N*m;
+    load F: force(rod.C) in rod;
+    scene all: equilibrium -> (effort_theta, O, S, ground about ground.P, ground about rod.C, power, power(effort_theta));
+    scene parts: superposition -> (effort_theta, ground about ground.P);
+    scene alone: equilibrium(I) -> (ground about ground.P);
+    scene work: virtual_work -> (effort_theta, power);
+    scene shakes: acceleration -> (shaking(ground.P), shaking(crank.A));
+    scene places: position -> (B, A, rod.C, crank.G, piston.H);
+    scene speeds: velocity -> (B, rod.angle, rod.C);
+    scene cycle: sweep(all);
+    scene each: sweep(parts);
+    scene speed: sweep(speeds);
+}
+
+linkage! {
+    /// A press of run-time length, in single precision.
+    mod press;
+    scalar f32;
+    units { mm, N }
+    param length: length = 130mm;
+    ground      { O: (0, 0) }
+    link crank  { O -> A: 40mm }
+    link rod    { A -> B: length }
+    link ram    { B }
+    revolute O: ground -> crank;
+    revolute A: crank -> rod;
+    revolute B: rod -> ram;
+    prismatic S: ground.O -> ram.B along 0deg;
+    drive theta: O;
+    assemble B: ahead(A);
+    load F: force(ram.B);
+    scene held: equilibrium -> (effort_theta, A);
+    scene stroke: sweep(held);
+}
+
+linkage! {
+    /// A platform on three cranks, placed by iteration.
+    mod platform;
+    ground { A: (0, 0), B: (2m, 0), C: (1m, 2m) }
+    link a { A -> P: 0.6m } link b { B -> Q: 0.9m } link c { C -> R: 0.9m }
+    link plate { P: (0, 0), Q: (1m, 0), R: (0.5m, 0.7m) }
+    revolute A: ground -> a; revolute B: ground -> b; revolute C: ground -> c;
+    revolute P: a -> plate; revolute Q: b -> plate; revolute R: c -> plate;
+    drive theta: A;
+    start theta: 90deg;
+    start b: (2m, 0), angle 135deg; start c: (1m, 2m), angle 270deg; start plate: (0, 0.6m), angle 0deg;
+    load F: force(plate.R) = (3N, -20N);
+    scene held: equilibrium;
+    scene turned: sweep(held);
+}
+
+const COUNT: usize = 48;
+
+fn angles() -> [f64; COUNT] {
+    core::array::from_fn(|step| 0.03 + TAU * step as f64 / COUNT as f64)
+}
+
+fn gas() -> [Vector2<f64>; COUNT] {
+    angles().map(|angle| Vector2::new(-2000.0 * (1.0 + angle.cos()), 0.0))
+}
+
+fn inputs<'a>(angles: &'a [f64], gas: &'a [Vector2<f64>]) -> engine::CycleInputs<'a> {
+    engine::CycleInputs {
+        theta: angles.into(),
+        theta_rate: Series::Constant(100.0),
+        theta_acceleration: 30.0.into(),
+        gas: gas.into(),
+        K: Series::Constant(engine::LoadsK { rate: 300.0 }),
+        F: Series::Constant(Vector2::new(4.0, -7.0)),
+    }
+}
+
+/// Motion and loads at a position.
+fn at(index: usize) -> (engine::Motion, engine::Loads) {
+    let motion = engine::Motion { theta_rate: 100.0, theta_acceleration: 30.0 };
+    let loads = engine::Loads { gas: gas()[index], K: engine::LoadsK { rate: 300.0 }, F: Vector2::new(4.0, -7.0) };
+    (motion, loads)
+}
+
+/// Runs the sweep `cycle` into one array of rows.
+fn cycle(inputs: &engine::CycleInputs<'_>, rows: &mut [Vec<f64>; 14]) -> Result<(), SweepError> {
+    let [t, ox, oy, sx, sy, sn, sc, px, py, pm, cx, cy, cm, pw] = rows;
+    let mut own = vec![0.0; pw.len()];
+    let results = engine::Cycle {
+        effort_theta: t,
+        O_x: ox,
+        O_y: oy,
+        S_force_x: sx,
+        S_force_y: sy,
+        S_normal: sn,
+        S_couple: sc,
+        ground_about_ground_P_force_x: px,
+        ground_about_ground_P_force_y: py,
+        ground_about_ground_P_moment: pm,
+        ground_about_rod_C_force_x: cx,
+        ground_about_rod_C_force_y: cy,
+        ground_about_rod_C_moment: cm,
+        power: pw,
+        effort_theta_power: &mut own,
+    };
+    engine::cycle(inputs, results)?;
+    assert_eq!(&own, pw);
+    Ok(())
+}
+
+#[test]
+fn a_sweep_has_the_bits_of_the_point_function() {
+    let (angles, gas) = (angles(), gas());
+    let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
+    cycle(&inputs(&angles, &gas), &mut rows).expect("regular everywhere");
+    for (index, theta) in angles.iter().enumerate() {
+        let (motion, loads) = at(index);
+        let one = engine::all_at(*theta, &motion, &loads).expect("regular");
+        let [p, c] = [one.ground_about_ground_P, one.ground_about_rod_C];
+        let expected = [
+            one.effort_theta,
+            one.O.x,
+            one.O.y,
+            one.S.force.x,
+            one.S.force.y,
+            one.S.normal,
+            one.S.couple,
+            p.force.x,
+            p.force.y,
+            p.moment,
+            c.force.x,
+            c.force.y,
+            c.moment,
+            one.power,
+        ];
+        assert_eq!(rows.each_ref().map(|row| row[index].to_bits()), expected.map(f64::to_bits), "position {index}");
+    }
+}
+
+#[test]
+fn what_the_ground_feels_is_what_comes_from_outside() {
+    for (index, theta) in angles().into_iter().enumerate() {
+        let (motion, loads) = at(index);
+        let pose = engine::Pose::at(theta).expect("regular");
+        let all = pose.all(&motion, &loads).expect("regular");
+        let shakes = pose.shakes(&motion).expect("regular");
+        let places = engine::places_at(theta).expect("regular");
+        let about = Vector2::new(-0.04, 0.03);
+        // From outside: inertia, gas, weights, the force that turns with the rod. Not the spring and the moment, which the ground reacts.
+        let weights = [(1.1, places.crank_G), (0.62, places.rod_C), (0.45, places.piston_H)];
+        let weights = weights.map(|(mass, at)| (Vector2::new(0.0, -9.81 * mass), at));
+        let along = pose.rod_direction();
+        let turned = Vector2::new(4.0 * along.x + 7.0 * along.y, 4.0 * along.y - 7.0 * along.x);
+        let forces = weights.into_iter().chain([(loads.gas, places.B), (turned, places.rod_C)]);
+        let (mut force, mut moment) = (shakes.shaking_ground_P.force, shakes.shaking_ground_P.moment);
+        for (one, at) in forces {
+            force += one;
+            moment += (at - about).perp(&one);
+        }
+        let felt = all.ground_about_ground_P;
+        assert!((felt.force - force).norm() < 1e-9, "{felt:?} at {theta}");
+        assert!((felt.moment - moment).abs() < 1e-9, "{felt:?} at {theta}");
+        // About another point: the moment of the force beside it.
+        let moved = all.ground_about_rod_C;
+        let expected = felt.moment - (places.rod_C - about).perp(&felt.force);
+        assert!((moved.force - felt.force).norm() < 1e-9 && (moved.moment - expected).abs() < 1e-9);
+        let (here, there) = (shakes.shaking_ground_P, shakes.shaking_crank_A);
+        assert!((here.moment - (places.A - about).perp(&here.force) - there.moment).abs() < 1e-9);
+        // By inertia alone the ground feels nothing else.
+        let alone = pose.alone(&motion).expect("regular").ground_about_ground_P;
+        assert!((alone.force - here.force).norm() < 1e-9 && (alone.moment - here.moment).abs() < 1e-9);
+        let parts = pose.parts(&motion, &loads).expect("regular").total().ground_about_ground_P;
+        assert!((parts.force - felt.force).norm() < 1e-9 && (parts.moment - felt.moment).abs() < 1e-9);
+        // The power, by both methods, and by hand.
+        assert_eq!(all.power, all.effort_theta * 100.0);
+        let work = pose.work(&motion, &loads).expect("regular");
+        assert!((work.power - all.power).abs() < 1e-9 * all.power.abs().max(1.0));
+    }
+}
+
+#[test]
+fn the_first_position_without_an_answer_is_named() {
+    let (mut angles, gas) = (angles(), gas());
+    angles[17] = f64::NAN;
+    let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
+    let error = cycle(&inputs(&angles, &gas), &mut rows).expect_err("no angle");
+    assert_eq!(error, SweepError::Position { index: 17, error: Error::NotFinite { what: "theta" } });
+    assert!(rows.iter().all(|row| row[..17].iter().all(|x| x.is_finite()) && row[17..].iter().all(|x| x.is_nan())));
+}
+
+#[test]
+fn lengths_are_checked_before_anything_is_computed() {
+    let (angles, gas) = (angles(), gas());
+    let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
+    let short = engine::CycleInputs { gas: (&gas[1..]).into(), ..inputs(&angles, &gas) };
+    let expected = SweepError::Length { what: "gas", found: COUNT - 1, expected: COUNT };
+    assert_eq!(cycle(&short, &mut rows), Err(expected));
+    rows[5].pop();
+    let expected = SweepError::Length { what: "S_normal", found: COUNT - 1, expected: COUNT };
+    assert_eq!(cycle(&inputs(&angles, &gas), &mut rows), Err(expected));
+    assert!(rows.iter().all(|row| row.iter().all(|x| x.is_nan())));
+    let mut none: [Vec<f64>; 14] = core::array::from_fn(|_| Vec::new());
+    assert_eq!(cycle(&inputs(&[], &[]), &mut none), Ok(()));
+}
+
+#[test]
+fn parameters_single_precision_and_scenes_without_loads() {
+    let linkage = press::Linkage::new(&press::Params { length: 150.0 }).expect("a press");
+    let angles: [f32; 20] = core::array::from_fn(|step| 0.1 + 0.3 * step as f32);
+    let [mut t, mut x, mut y] = [[0.0f32; 20]; 3];
+    let inputs = press::StrokeInputs { theta: Series::Each(&angles), F: Series::Constant(Vector2::new(-50.0, 0.0)) };
+    press::stroke(&linkage, &inputs, press::Stroke { effort_theta: &mut t, A_x: &mut x, A_y: &mut y })
+        .expect("regular");
+    let loads = press::Loads { F: Vector2::new(-50.0, 0.0) };
+    for (index, theta) in angles.into_iter().enumerate() {
+        let one = press::held_at(&linkage, theta, &loads).expect("regular");
+        assert_eq!(
+            [t[index], x[index], y[index]].map(f32::to_bits),
+            [one.effort_theta, one.A.x, one.A.y].map(f32::to_bits)
+        );
+    }
+}
+
+#[test]
+fn what_is_placed_by_iteration_goes_on_from_the_position_before() {
+    let angles: [f64; 25] = core::array::from_fn(|step| 1.55 + 0.01 * step as f64);
+    let mut rows = [[0.0; 25]; 13];
+    let [t, ax, ay, bx, by, cx, cy, px, py, qx, qy, rx, ry] = rows.each_mut();
+    let results = platform::Turned {
+        effort_theta: t,
+        A_x: ax,
+        A_y: ay,
+        B_x: bx,
+        B_y: by,
+        C_x: cx,
+        C_y: cy,
+        P_x: px,
+        P_y: py,
+        Q_x: qx,
+        Q_y: qy,
+        R_x: rx,
+        R_y: ry,
+    };
+    platform::turned(&platform::TurnedInputs { theta: Series::Each(&angles) }, results).expect("regular");
+    let mut pose = platform::Pose::at(angles[0]).expect("the start");
+    for (index, theta) in angles.into_iter().enumerate() {
+        if index > 0 {
+            pose = pose.moved_to(theta).expect("near");
+        }
+        let one = pose.held().expect("regular");
+        let expected = [
+            one.effort_theta,
+            one.A.x,
+            one.A.y,
+            one.B.x,
+            one.B.y,
+            one.C.x,
+            one.C.y,
+            one.P.x,
+            one.P.y,
+            one.Q.x,
+            one.Q.y,
+            one.R.x,
+            one.R.y,
+        ];
+        assert_eq!(rows.map(|row| row[index].to_bits()), expected.map(f64::to_bits), "position {index}");
+    }
+}
