@@ -60,18 +60,30 @@ linkage! {
 }
 
 linkage! {
-    /// A platform on three cranks, placed by iteration.
-    mod platform;
-    ground { A: (0, 0), B: (2m, 0), C: (1m, 2m) }
-    link a { A -> P: 0.6m } link b { B -> Q: 0.9m } link c { C -> R: 0.9m }
-    link plate { P: (0, 0), Q: (1m, 0), R: (0.5m, 0.7m) }
-    revolute A: ground -> a; revolute B: ground -> b; revolute C: ground -> c;
-    revolute P: a -> plate; revolute Q: b -> plate; revolute R: c -> plate;
-    drive theta: A;
-    start theta: 90deg;
-    start b: (2m, 0), angle 135deg; start c: (1m, 2m), angle 270deg; start plate: (0, 0.6m), angle 0deg;
-    load F: force(plate.R) = (3N, -20N);
-    scene held: equilibrium;
+    /// A triad, placed by iteration.
+    mod triad;
+    units { mm, N }
+    ground     { O: (0, 0), Q: (500mm, 100mm), P: (400mm, -100mm) }
+    link crank { O -> A: 28mm }
+    link rod   { A -> E: 230mm }
+    link plate { E: (0, 0), C: (100mm, 70mm), D: (70mm, -90mm), G: (50mm, 0) }
+    link upper { Q -> C: 192mm }
+    link lower { P -> D: 180mm }
+    revolute O: ground -> crank;
+    revolute A: crank -> rod;
+    revolute E: rod -> plate;
+    revolute C: plate -> upper;
+    revolute D: plate -> lower;
+    revolute Q: ground -> upper;
+    revolute P: ground -> lower;
+    drive theta: O;
+    start theta: 30deg;
+    start rod: (30mm, 20mm), angle 30deg;
+    start plate: (240mm, 140mm), angle 0;
+    start upper: (500mm, 100mm), angle 140deg;
+    start lower: (400mm, -100mm), angle 120deg;
+    load F: force(plate.G);
+    scene held: equilibrium -> (effort_theta, E, power);
     scene turned: sweep(held);
 }
 
@@ -244,46 +256,24 @@ fn parameters_single_precision_and_scenes_without_loads() {
 
 #[test]
 fn what_is_placed_by_iteration_goes_on_from_the_position_before() {
-    let angles: [f64; 25] = core::array::from_fn(|step| 1.55 + 0.01 * step as f64);
-    let mut rows = [[0.0; 25]; 13];
-    let [t, ax, ay, bx, by, cx, cy, px, py, qx, qy, rx, ry] = rows.each_mut();
-    let results = platform::Turned {
-        effort_theta: t,
-        A_x: ax,
-        A_y: ay,
-        B_x: bx,
-        B_y: by,
-        C_x: cx,
-        C_y: cy,
-        P_x: px,
-        P_y: py,
-        Q_x: qx,
-        Q_y: qy,
-        R_x: rx,
-        R_y: ry,
+    let angles: [f64; 120] = core::array::from_fn(|step| 0.5 + 0.1 * step as f64);
+    let [mut t, mut x, mut y, mut power] = [[0.0; 120]; 4];
+    let results = triad::Turned { effort_theta: &mut t, E_x: &mut x, E_y: &mut y, power: &mut power };
+    let force = Vector2::new(3.0, -20.0);
+    let inputs = triad::TurnedInputs {
+        theta: Series::Each(&angles),
+        theta_rate: Series::Constant(-2.0),
+        F: Series::Constant(force),
     };
-    platform::turned(&platform::TurnedInputs { theta: Series::Each(&angles) }, results).expect("regular");
-    let mut pose = platform::Pose::at(angles[0]).expect("the start");
+    triad::turned(&inputs, results).expect("regular");
+    let mut pose = triad::Pose::at(angles[0]).expect("near the start");
+    let (motion, loads) = (triad::Motion { theta_rate: -2.0 }, triad::Loads { F: force });
     for (index, theta) in angles.into_iter().enumerate() {
         if index > 0 {
             pose = pose.moved_to(theta).expect("near");
         }
-        let one = pose.held().expect("regular");
-        let expected = [
-            one.effort_theta,
-            one.A.x,
-            one.A.y,
-            one.B.x,
-            one.B.y,
-            one.C.x,
-            one.C.y,
-            one.P.x,
-            one.P.y,
-            one.Q.x,
-            one.Q.y,
-            one.R.x,
-            one.R.y,
-        ];
-        assert_eq!(rows.map(|row| row[index].to_bits()), expected.map(f64::to_bits), "position {index}");
+        let one = pose.held(&motion, &loads).expect("regular");
+        let expected = [one.effort_theta, one.E.x, one.E.y, -2.0 * one.effort_theta];
+        assert_eq!([t, x, y, power].map(|row| row[index].to_bits()), expected.map(f64::to_bits), "position {index}");
     }
 }
