@@ -53,17 +53,17 @@ const BORE: f64 = 86.0;
 /// Pressure in the cylinder above that outside, N/mm², `turned` behind the upper dead centre at which the fuel burns: expansion and
 /// compression by `p Vⁿ`, at a compression of 10; the pressures outside otherwise.
 fn pressure(turned: f64) -> f64 {
-    let (crank, rod) = (42.0, 142.0);
+    let (crank, rod): (f64, f64) = (42.0, 142.0);
     let height = |angle: f64| {
         let aside: f64 = crank * angle.sin();
         crank * angle.cos() + (rod * rod - aside * aside).sqrt()
     };
     let volume = (crank + rod - height(turned)) / (2.0 * crank) + 1.0 / 9.0;
-    let (least, most) = (1.0 / 9.0, 10.0 / 9.0);
+    let (least, most): (f64, f64) = (1.0 / 9.0, 10.0 / 9.0);
     if turned < PI {
         // The pressure rises to its largest value over the first 20°.
         let burnt = (turned / 20f64.to_radians()).min(1.0);
-        let compressed: f64 = 0.1 * (most / least).powf(1.3);
+        let compressed = 0.1 * (most / least).powf(1.3);
         let burning = compressed + (5.5 - compressed) * (0.5 - 0.5 * (PI * burnt).cos());
         burning * (least / volume).powf(1.3) - 0.1
     } else if turned < 3.0 * PI {

@@ -27,6 +27,7 @@ linkage! {
     scene statics: equilibrium;
     scene parts:   superposition;
     scene torque:  virtual_work -> (T12);
+    scene torques: sweep(torque);
 }
 
 linkage! {

@@ -9,6 +9,7 @@ mod harness;
 mod instructions;
 mod items;
 mod linkages;
+mod sweeps;
 
 use std::process::ExitCode;
 use std::time::Duration;
@@ -19,6 +20,7 @@ use crate::items::{Extent, Item};
 /// What the command line can be; `--once` is how `--instructions` calls this program again.
 const USAGE: &str = "\
 linkage-bench [--quick] [--chained] [--shuffled] [ITEM …]
+linkage-bench --sweeps [--quick]
 linkage-bench --instructions [ITEM …]
 linkage-bench --once ITEM METHOD SWEEPS [independent | chained | empty]";
 
@@ -46,7 +48,10 @@ fn run(arguments: &[String]) -> Result<(), String> {
         return instructions::once(id, method, sweeps.parse().map_err(|_| USAGE)?, mode);
     }
     let (options, ids): (Vec<&str>, Vec<&str>) = arguments.into_iter().partition(|argument| argument.starts_with("--"));
-    if options.iter().any(|option| !["--quick", "--chained", "--shuffled", "--instructions"].contains(option)) {
+    if options
+        .iter()
+        .any(|option| !["--quick", "--chained", "--shuffled", "--instructions", "--sweeps"].contains(option))
+    {
         return Err(USAGE.into());
     }
     let has = |option| options.contains(&option);
@@ -55,6 +60,10 @@ fn run(arguments: &[String]) -> Result<(), String> {
         return instructions::print(chosen);
     }
     let quick = has("--quick");
+    if has("--sweeps") {
+        println!("{}", processor());
+        return sweeps::print(if quick { 51 } else { 501 });
+    }
     let extent = Extent { timed: 1024, judged: true, shuffled: has("--shuffled") };
     let mode = if has("--chained") { Mode::Chained } else { Mode::Independent };
     let (rounds, least) = if quick { (101, Duration::from_micros(100)) } else { (1001, Duration::from_micros(200)) };
