@@ -75,36 +75,12 @@ fn results(model: &Model, sweep: &Sweep, output: &Output) -> TokenStream {
     }
 }
 
-/// A sweep with its types.
-pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) -> TokenStream {
+/// Motion and loads of a position, and the arguments that a scene's function takes behind the drives.
+fn given_values(linkage: &Linkage, sweep: &Sweep) -> (TokenStream, Vec<TokenStream>) {
     let model = &linkage.model;
     let scene = &model.scenes[sweep.scene];
     let functions = &linkage.functions.scenes[sweep.scene];
-    let output = &linkage.plan.scenes[sweep.scene];
-    let (inputs, results) = (inputs(model, sweep, runtime), results(model, sweep, output));
-    let name = ident(&sweep.name.text);
-    let [inputs_ty, results_ty] = sweep.types().map(|ty| ident(&ty));
-    let slices = slices(output);
-    let fields: Vec<_> = slices.iter().map(|(name, _)| ident(name)).collect();
-    let texts: Vec<_> = slices.iter().map(|(name, _)| name).collect();
-    let paths = slices.iter().map(|(_, path)| {
-        let parts = path.split('.').map(ident);
-        quote!(results #(.#parts)*)
-    });
     let (motion, loads) = (model.swept_motion(scene), model.swept_loads(scene));
-    let given_names = model.drives.iter().map(|drive| drive.name.text.clone());
-    let given_names = given_names.chain(motion.iter().map(|(drive, order)| drive.motion_name(*order)));
-    let given_names = given_names.chain(loads.iter().map(|load| model.load(*load).name.text.clone()));
-    let given_names: Vec<String> = given_names.collect();
-    let given = given_names.iter().map(|name| ident(name));
-    let drives: Vec<TokenStream> = model
-        .drives
-        .iter()
-        .map(|drive| {
-            let name = ident(&drive.name.text);
-            quote!(inputs.#name.at(index))
-        })
-        .collect();
     let member = |name: String| {
         let name = ident(&name);
         quote!(#name: inputs.#name.at(index))
@@ -130,6 +106,39 @@ pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) 
             .into_iter()
             .flatten()
             .collect();
+    (quote!(#motion_of #loads_of), arguments)
+}
+
+/// A sweep with its types.
+pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) -> TokenStream {
+    let model = &linkage.model;
+    let scene = &model.scenes[sweep.scene];
+    let output = &linkage.plan.scenes[sweep.scene];
+    let (inputs, results) = (inputs(model, sweep, runtime), results(model, sweep, output));
+    let name = ident(&sweep.name.text);
+    let [inputs_ty, results_ty] = sweep.types().map(|ty| ident(&ty));
+    let slices = slices(output);
+    let fields: Vec<_> = slices.iter().map(|(name, _)| ident(name)).collect();
+    let texts: Vec<_> = slices.iter().map(|(name, _)| name).collect();
+    let paths = slices.iter().map(|(_, path)| {
+        let parts = path.split('.').map(ident);
+        quote!(results #(.#parts)*)
+    });
+    let (motion, loads) = (model.swept_motion(scene), model.swept_loads(scene));
+    let given_names = model.drives.iter().map(|drive| drive.name.text.clone());
+    let given_names = given_names.chain(motion.iter().map(|(drive, order)| drive.motion_name(*order)));
+    let given_names = given_names.chain(loads.iter().map(|load| model.load(*load).name.text.clone()));
+    let given_names: Vec<String> = given_names.collect();
+    let given = given_names.iter().map(|name| ident(name));
+    let drives: Vec<TokenStream> = model
+        .drives
+        .iter()
+        .map(|drive| {
+            let name = ident(&drive.name.text);
+            quote!(inputs.#name.at(index))
+        })
+        .collect();
+    let (given_values, arguments) = given_values(linkage, sweep);
     let (prepared, passed) =
         if has_params(linkage) { (Some(quote!(linkage: &Linkage,)), Some(quote!(linkage,))) } else { (None, None) };
     let scene_name = ident(&scene.name.text);
@@ -175,8 +184,7 @@ pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) 
             #(inputs.#given.check(#given_names, count)?;)*
             #before
             sweep(count, |index| {
-                #motion_of
-                #loads_of
+                #given_values
                 #solved
                 #(store(#fields, index, #paths);)*
                 Ok(())
