@@ -28,6 +28,7 @@ pub fn text(linkage: &Linkage) -> String {
     );
     text.push_str(&blocks(linkage));
     text.push('\n');
+    text.push_str(&super::limits::text(linkage));
     text.push_str(&closed_forms(linkage));
     text
 }
@@ -219,6 +220,9 @@ fn closed_forms(linkage: &Linkage) -> String {
     };
     if !linkage.model.params.is_empty() {
         add("prepared, from the parameters".into(), &prepare_program(linkage));
+    }
+    if let Some((heading, program)) = super::limits::closed_form(linkage) {
+        add(heading, program);
     }
     add("pose, from the drives".into(), &linkage.functions.pose);
     for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {

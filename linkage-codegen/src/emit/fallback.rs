@@ -40,6 +40,7 @@ pub fn module(mut model: Model) -> TokenStream {
         quote!(pub fn #name(#arguments) -> Result<#ty, Error> { loop {} })
     });
     let loads = loads(model, false);
+    let limits = super::limits::fallback(model, &runtime);
     let own = names.iter().map(|name| name.unraw().to_string());
     let methods = distinct(own.zip(from_pose).chain(accessors));
     quote! {
@@ -53,6 +54,7 @@ pub fn module(mut model: Model) -> TokenStream {
                 pub const SOURCE: &str = "";
                 #loads
                 #params
+                #limits
                 #pose
                 impl #lifetime Pose #lifetime {
                     pub fn at(#at) -> Result<Self, Error> { loop {} }

@@ -17,7 +17,7 @@ use crate::plan::{Comparison, Output};
 use crate::program::{Input, Program, ValueId};
 
 /// Names that a function's own values cannot have.
-const TAKEN: [&str; 6] = ["loads", "linkage", "params", "EQUATIONS", "OPERATIONS", "SOURCE"];
+const TAKEN: [&str; 7] = ["loads", "linkage", "params", "EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"];
 
 /// The name of an input.
 fn input_name(linkage: &Linkage, input: Input) -> String {
@@ -207,17 +207,26 @@ pub(super) fn prepare_program(linkage: &Linkage) -> Program {
     program
 }
 
-/// `Linkage::new`.
-pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
-    let program = prepare_program(linkage);
-    let (statements, body) = body(linkage, &program).statements();
-    let fields = program.outputs.iter().map(|(name, value)| member(name, &body.value(*value)));
+/// The parameters as values of their own, each a finite number.
+pub(super) fn given_params(linkage: &Linkage) -> TokenStream {
     let params = linkage.model.params.iter().map(|param| ident(&param.name.text));
     let finite = linkage.model.params.iter().map(|param| {
         let name = ident(&param.name.text);
         let text = &param.name.text;
         quote!(if !#name.is_finite() { return Err(Error::NotFinite { what: #text }); })
     });
+    quote! {
+        let Params { #(#params),* } = *params;
+        #(#finite)*
+    }
+}
+
+/// `Linkage::new`.
+pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
+    let program = prepare_program(linkage);
+    let (statements, body) = body(linkage, &program).statements();
+    let fields = program.outputs.iter().map(|(name, value)| member(name, &body.value(*value)));
+    let given = given_params(linkage);
     quote! {
         impl Linkage {
             /// Prepares the linkage of some dimensions.
@@ -226,8 +235,7 @@ pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
             ///
             /// [`Error::Parameter`] if a dimension is out of its range, [`Error::NotFinite`] if one is not a finite number.
             pub fn new(params: &Params) -> Result<Self, Error> {
-                let Params { #(#params),* } = *params;
-                #(#finite)*
+                #given
                 #statements
                 Ok(Self { #(#fields),* })
             }

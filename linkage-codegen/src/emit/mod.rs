@@ -6,6 +6,7 @@ mod equations;
 mod fallback;
 mod formula;
 mod functions;
+mod limits;
 mod literals;
 mod types;
 
@@ -53,6 +54,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     let math = ident(model.graph.scalar().name());
     let equations = literals::text(&equations::text(linkage));
     let operations = literals::text(&operations(linkage));
+    let limits = limits::tokens(linkage, &runtime);
     let loads = types::loads(model, true);
     let prepare = if types::has_params(linkage) { functions::prepare(linkage) } else { TokenStream::new() };
     let params = types::params(linkage, &prepare);
@@ -100,6 +102,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
 
                 #loads
                 #params
+                #limits
                 #pose
                 impl #generics Pose #elided {
                     #pose_at

@@ -406,11 +406,12 @@ pub fn type_name(name: &str) -> String {
 }
 
 /// Types of the generated module and names that it takes from elsewhere.
-pub(crate) const OWN_TYPES: [&str; 13] = [
+pub(crate) const OWN_TYPES: [&str; 14] = [
     "Pose",
     "Loads",
     "Params",
     "Linkage",
+    "Limits",
     "Error",
     "Result",
     "Vector2",
@@ -429,6 +430,9 @@ fn check_values(model: &Model, sink: &Sink) {
     let mut values: BTreeMap<String, String> = BTreeMap::new();
     values.insert("loads".into(), "holds the loads".into());
     values.insert("linkage".into(), "holds what is prepared from the parameters".into());
+    for constant in ["EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"] {
+        values.insert(constant.into(), "is a constant of the module".into());
+    }
     for link in &model.links {
         for part in ["cos", "sin"] {
             values.insert(format!("{}_{part}", link.name), format!("is the direction of `{}`", link.name));

@@ -1,0 +1,108 @@
+//! Four pins.
+//!
+//! With the lengths g of the frame, a of the crank, h of the coupler and b of the output, ψ the angle at the driver from the frame's line
+//! to the crank's, `Σ = g + a + h + b`, and `e_i = Σ − 2 i` for each length i, which must not be negative:
+//!
+//! ```text
+//! T₁ = g − a + h − b    T₂ = g − a − h + b    T₃ = h + b − g − a
+//! D² = (g − a)² + 4ga sin²(ψ/2)               |h − b| ≤ D ≤ h + b
+//! ```
+//!
+//! D is the distance of the outer pins of coupler and output. By their signs T₁, T₂, T₃ tell the eight types of a four-bar (Murray and
+//! McCarthy): all three or just one are positive where the sum of the shortest and the longest length is less than that of the other two
+//! (Grashof), and one is zero at a change point. Every limit is twice the angle of a right triangle whose sides are roots of products of
+//! these seven sums: none is the arc cosine of a rounded cosine, and each is exactly 0 or π where the linkage folds.
+//!
+//! ```text
+//! limit, folded      tan²(ψ/2) = −T₁T₂/(e_h e_b)         if T₁T₂ < 0
+//! limit, stretched   tan²(ψ/2) = e_g e_a/(−T₃ Σ)         if T₃ < 0
+//! output dead, crank and coupler stretched   tan²(ψ/2) = e_g T₂/(e_b Σ)
+//!              folded                        tan²(ψ/2) = e_a T₁/(e_h T₃)
+//! transmission angle at ψ = 0   tan²(μ/2) = T₁T₂/(e_g e_a)     at ψ = π   tan²(μ/2) = e_h e_b/(T₃ Σ)
+//! ```
+
+use super::cycles::Chain;
+use super::{Closing, Extreme, FourBar, Loop, Origin, Possible, Posture, Shape, Stroke, Turning, Writing};
+
+/// A loop of four pins; `sense` is 1 if the outer pin on the crank, that on the frame and the inner pin follow each other counter-clockwise.
+/// `None` if it closes at no angle.
+pub(super) fn of(chain: &Chain<'_>, sense: i64, closing: &Closing<'_>) -> Option<Loop> {
+    let writing = Writing::new(chain, closing);
+    let [a, h, b, g] = [0, 1, 2, 3].map(|body| writing.length(body));
+    let sum = writing.named(g + a + h + b, "sum", "Σ = g + a + h + b");
+    let balances = [
+        ((g - a) + (h - b), "T1", "T₁ = g − a + h − b"),
+        ((g - a) - (h - b), "T2", "T₂ = g − a − h + b"),
+        ((h + b) - (g + a), "T3", "T₃ = h + b − g − a"),
+    ];
+    let [t1, t2, t3] = balances.map(|(value, name, equation)| writing.named(value, name, equation));
+    let excess = [
+        ((a + h + b) - g, "e_g", "e_g = a + h + b − g"),
+        ((g + h + b) - a, "e_a", "e_a = g + h + b − a"),
+        ((g + a + b) - h, "e_h", "e_h = g + a + b − h"),
+        ((g + a + h) - b, "e_b", "e_b = g + a + h − b"),
+    ];
+    let excess = excess.map(|(value, name, equation)| writing.named(value, name, equation));
+    let [eg, ea, eh, eb] = writing.assembled(&excess)?.try_into().ok()?;
+    let phase = writing.phase(-chain.arm(3), chain.arm(0));
+    let phase = writing.named(phase, "phase", "ψ at the coordinate 0");
+    let at = |angle| writing.coordinate(angle, phase).id();
+
+    let nearest = t1 * t2;
+    let nearest = writing.named(nearest, "near2", "(g − a)² − (h − b)² = T₁T₂");
+    let near = writing.half_angle(-nearest, eh * eb);
+    let near = writing.named(near, "psi_folded", "ψ where coupler and output fold: tan²(ψ/2) = −T₁T₂/(e_h e_b)");
+    let far = writing.half_angle(eg * ea, -t3 * sum);
+    let far = writing.named(far, "psi_stretched", "ψ where they are stretched: tan²(ψ/2) = −e_g e_a/(T₃ Σ)");
+    let stretched = writing.half_angle(eg * t2, eb * sum);
+    let stretched =
+        writing.named(stretched, "psi_dead_stretched", "|ψ| with crank and coupler stretched: tan²(ψ/2) = e_g T₂/(e_b Σ)");
+    let folded = writing.half_angle(ea * t1.abs(), eh * t3.abs());
+    let folded = writing.named(folded, "psi_dead_folded", "|ψ| with crank and coupler folded: tan²(ψ/2) = e_a T₁/(e_h T₃)");
+    let both = writing.named(t1 * t3, "dead_folded", "T₁T₃, not negative if crank and coupler can fold");
+
+    // From the frame's line to the output, in the triangle of both with the line of crank and coupler.
+    let outer = writing.half_angle(eg * eb, t2 * sum);
+    let inner = writing.half_angle(t1 * t3, eh * ea);
+    let swing = writing.named(outer - inner, "swing", "angle of the output between its dead centres");
+    let advance = writing.named(writing.pi() - (stretched + folded), "advance", "π less the crank's turn between them");
+    let least = writing.half_angle(nearest, eg * ea);
+    let least = writing.named(least, "mu_least", "tan²(μ/2) = T₁T₂/(e_g e_a), at ψ = 0 or where coupler and output fold");
+    let greatest = writing.half_angle(eh * eb, t3 * sum);
+    let greatest =
+        writing.named(greatest, "mu_greatest", "tan²(μ/2) = e_h e_b/(T₃ Σ), at ψ = π or where they are stretched");
+
+    let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
+    let dead = |margin: crate::graph::Expr<'_>, angle, posture| Possible {
+        margins: vec![margin.id()],
+        at: at(angle),
+        joint: joint(1),
+        posture,
+    };
+    let shape = FourBar {
+        lengths: [g, a, h, b].map(crate::graph::Expr::id),
+        balances: [t1, t2, t3].map(crate::graph::Expr::id),
+        range: Turning {
+            centre: at(writing.graph.zero()),
+            near: Some([nearest.id(), near.id()]),
+            far: Some([t3.id(), far.id()]),
+            joint: joint(2),
+            postures: [Posture::Folded, Posture::Stretched],
+        },
+        // Where they are stretched, the inner pin lies beyond the crank's pin, and folded on this side of it: which is on the left
+        // depends on the sign of ψ.
+        dead_centres: [dead(t2, sense * stretched, Posture::Stretched), dead(both, -(sense * folded), Posture::Folded)],
+        swing: Stroke { margins: [t1, t2, t3].map(crate::graph::Expr::id).to_vec(), extent: swing.id(), advance: advance.id() },
+        transmission: [Extreme { angle: least.id(), at: at(near) }, Extreme { angle: greatest.id(), at: at(far) }],
+    };
+    let names = [0, 1, 2, 3].map(|body| chain.body_name(body));
+    let title = format!(
+        "four-bar {}: {} driven at {}, {}, {} on {}",
+        writing.name, names[0], joint(0), names[1], names[2], names[3]
+    );
+    let dimensions = [("g", 3, g), ("a", 0, a), ("h", 1, h), ("b", 2, b)];
+    let dimensions = dimensions.map(|(symbol, body, value)| writing.dimension(symbol, &chain.length_name(body), value));
+    let meaning = format!("ψ, from the line {} {} to the line {} {},", joint(0), joint(3), joint(0), joint(1));
+    let origin = Origin { meaning, forwards: chain.hinges[0].forwards, phase: phase.id() };
+    Some(writing.of(title, dimensions.to_vec(), origin, Shape::FourBar(shape)))
+}
