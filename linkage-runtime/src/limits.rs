@@ -221,10 +221,9 @@ macro_rules! limits {
                 (false, false) => DriverRange::Unlimited,
                 (true, false) => DriverRange::One(interval(near, 2.0 * PI - near, at_near, at_near)),
                 (false, true) => DriverRange::One(interval(-far, far, at_far, at_far)),
-                (true, true) => DriverRange::Two([
-                    interval(-far, -near, at_far, at_near),
-                    interval(near, far, at_near, at_far),
-                ]),
+                (true, true) => {
+                    DriverRange::Two([interval(-far, -near, at_far, at_near), interval(near, far, at_near, at_far)])
+                }
             }
         }
 

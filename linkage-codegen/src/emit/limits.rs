@@ -139,9 +139,8 @@ struct Literals {
 impl Literals {
     fn of(&self, shape: &Shape, known: &Known) -> TokenStream {
         let range = self.range(&known.range);
-        let [first, second] = known.dead_centres.each_ref().map(|dead| {
-            optional(dead.as_ref().map(|position| self.position(position)))
-        });
+        let [first, second] =
+            known.dead_centres.each_ref().map(|dead| optional(dead.as_ref().map(|position| self.position(position))));
         let stroke = optional(known.stroke.as_ref().map(|stroke| {
             let (extent, ratio) = (self.number(&stroke.extent), self.number(&stroke.time_ratio));
             quote!(limits::Stroke { extent: #extent, time_ratio: #ratio })
@@ -311,7 +310,8 @@ impl Values {
         let limit = |limit: &Option<[NodeId; 2]>, at: Posture| {
             let posture = posture(at);
             // A margin that is never negative stands for a limit that there never is.
-            let [margin, angle] = limit.map_or_else(|| [quote!(1.0), quote!(0.0)], |nodes| nodes.map(|n| self.value(n)));
+            let [margin, angle] =
+                limit.map_or_else(|| [quote!(1.0), quote!(0.0)], |nodes| nodes.map(|n| self.value(n)));
             quote!((#margin, #angle, #posture))
         };
         let (centre, near, far) = (self.value(*centre), limit(near, postures[0]), limit(far, postures[1]));
@@ -386,7 +386,8 @@ impl Words<'_> {
             Some(-1) => format!(" − {}", self.formula((-phase).id())),
             _ => format!(" + {}", self.formula(origin.phase)),
         };
-        format!("{} = {sign}{}{phase}", origin.meaning, self.found.coordinate)
+        let between = self.found.between.as_ref().map_or_else(String::new, |between| format!(", that {between}"));
+        format!("{} = {sign}{}{phase}{between}", origin.meaning, self.found.coordinate)
     }
 
     fn findings(&self) -> Vec<String> {
@@ -401,13 +402,10 @@ impl Words<'_> {
     fn four_bar(&self, four_bar: &FourBar) -> Vec<String> {
         let inner = &four_bar.range.joint;
         let mut lines = vec![self.grashof(four_bar)];
-        lines.push(format!(
-            "{inner} closes where |h − b| ≤ D ≤ h + b, D² = (g − a)² + 4ga sin²(ψ/2): {}",
-            self.range()
-        ));
+        lines.push(format!("{inner} closes where |h − b| ≤ D ≤ h + b, D² = (g − a)² + 4ga sin²(ψ/2){}", self.range()));
         let joint = &four_bar.dead_centres[0].joint;
         lines.push(format!(
-            "output as driver dead where {joint} is in line, cos ψ = (g² + L² − b²)/(2gL), L = a ± h: {}",
+            "output as driver dead where {joint} is in line, cos ψ = (g² + L² − b²)/(2gL), L = a ± h{}",
             self.dead_centres()
         ));
         lines.extend(self.stroke("output swings by", true));
@@ -448,12 +446,12 @@ impl Words<'_> {
 
     fn slider_crank(&self, slider_crank: &SliderCrank) -> Vec<String> {
         let inner = &slider_crank.range.joint;
-        let mut lines = vec![format!("{inner} closes where |c − a sin χ| ≤ r, always if a + |c| ≤ r: {}", self.range())];
+        let mut lines = vec![format!("{inner} closes where |c − a sin χ| ≤ r, always if a + |c| ≤ r{}", self.range())];
         let dead = if slider_crank.inversion == Inversion::OnFrame {
             let joint = slider_crank.dead_centres.first().map_or("", |dead| dead.joint.as_str());
-            format!("slider as driver dead where {joint} is in line, sin χ = c/L, L = a ± r: ")
+            format!("slider as driver dead where {joint} is in line, sin χ = c/L, L = a ± r")
         } else {
-            "output as driver dead where its end is square to the slide from the driver, sin χ = (a² + c² − r²)/(2ac): "
+            "output as driver dead where its end is square to the slide from the driver, sin χ = (a² + c² − r²)/(2ac)"
                 .to_owned()
         };
         lines.push(format!("{dead}{}", self.dead_centres()));
@@ -464,15 +462,18 @@ impl Words<'_> {
 
     fn inverted(&self) -> Vec<String> {
         let mut lines = vec![
-            format!("closes where D ≥ |h|, D² = (g − a)² + 4ga sin²(ψ/2): {}", self.range()),
-            format!("output as driver dead where the crank is square to the slide, cos ν = (h ± a)/g: {}", self.dead_centres()),
+            format!("closes where D ≥ |h|, D² = (g − a)² + 4ga sin²(ψ/2){}", self.range()),
+            format!(
+                "output as driver dead where the crank is square to the slide, cos ν = (h ± a)/g{}",
+                self.dead_centres()
+            ),
         ];
         lines.extend(self.stroke("output swings by", true));
         lines
     }
 
     fn driven_slide(&self) -> Vec<String> {
-        vec![format!("closes where |r₁ − r₂| ≤ D ≤ r₁ + r₂, D² = x² + c²: {}", self.range())]
+        vec![format!("closes where |r₁ − r₂| ≤ D ≤ r₁ + r₂, D² = x² + c²{}", self.range())]
     }
 
     /// Whether positions are angles.
@@ -491,26 +492,31 @@ impl Words<'_> {
     }
 
     fn range(&self) -> String {
-        let Some(known) = &self.found.known else { return "Limits::of".to_owned() };
+        let Some(known) = &self.found.known else { return String::new() };
         let turns = self.turns();
         let piece = |[from, to]: &[KnownPosition; 2]| {
-            let end = |at: &KnownPosition| format!("{}, {} {}", self.value(&at.at, turns), at.joint, at.posture.words());
+            let end =
+                |at: &KnownPosition| format!("{}, {} {}", self.value(&at.at, turns), at.joint, at.posture.words());
             format!("from {} to {}", end(from), end(to))
         };
         let coordinate = &self.found.coordinate;
         match &known.range {
-            KnownRange::Unlimited => format!("{coordinate} all round"),
-            KnownRange::One(one) => format!("{coordinate} {}", piece(one)),
-            KnownRange::Two([first, second]) => format!("{coordinate} {}; or {}", piece(first), piece(second)),
+            KnownRange::Unlimited => format!(": {coordinate} all round"),
+            KnownRange::One(one) => format!(": {coordinate} {}", piece(one)),
+            KnownRange::Two([first, second]) => format!(": {coordinate} {}; or {}", piece(first), piece(second)),
         }
     }
 
     fn dead_centres(&self) -> String {
-        let Some(known) = &self.found.known else { return "Limits::of".to_owned() };
+        let Some(known) = &self.found.known else { return String::new() };
         let there = known.dead_centres.iter().flatten();
         let each = there.map(|dead| format!("{} at {}", dead.posture.words(), self.value(&dead.at, self.turns())));
         let each = each.collect::<Vec<_>>();
-        if each.is_empty() { "nowhere".to_owned() } else { format!("{} {}", self.found.coordinate, each.join(", ")) }
+        if each.is_empty() {
+            ": nowhere".to_owned()
+        } else {
+            format!(": {} {}", self.found.coordinate, each.join(", "))
+        }
     }
 
     fn stroke(&self, what: &str, turns: bool) -> Option<String> {

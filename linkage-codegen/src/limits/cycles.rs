@@ -128,9 +128,9 @@ impl<'m> Chain<'m> {
         }
     }
 
-    /// How a length is written: `|A B|`.
-    pub(super) fn length_name(&self, body: usize) -> String {
-        format!("|{} {}|", self.hinge_name(body), self.hinge_name((body + 1) % HINGES))
+    /// How the distance of two hinges is written: `|A B|`.
+    pub(super) fn distance_name(&self, [from, to]: [usize; 2]) -> String {
+        format!("|{} {}|", self.hinge_name(from), self.hinge_name(to))
     }
 
     /// From a slide's line to a pin of the same body, along and across the slide.
@@ -167,7 +167,10 @@ impl<'m> Bodies<'m> {
                 next += 1;
                 for weld in &welds {
                     let (Some(here), Some(there)) = (weld.end_on(at), weld.end_off(at)) else { continue };
-                    if there.link == first || bodies.of[there.link.index()] != there.link || reached.contains(&there.link) {
+                    if there.link == first
+                        || bodies.of[there.link.index()] != there.link
+                        || reached.contains(&there.link)
+                    {
                         continue;
                     }
                     bodies.weld(weld, here, there);

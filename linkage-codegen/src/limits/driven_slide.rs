@@ -22,26 +22,27 @@ pub(super) fn of(chain: &Chain<'_>, closing: &Closing<'_>) -> Option<Loop> {
     let c = writing.named(offset.y, "offset", "c, across the slide from the one outer pin to the other");
     let phase = writing.named(offset.x, "phase", "x at the travel 0");
     let (sum, difference) = (r1 + r2, (r1 - r2).abs());
-    let margins = [
-        writing.named(sum - c, "far1", "r₁ + r₂ − c"),
-        writing.named(sum + c, "far2", "r₁ + r₂ + c"),
-    ];
+    let margins = [writing.named(sum - c, "far1", "r₁ + r₂ − c"), writing.named(sum + c, "far2", "r₁ + r₂ + c")];
     let [far1, far2] = writing.assembled(&margins)?.try_into().ok()?;
     let near2 = writing.named((difference - c) * (difference + c), "near2", "(r₁ − r₂)² − c²");
     let near = writing.named(near2.non_negative().sqrt(), "near", "√((r₁ − r₂)² − c²), or 0");
     let far = writing.named((far1 * far2).non_negative().sqrt(), "far", "√((r₁ + r₂)² − c²)");
     let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
     let centre = if slide.forwards { -phase } else { phase };
-    let shape =
-        DrivenSlide { centre: centre.id(), near: [near2.id(), near.id()], far: far.id(), joint: joint(2) };
+    let shape = DrivenSlide { centre: centre.id(), near: [near2.id(), near.id()], far: far.id(), joint: joint(2) };
     let names = [0, 1, 2, 3].map(|body| chain.body_name(body));
     let title = format!(
         "driven slide {}: {} and {} along {}, with {} and {}",
-        writing.name, names[3], names[0], joint(0), names[1], names[2]
+        writing.name,
+        names[3],
+        names[0],
+        joint(0),
+        names[1],
+        names[2]
     );
     let dimensions = vec![
-        writing.dimension("r₁", &chain.length_name(1), r1),
-        writing.dimension("r₂", &chain.length_name(2), r2),
+        writing.dimension("r₁", &chain.distance_name([1, 2]), r1),
+        writing.dimension("r₂", &chain.distance_name([3, 2]), r2),
         writing.dimension("c", &format!("offset of {} from {} across the slide", joint(1), joint(3)), c),
     ];
     let meaning = format!("x, from {} to {} along the slide,", joint(3), joint(1));

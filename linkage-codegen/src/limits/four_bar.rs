@@ -46,36 +46,51 @@ pub(super) fn of(chain: &Chain<'_>, sense: i64, closing: &Closing<'_>) -> Option
     let [eg, ea, eh, eb] = writing.assembled(&excess)?.try_into().ok()?;
     let phase = writing.phase(-chain.arm(3), chain.arm(0));
     let phase = writing.named(phase, "phase", "ψ at the coordinate 0");
-    let at = |angle| writing.coordinate(angle, phase).id();
+    let at = |angle, name| writing.coordinate(angle, phase, name).id();
 
     let nearest = t1 * t2;
     let nearest = writing.named(nearest, "near2", "(g − a)² − (h − b)² = T₁T₂");
-    let near = writing.half_angle(-nearest, eh * eb);
-    let near = writing.named(near, "psi_folded", "ψ where coupler and output fold: tan²(ψ/2) = −T₁T₂/(e_h e_b)");
-    let far = writing.half_angle(eg * ea, -t3 * sum);
-    let far = writing.named(far, "psi_stretched", "ψ where they are stretched: tan²(ψ/2) = −e_g e_a/(T₃ Σ)");
-    let stretched = writing.half_angle(eg * t2, eb * sum);
-    let stretched =
-        writing.named(stretched, "psi_dead_stretched", "|ψ| with crank and coupler stretched: tan²(ψ/2) = e_g T₂/(e_b Σ)");
-    let folded = writing.half_angle(ea * t1.abs(), eh * t3.abs());
-    let folded = writing.named(folded, "psi_dead_folded", "|ψ| with crank and coupler folded: tan²(ψ/2) = e_a T₁/(e_h T₃)");
-    let both = writing.named(t1 * t3, "dead_folded", "T₁T₃, not negative if crank and coupler can fold");
+    let near =
+        writing.twice(-nearest, eh * eb, "psi_folded", "ψ where coupler and output fold: tan²(ψ/2) = −T₁T₂/(e_h e_b)");
+    let far =
+        writing.twice(eg * ea, -t3 * sum, "psi_stretched", "ψ where they are stretched: tan²(ψ/2) = −e_g e_a/(T₃ Σ)");
+    let stretched = writing.twice(
+        eg * t2,
+        eb * sum,
+        "psi_dead_stretched",
+        "|ψ| with crank and coupler stretched: tan²(ψ/2) = e_g T₂/(e_b Σ)",
+    );
+    let folded = writing.twice(
+        ea * t1.abs(),
+        eh * t3.abs(),
+        "psi_dead_folded",
+        "|ψ| with crank and coupler folded: tan²(ψ/2) = e_a T₁/(e_h T₃)",
+    );
+    let both = writing.named(t1 * t3, "product_dead_folded", "T₁T₃, not negative if crank and coupler can fold");
 
     // From the frame's line to the output, in the triangle of both with the line of crank and coupler.
-    let outer = writing.half_angle(eg * eb, t2 * sum);
-    let inner = writing.half_angle(t1 * t3, eh * ea);
+    let outer =
+        writing.twice(eg * eb, t2 * sum, "output_stretched", "angle of the output there: tan²(φ/2) = e_g e_b/(T₂ Σ)");
+    let inner = writing.twice(both, eh * ea, "output_folded", "tan²(φ/2) = T₁T₃/(e_h e_a)");
     let swing = writing.named(outer - inner, "swing", "angle of the output between its dead centres");
     let advance = writing.named(writing.pi() - (stretched + folded), "advance", "π less the crank's turn between them");
-    let least = writing.half_angle(nearest, eg * ea);
-    let least = writing.named(least, "mu_least", "tan²(μ/2) = T₁T₂/(e_g e_a), at ψ = 0 or where coupler and output fold");
-    let greatest = writing.half_angle(eh * eb, t3 * sum);
-    let greatest =
-        writing.named(greatest, "mu_greatest", "tan²(μ/2) = e_h e_b/(T₃ Σ), at ψ = π or where they are stretched");
+    let least = writing.twice(
+        nearest,
+        eg * ea,
+        "mu_least",
+        "tan²(μ/2) = T₁T₂/(e_g e_a), at ψ = 0 or where coupler and output fold",
+    );
+    let greatest = writing.twice(
+        eh * eb,
+        t3 * sum,
+        "mu_greatest",
+        "tan²(μ/2) = e_h e_b/(T₃ Σ), at ψ = π or where they are stretched",
+    );
 
     let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
-    let dead = |margin: crate::graph::Expr<'_>, angle, posture| Possible {
+    let dead = |margin: crate::graph::Expr<'_>, angle, name, posture| Possible {
         margins: vec![margin.id()],
-        at: at(angle),
+        at: at(angle, name),
         joint: joint(1),
         posture,
     };
@@ -83,7 +98,7 @@ pub(super) fn of(chain: &Chain<'_>, sense: i64, closing: &Closing<'_>) -> Option
         lengths: [g, a, h, b].map(crate::graph::Expr::id),
         balances: [t1, t2, t3].map(crate::graph::Expr::id),
         range: Turning {
-            centre: at(writing.graph.zero()),
+            centre: at(writing.graph.zero(), "centre"),
             near: Some([nearest.id(), near.id()]),
             far: Some([t3.id(), far.id()]),
             joint: joint(2),
@@ -91,17 +106,33 @@ pub(super) fn of(chain: &Chain<'_>, sense: i64, closing: &Closing<'_>) -> Option
         },
         // Where they are stretched, the inner pin lies beyond the crank's pin, and folded on this side of it: which is on the left
         // depends on the sign of ψ.
-        dead_centres: [dead(t2, sense * stretched, Posture::Stretched), dead(both, -(sense * folded), Posture::Folded)],
-        swing: Stroke { margins: [t1, t2, t3].map(crate::graph::Expr::id).to_vec(), extent: swing.id(), advance: advance.id() },
-        transmission: [Extreme { angle: least.id(), at: at(near) }, Extreme { angle: greatest.id(), at: at(far) }],
+        dead_centres: [
+            dead(t2, sense * stretched, "dead_stretched", Posture::Stretched),
+            dead(both, -(sense * folded), "dead_folded", Posture::Folded),
+        ],
+        swing: Stroke {
+            margins: [t1, t2, t3].map(crate::graph::Expr::id).to_vec(),
+            extent: swing.id(),
+            advance: advance.id(),
+        },
+        transmission: [
+            Extreme { angle: least.id(), at: at(near, "mu_least") },
+            Extreme { angle: greatest.id(), at: at(far, "mu_greatest") },
+        ],
     };
     let names = [0, 1, 2, 3].map(|body| chain.body_name(body));
     let title = format!(
         "four-bar {}: {} driven at {}, {}, {} on {}",
-        writing.name, names[0], joint(0), names[1], names[2], names[3]
+        writing.name,
+        names[0],
+        joint(0),
+        names[1],
+        names[2],
+        names[3]
     );
-    let dimensions = [("g", 3, g), ("a", 0, a), ("h", 1, h), ("b", 2, b)];
-    let dimensions = dimensions.map(|(symbol, body, value)| writing.dimension(symbol, &chain.length_name(body), value));
+    let dimensions = [("g", [0, 3], g), ("a", [0, 1], a), ("h", [1, 2], h), ("b", [3, 2], b)];
+    let dimensions =
+        dimensions.map(|(symbol, ends, value)| writing.dimension(symbol, &chain.distance_name(ends), value));
     let meaning = format!("ψ, from the line {} {} to the line {} {},", joint(0), joint(3), joint(0), joint(1));
     let origin = Origin { meaning, forwards: chain.hinges[0].forwards, phase: phase.id() };
     Some(writing.of(title, dimensions.to_vec(), origin, Shape::FourBar(shape)))

@@ -200,10 +200,9 @@ impl Values<'_> {
             (None, None) => KnownRange::Unlimited,
             (Some(near), None) => KnownRange::One(piece(near.clone(), rest(&near), [at_near; 2])),
             (None, Some(far)) => KnownRange::One(piece(far.neg(), far, [at_far; 2])),
-            (Some(near), Some(far)) => KnownRange::Two([
-                piece(far.neg(), near.neg(), [at_far, at_near]),
-                piece(near, far, [at_near, at_far]),
-            ]),
+            (Some(near), Some(far)) => {
+                KnownRange::Two([piece(far.neg(), near.neg(), [at_far, at_near]), piece(near, far, [at_near, at_far])])
+            }
         })
     }
 
@@ -215,10 +214,7 @@ impl Values<'_> {
         let (stretched, folded) = (|by| at(by, Posture::Stretched), |by| at(by, Posture::Folded));
         Some(match near {
             None => KnownRange::One([stretched(far.neg()), stretched(far)]),
-            Some(near) => KnownRange::Two([
-                [stretched(far.neg()), folded(near.neg())],
-                [folded(near), stretched(far)],
-            ]),
+            Some(near) => KnownRange::Two([[stretched(far.neg()), folded(near.neg())], [folded(near), stretched(far)]]),
         })
     }
 

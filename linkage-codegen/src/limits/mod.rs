@@ -20,6 +20,9 @@ use crate::topology::Topology;
 use cycles::{Chain, Kind};
 pub use known::{Grashof, Known, KnownPosition, KnownRange, KnownStroke, KnownTransmission};
 
+/// The heading of a loop's steps, before its name.
+const SECTION: &str = "Limits at";
+
 /// The loops of a linkage.
 #[derive(Debug)]
 pub struct Limits {
@@ -42,6 +45,8 @@ pub struct Loop {
     pub driver: JointId,
     /// What its coordinate is called.
     pub coordinate: String,
+    /// Of which links it is, unless it is a drive.
+    pub between: Option<String>,
     /// How its own angle or travel is made of that coordinate: `ψ = theta + phase`.
     pub origin: Origin,
     /// What is known of it.
@@ -217,7 +222,7 @@ impl Limits {
         let mut loops = Vec::new();
         for (_, chain) in driven(model, topology) {
             let Some(closing) = Closing::of(&chain) else { continue };
-            model.graph.begin_section(format!("Limits at {}", closing.name));
+            model.graph.begin_section(format!("{SECTION} {}", closing.name));
             loops.extend(found(&chain, &closing).filter(|_| names.insert(closing.name.clone())));
         }
         let prepare = prepare(&model.graph, &loops);
@@ -230,7 +235,13 @@ fn prepare(graph: &Graph, loops: &[Loop]) -> Option<Program> {
     let nodes = loops.iter().filter(|found| found.known.is_none()).flat_map(|found| found.shape.nodes());
     let results: Vec<(String, NodeId)> = nodes.map(|node| (String::new(), node)).collect();
     let sums: Vec<Vec<NodeId>> = results.iter().map(|(_, node)| vec![*node]).collect();
-    let program = || passes::optimised(Extract { graph, form: Form::Prepare }.program(&results, &sums), graph);
+    let program = || {
+        let mut program = passes::optimised(Extract { graph, form: Form::Prepare }.program(&results, &sums), graph);
+        // Lengths that poses need too were made for these.
+        let shared = program.values.iter_mut().filter(|value| !value.section.starts_with(SECTION));
+        shared.for_each(|value| value.section.clear());
+        program
+    };
     (!results.is_empty()).then(program)
 }
 
@@ -247,6 +258,9 @@ fn driven<'m>(model: &'m Model, topology: &Topology) -> Vec<(usize, Chain<'m>)> 
     let mut all = Vec::new();
     for chain in cycles::chains(model) {
         let ranks = chain.bodies.each_ref().map(rank);
+        // A block follows the later one of the links that it joins.
+        let block = |body: usize| ranks[(body + 3) % 4].max(ranks[(body + 1) % 4]);
+        let ranks = [0, 1, 2, 3].map(|body| ranks[body].or_else(|| block(body)));
         let last = ranks.iter().flatten().copied().max().unwrap_or(0);
         // A joint on the links that are placed last is closed with them, unless it is driven.
         let known = |hinge: &usize| {
@@ -353,10 +367,12 @@ impl<'m> Writing<'m> {
     /// The length of a body; of one that depends on parameters it is checked when they are given.
     fn length(&self, body: usize) -> Expr<'m> {
         let length = self.chain.length(body);
-        let requirement =
-            format!("{}: its joints {} and {} must be apart", self.chain.body_name(body), self.chain.hinge_name(body), {
-                self.chain.hinge_name((body + 1) % 4)
-            });
+        let requirement = format!(
+            "{}: its joints {} and {} must be apart",
+            self.chain.body_name(body),
+            self.chain.hinge_name(body),
+            { self.chain.hinge_name((body + 1) % 4) }
+        );
         let checked = length.require_above(length, self.graph.zero(), Failure::Parameter { requirement });
         if checked.value().is_some() { checked } else { checked.known_positive() }
     }
@@ -367,8 +383,10 @@ impl<'m> Writing<'m> {
     }
 
     /// `2 atan2(√y², √x²)`, both squares taken for zero where they are negative.
-    fn half_angle(&self, y2: Expr<'m>, x2: Expr<'m>) -> Expr<'m> {
-        2 * self.graph.atan2(y2.non_negative().sqrt(), x2.non_negative().sqrt())
+    fn twice(&self, y2: Expr<'m>, x2: Expr<'m>, name: &str, equation: &str) -> Expr<'m> {
+        let half = self.graph.atan2(y2.non_negative().sqrt(), x2.non_negative().sqrt());
+        let half = self.named(half, &format!("half_{name}"), equation);
+        self.named(2 * half, name, "")
     }
 
     /// What must not be negative for the loop to close at any coordinate. `None` if it is.
@@ -395,12 +413,17 @@ impl<'m> Writing<'m> {
         let (frame, arm) = (driver.in_link(0, frame), driver.in_link(1, arm));
         let (sine, cosine) = (frame.cross(arm), frame.dot(arm));
         // Lines that lie upon each other make no angle, whatever their lengths.
-        if sine.is_zero() && self.graph.is_positive(cosine) { self.graph.zero() } else { self.graph.atan2(sine, cosine) }
+        if sine.is_zero() && self.graph.is_positive(cosine) {
+            self.graph.zero()
+        } else {
+            self.graph.atan2(sine, cosine)
+        }
     }
 
     /// The coordinate at an angle of the loop.
-    fn coordinate(&self, angle: Expr<'m>, phase: Expr<'m>) -> Expr<'m> {
-        if self.chain.hinges[0].forwards { angle - phase } else { phase - angle }
+    fn coordinate(&self, angle: Expr<'m>, phase: Expr<'m>, name: &str) -> Expr<'m> {
+        let coordinate = if self.chain.hinges[0].forwards { angle - phase } else { phase - angle };
+        self.named(coordinate, &format!("at_{name}"), "")
     }
 
     /// What the coordinate of the driver is called.
@@ -411,6 +434,14 @@ impl<'m> Writing<'m> {
             None if driver.kind == Kind::Pin => format!("the angle at {}", self.chain.hinge_name(0)),
             None => format!("the travel at {}", self.chain.hinge_name(0)),
         }
+    }
+
+    /// Between which links a coordinate is that is no drive.
+    fn between(&self) -> Option<String> {
+        let (model, driver) = (self.chain.model, &self.chain.hinges[0]);
+        let joint = model.joint(driver.joint);
+        let undriven = driver.drive.is_none();
+        undriven.then(|| format!("of {} from {}", model.link(joint.to.link).name, model.link(joint.from.link).name))
     }
 
     fn dimension(&self, symbol: &str, name: &str, value: Expr<'m>) -> (String, NodeId) {
@@ -424,6 +455,7 @@ impl<'m> Writing<'m> {
             dimensions,
             driver: self.chain.hinges[0].joint,
             coordinate: self.coordinate_name(),
+            between: self.between(),
             origin,
             shape,
             known: None,

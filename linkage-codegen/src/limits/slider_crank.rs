@@ -38,7 +38,8 @@ pub(super) fn of(chain: &Chain<'_>, ahead: i64, inversion: Inversion, closing: &
     let slide = &chain.hinges[3];
     let on_frame = chain.from_slide(slide.sides[1], chain.hinges[0].sides[0]);
     let on_slider = chain.from_slide(slide.sides[0], chain.hinges[2].sides[1]);
-    let c = writing.named(on_slider.y - on_frame.y, "eccentricity", "c, across the slide from the driver to the rod's end");
+    let c =
+        writing.named(on_slider.y - on_frame.y, "eccentricity", "c, across the slide from the driver to the rod's end");
     let margin = |value: Expr<'_>, name: &str, equation: &str| writing.named(graph.expr(value.id()), name, equation);
     let m1 = margin((r - a) - c, "m1", "m₁ = r − a − c");
     let m2 = margin((r - a) + c, "m2", "m₂ = r − a + c");
@@ -46,14 +47,12 @@ pub(super) fn of(chain: &Chain<'_>, ahead: i64, inversion: Inversion, closing: &
     let f2 = margin((r + a) + c, "f2", "f₂ = r + a + c");
     let [f1, f2] = writing.assembled(&[f1, f2])?.try_into().ok()?;
     let phase = writing.named(writing.phase(slide.sides[1].axis, chain.arm(0)), "phase", "χ at the coordinate 0");
-    let at = |angle| writing.coordinate(angle, phase).id();
+    let at = |angle, name| writing.coordinate(angle, phase, name).id();
     let quarter = graph.constant(&Number::pi(1, 2));
 
     // From −90°, where the rod is inclined most to the one side, to +90°, where it is most to the other.
-    let near = writing.half_angle(-m1, f1);
-    let near = writing.named(near, "near", "χ + 90° at the limit: tan²((χ + 90°)/2) = −m₁/f₁");
-    let far = writing.half_angle(f2, -m2);
-    let far = writing.named(far, "far", "χ + 90° at the other limit: cot²((χ − 90°)/2) = −f₂/m₂");
+    let near = writing.twice(-m1, f1, "near", "χ + 90° at the limit: tan²((χ + 90°)/2) = −m₁/f₁");
+    let far = writing.twice(f2, -m2, "far", "χ + 90° at the other limit: cot²((χ − 90°)/2) = −f₂/m₂");
     let near2 = writing.named(m1 * m2, "folded2", "m₁m₂ = (r − a)² − c²");
     let far2 = f1 * f2;
     let (inner, outer) = (near2.non_negative().sqrt(), far2.non_negative().sqrt());
@@ -67,30 +66,37 @@ pub(super) fn of(chain: &Chain<'_>, ahead: i64, inversion: Inversion, closing: &
     let advance = graph.atan2(c, inner) - graph.atan2(c, outer);
     let advance = writing.named(advance, "advance", "the crank's turn between the dead centres, beyond π");
     let stroke = writing.named(outer - inner, "stroke", "√(f₁f₂) − √(m₁m₂)");
-    let least = writing.named(writing.half_angle(m1, f2), "mu_least", "tan²(μ/2) = m₁/f₂, at χ = −90° or a limit");
-    let greatest = writing.named(writing.half_angle(f1, m2), "mu_greatest", "tan²(μ/2) = f₁/m₂, at χ = 90° or a limit");
+    let least = writing.twice(m1, f2, "mu_least", "tan²(μ/2) = m₁/f₂, at χ = −90° or a limit");
+    let greatest = writing.twice(f1, m2, "mu_greatest", "tan²(μ/2) = f₁/m₂, at χ = 90° or a limit");
 
     let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
-    let dead = |margins: &[Expr<'_>], angle, hinge, posture| Possible {
+    let dead = |margins: &[Expr<'_>], (angle, name), hinge, posture| Possible {
         margins: margins.iter().map(|margin| margin.id()).collect(),
-        at: at(angle),
+        at: at(angle, name),
         joint: joint(hinge),
         posture,
     };
     let (dead_centres, stroke) = if inversion == Inversion::OnFrame {
-        let dead = [dead(&[], stretched, 1, Posture::Stretched), dead(&[near2], folded, 1, Posture::Folded)];
+        let dead = [
+            dead(&[], (stretched, "dead_stretched"), 1, Posture::Stretched),
+            dead(&[near2], (folded, "dead_folded"), 1, Posture::Folded),
+        ];
         let margins = [m1, m2].map(Expr::id).to_vec();
         (dead.to_vec(), Some(Stroke { margins, extent: stroke.id(), advance: advance.id() }))
     } else {
         // The slider is as near to the driver as it comes: the rod's end is square to the slide from it.
-        let turned = writing.half_angle((m2 * f1).abs(), (m1 * f2).abs());
-        let turned = writing.named(turned, "delta", "|χ − 90°| where the slider is nearest to the driver");
-        (vec![dead(&[-near2], quarter + ahead * turned, 3, Posture::Square)], None)
+        let turned = writing.twice(
+            (m2 * f1).abs(),
+            (m1 * f2).abs(),
+            "delta",
+            "|χ − 90°| where the slider is nearest to the driver",
+        );
+        (vec![dead(&[-near2], (quarter + ahead * turned, "dead"), 3, Posture::Square)], None)
     };
     let shape = SliderCrank {
         inversion,
         range: Turning {
-            centre: at(-quarter),
+            centre: at(-quarter, "centre"),
             near: Some([m1.id(), near.id()]),
             far: Some([m2.id(), far.id()]),
             joint: joint(2),
@@ -99,24 +105,34 @@ pub(super) fn of(chain: &Chain<'_>, ahead: i64, inversion: Inversion, closing: &
         dead_centres,
         stroke,
         transmission: Some([
-            Extreme { angle: least.id(), at: at(near - quarter) },
-            Extreme { angle: greatest.id(), at: at(far - quarter) },
+            Extreme { angle: least.id(), at: at(near - quarter, "mu_least") },
+            Extreme { angle: greatest.id(), at: at(far - quarter, "mu_greatest") },
         ]),
     };
     let names = [0, 1, 2, 3].map(|body| chain.body_name(body));
     let title = match inversion {
         Inversion::OnFrame => format!(
             "slider-crank {}: {} driven at {}, {}, {} on {}",
-            writing.name, names[0], joint(0), names[1], names[2], names[3]
+            writing.name,
+            names[0],
+            joint(0),
+            names[1],
+            names[2],
+            names[3]
         ),
         _ => format!(
             "inverted slider-crank {}: {} driven at {}, {} sliding on it, {} on {}",
-            writing.name, names[3], joint(0), names[2], names[1], names[0]
+            writing.name,
+            names[3],
+            joint(0),
+            names[2],
+            names[1],
+            names[0]
         ),
     };
     let dimensions = vec![
-        writing.dimension("a", &chain.length_name(0), a),
-        writing.dimension("r", &chain.length_name(1), r),
+        writing.dimension("a", &chain.distance_name([0, 1]), a),
+        writing.dimension("r", &chain.distance_name([1, 2]), r),
         writing.dimension("c", &format!("eccentricity of {} from {}", joint(2), joint(0)), c),
     ];
     let meaning = format!("χ, from the direction of the slide {} to the line {} {},", joint(3), joint(0), joint(1));
@@ -131,48 +147,58 @@ pub(super) fn inverted(chain: &Chain<'_>, ahead: i64, closing: &Closing<'_>) -> 
     let slide = &chain.hinges[2];
     let on_crank = chain.from_slide(slide.sides[0], chain.hinges[1].sides[1]);
     let on_frame = chain.from_slide(slide.sides[1], chain.hinges[3].sides[0]);
-    let h = writing.named(on_frame.y - on_crank.y, "offset", "h, across the slide from the crank's pin to the output's");
+    let h =
+        writing.named(on_frame.y - on_crank.y, "offset", "h, across the slide from the crank's pin to the output's");
     let u1 = writing.named((g - a) - h, "u1", "u₁ = g − a − h");
     let u2 = writing.named((g - a) + h, "u2", "u₂ = g − a + h");
     let v1 = writing.named((g + a) - h, "v1", "v₁ = g + a − h");
     let v2 = writing.named((g + a) + h, "v2", "v₂ = g + a + h");
     let [v1, v2] = writing.assembled(&[v1, v2])?.try_into().ok()?;
     let phase = writing.named(writing.phase(-chain.arm(3), chain.arm(0)), "phase", "ψ at the coordinate 0");
-    let at = |angle| writing.coordinate(angle, phase).id();
+    let at = |angle, name| writing.coordinate(angle, phase, name).id();
     let nearest = writing.named(u1 * u2, "near2", "(g − a)² − h² = u₁u₂");
-    let near = writing.half_angle(-nearest, v1 * v2);
-    let near = writing.named(near, "psi_square", "ψ where the line of the pins is square to the slide: tan²(ψ/2) = −u₁u₂/(v₁v₂)");
-    let first = writing.named(writing.half_angle(u1, v2), "nu1", "ν₁: tan²(ν/2) = u₁/v₂");
-    let second = writing.named(writing.half_angle(v1, u2), "nu2", "ν₂: tan²(ν/2) = v₁/u₂");
+    let near = writing.twice(
+        -nearest,
+        v1 * v2,
+        "psi_square",
+        "ψ where the line of the pins is square to the slide: tan²(ψ/2) = −u₁u₂/(v₁v₂)",
+    );
+    let first = writing.twice(u1, v2, "nu1", "ν₁: tan²(ν/2) = u₁/v₂");
+    let second = writing.twice(v1, u2, "nu2", "ν₂: tan²(ν/2) = v₁/u₂");
     let swing = writing.named(second - first, "swing", "angle of the output between its dead centres: ν₂ − ν₁");
     let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
-    let dead = |margin: Expr<'_>, angle| Possible {
+    let dead = |margin: Expr<'_>, angle, name| Possible {
         margins: vec![margin.id()],
-        at: at(angle),
+        at: at(angle, name),
         joint: joint(1),
         posture: Posture::Square,
     };
     let shape = SliderCrank {
         inversion: Inversion::Opposite,
         range: Turning {
-            centre: at(writing.graph.zero()),
+            centre: at(writing.graph.zero(), "centre"),
             near: Some([nearest.id(), near.id()]),
             far: None,
             joint: joint(2),
             postures: [Posture::Square; 2],
         },
-        dead_centres: vec![dead(u1, ahead * first), dead(u2, writing.pi() + ahead * second)],
+        dead_centres: vec![dead(u1, ahead * first, "dead_1"), dead(u2, writing.pi() + ahead * second, "dead_2")],
         stroke: Some(Stroke { margins: [u1, u2].map(Expr::id).to_vec(), extent: swing.id(), advance: swing.id() }),
         transmission: None,
     };
     let names = [0, 1, 2, 3].map(|body| chain.body_name(body));
     let title = format!(
         "inverted slider-crank {}: {} driven at {}, {} sliding along {} on {}",
-        writing.name, names[0], joint(0), names[1], names[2], names[3]
+        writing.name,
+        names[0],
+        joint(0),
+        names[1],
+        names[2],
+        names[3]
     );
     let dimensions = vec![
-        writing.dimension("g", &chain.length_name(3), g),
-        writing.dimension("a", &chain.length_name(0), a),
+        writing.dimension("g", &chain.distance_name([0, 3]), g),
+        writing.dimension("a", &chain.distance_name([0, 1]), a),
         writing.dimension("h", &format!("offset of {} from the line of the slide through {}", joint(3), joint(1)), h),
     ];
     let meaning = format!("ψ, from the line {} {} to the line {} {},", joint(0), joint(3), joint(0), joint(1));
