@@ -59,6 +59,14 @@ fn intervals(range: &KnownRange) -> Vec<[f64; 2]> {
     }
 }
 
+/// A linkage of which nothing is said closes at no pose.
+fn closes_nowhere(linkage: &Linkage, text: &str) {
+    assert!(linkage.limits.loops.is_empty(), "{:?}\n{text}", linkage.limits);
+    let tried =
+        (-POSES..POSES).map(|i| f64::from(i) * if text.contains("drive q: S") { 1.0 } else { PI / f64::from(POSES) });
+    assert!(tried.into_iter().all(|at| places(linkage, at).is_none()), "{text}");
+}
+
 /// How close to its limits the emitted pose agrees with them: the least distance at which it assembles inside and does not outside.
 fn sharpness(linkage: &Linkage, range: &KnownRange) -> f64 {
     if matches!(range, KnownRange::Unlimited) {
@@ -265,8 +273,11 @@ fn random_four_bars() {
         let mut random = Random(seed);
         let ([g, a, h, b], text, pins) = four_bar(&mut random);
         let Some(linkage) = compile_if_it_closes(&text) else { continue };
+        let [found] = linkage.limits.loops.as_slice() else {
+            closes_nowhere(&linkage, &text);
+            continue;
+        };
         samples += 1;
-        let [found] = linkage.limits.loops.as_slice() else { panic!("{:?}\n{text}", linkage.limits) };
         let Shape::FourBar(_) = &found.shape else { panic!("{found:?}\n{text}") };
         let known = known(found);
         // The lengths as the driver sees them.
@@ -410,8 +421,11 @@ fn check_slider_cranks(kind: SliderKind) {
     for seed in 0..SAMPLES {
         let (text, direction) = slider_crank(&mut Random(seed), kind);
         let Some(linkage) = compile_if_it_closes(&text) else { continue };
+        let [found] = linkage.limits.loops.as_slice() else {
+            closes_nowhere(&linkage, &text);
+            continue;
+        };
         samples += 1;
-        let [found] = linkage.limits.loops.as_slice() else { panic!("{:?}\n{text}", linkage.limits) };
         let known = known(found);
         let near = sharpness(&linkage, &known.range);
         assert!(near < 1e-6, "agrees only {near} from its limits: {:?}\n{text}", known.range);
@@ -507,32 +521,33 @@ fn agree(found: &Number, expected: &Number) -> bool {
     found.sub(expected).abs().compare(&decimal("1e-60").mul(&expected.abs().add(&Number::one()))).is_lt()
 }
 
-/// `drive` at which a four-bar with its ground line inclined is at a limit or a dead centre, by the law of cosines in 256 bits.
+/// A four-bar that has every limit and every dead centre, its ground line inclined: by the law of cosines in 256 bits.
 #[test]
 fn constants_are_exact_to_the_last_bit() {
     let text = "mod exact; units { mm, N } ground { O: (0, 0), Q: 97.3mm @ 37deg } link crank { O: (0, 0), P: 61.7mm @ -12deg }
-        link coupler { P -> I: 44.1mm } link rocker { Q -> I: 52.9mm }
+        link coupler { P -> I: 30.2mm } link rocker { Q -> I: 79.9mm }
         revolute O: crank -> ground; revolute P: crank -> coupler; revolute I: coupler -> rocker; revolute Q: rocker -> ground;
         drive theta: O; assemble I: left(P -> Q); scene places: position;";
     let linkage = compile(text);
     let known = known(&linkage.limits.loops[0]);
-    let [g, a, h, b] = ["97.3", "61.7", "44.1", "52.9"].map(decimal);
+    let [g, a, h, b] = ["97.3", "61.7", "30.2", "79.9"].map(decimal);
     // ψ = −θ − 12° − 37°, as the joint's arrow leads from the crank to the ground.
     let cosine = |at: &Number| at.neg().sub(&Number::pi(49, 180)).sin_cos().1;
-    let distance = |at: &Number| {
-        let legs = g.mul(&g).add(&a.mul(&a));
-        legs.sub(&Number::integer(2).mul(&g).mul(&a).mul(&cosine(at)))
-    };
-    let KnownRange::One([from, to]) = &known.range else { panic!("{known:?}") };
-    let stretched = h.add(&b).mul(&h.add(&b));
-    assert!(agree(&distance(&from.at), &stretched) && agree(&distance(&to.at), &stretched), "{known:?}");
-    assert_eq!((from.posture, from.joint.as_str()), (Posture::Stretched, "I"));
-    let dead = known.dead_centres[1].as_ref().expect("coupler shorter than crank and rocker together");
-    let line = a.sub(&h);
-    let expected = g.mul(&g).add(&line.mul(&line)).sub(&b.mul(&b));
-    let expected = expected.div(&Number::integer(2).mul(&g).mul(&line));
-    assert!(known.dead_centres[0].is_none() == expected.as_ref().is_some_and(|_| known.dead_centres[0].is_none()));
-    assert!(agree(&cosine(&dead.at), &expected.expect("unequal lengths")), "{dead:?}");
+    let square = |x: &Number| x.mul(x);
+    // |PQ|² less the square of a length, as a part of the largest of them.
+    let distance = |at: &Number| square(&g).add(&square(&a)).sub(&Number::integer(2).mul(&g).mul(&a).mul(&cosine(at)));
+    assert_eq!(known.class, Some(Grashof::DoubleRocker));
+    let KnownRange::Two(pieces) = &known.range else { panic!("{known:?}") };
+    for end in pieces.iter().flatten() {
+        let reach = if end.posture == Posture::Stretched { h.add(&b) } else { h.sub(&b) };
+        assert!(agree(&distance(&end.at), &square(&reach)) && end.joint == "I", "{end:?}");
+    }
+    for (dead, line) in known.dead_centres.iter().zip([a.add(&h), a.sub(&h)]) {
+        let dead = dead.as_ref().expect("it has both");
+        let sides = square(&g).add(&square(&line)).sub(&square(&b));
+        let expected = sides.div(&Number::integer(2).mul(&g).mul(&line)).expect("unequal lengths");
+        assert!(agree(&cosine(&dead.at), &expected) && dead.joint == "P", "{dead:?}");
+    }
 }
 
 /// METU 6.3: 80 + 140 = 100 + 120, so that it folds at 180°, exactly.
@@ -690,7 +705,7 @@ fn classes() {
 /// The section says what the constants say.
 #[test]
 fn the_derivation_has_the_numbers() {
-    let text = "mod slide; units { mm, N } ground { O: (0, 0), G: (0, 15mm) } link crank { O -> A: 60mm } link rod { A -> B: 50mm }
+    let text = "mod slide; units { mm, N } ground { O: (0, 0), G: (0, 5mm) } link crank { O -> A: 60mm } link rod { A -> B: 50mm }
         link slider { B, G: (0, 0) } revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> slider;
         prismatic G: ground -> slider along 0deg; drive theta: O; assemble B: ahead(A); scene places: position;";
     let linkage = compile(text);
