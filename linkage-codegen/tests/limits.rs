@@ -722,3 +722,151 @@ fn the_derivation_has_the_numbers() {
     }
     assert!(section.contains("B square to the slide"), "{section}{numbers}");
 }
+
+/// Emitted constants and emitted functions, of the same lengths.
+mod emitted {
+    use linkage_runtime::limits::{DriverRange, FourBar, Grashof, Posture, SliderCrank};
+    use linkage_runtime::{Error, linkage};
+
+    linkage! {
+        mod constant;
+        units { mm, N }
+        ground       { O: (10mm, 5mm), Q: (107mm, 25mm), R: (40mm, -60mm) }
+        link crank   { O: (0, 0), P: 61mm @ -12deg }
+        link coupler { P -> I: 30mm }
+        link rocker  { Q -> I: 80mm, C: (100mm, 15mm) }
+        link rod     { C -> D: 140mm }
+        link slider  { D }
+        revolute O: crank -> ground;
+        revolute P: crank -> coupler;
+        revolute I: coupler -> rocker;
+        revolute Q: ground -> rocker;
+        revolute C: rocker -> rod;
+        revolute D: rod -> slider;
+        prismatic S: ground.R -> slider.D along 20deg;
+        drive theta: O;
+        assemble I: left(P -> Q);
+        assemble D: behind(C);
+        scene places: position;
+    }
+
+    linkage! {
+        mod adjustable;
+        units { mm, N }
+        param crank_length: length;
+        param coupler_length: length;
+        param rocker_length: length;
+        param rod_length: length;
+        ground       { O: (10mm, 5mm), Q: (107mm, 25mm), R: (40mm, -60mm) }
+        link crank   { O: (0, 0), P: crank_length @ -12deg }
+        link coupler { P -> I: coupler_length }
+        link rocker  { Q -> I: rocker_length, C: (rocker_length + 20mm, 15mm) }
+        link rod     { C -> D: rod_length }
+        link slider  { D }
+        revolute O: crank -> ground;
+        revolute P: crank -> coupler;
+        revolute I: coupler -> rocker;
+        revolute Q: ground -> rocker;
+        revolute C: rocker -> rod;
+        revolute D: rod -> slider;
+        prismatic S: ground.R -> slider.D along 20deg;
+        drive theta: O;
+        assemble I: left(P -> Q);
+        assemble D: behind(C);
+        scene places: position;
+    }
+
+    linkage! {
+        mod cylinders;
+        scalar f32;
+        param stroke: length = 1.3m;
+        ground { O: (0, 0), P: (0.6m, -0.4m), C: (2m, stroke) }
+        link boom { O -> Q: 1.2m } link tube { P } link rod { E: (0, 0), Q: (0, 0.1m) }
+        link crank { C -> K: 0.3m } link piston { K: (0, 0) } link barrel { B: (0, 0), K: (0, 0.05m) }
+        revolute O: ground -> boom; revolute P: ground -> tube; revolute Q: rod -> boom;
+        prismatic lift: tube.P -> rod.E along 0deg of tube;
+        revolute C: ground -> crank; revolute K: crank -> piston; prismatic bore: barrel.K -> piston.K along 0deg of barrel;
+        revolute B: boom.Q -> barrel.B;
+        drive length: lift; drive theta: C;
+        assemble Q: left(P -> O);
+        assemble bore: ahead(B);
+        scene places: position;
+    }
+
+    fn params(crank: f64, coupler: f64) -> adjustable::Params {
+        adjustable::Params { crank_length: crank, coupler_length: coupler, rocker_length: 80.0, rod_length: 140.0 }
+    }
+
+    /// All numbers of what is known, and the rest of it as text.
+    fn parts(text: &str) -> (Vec<f64>, String) {
+        let is_number = |c: char| c.is_ascii_digit() || ".-e".contains(c);
+        let words = text.split(|c: char| !(is_number(c) || c.is_alphanumeric() || c == '_'));
+        let (numbers, rest): (Vec<&str>, Vec<&str>) =
+            words.filter(|word| !word.is_empty()).partition(|word| word.parse::<f64>().is_ok());
+        (numbers.into_iter().map(|number| number.parse().unwrap()).collect(), rest.join(" "))
+    }
+
+    #[test]
+    fn functions_agree_with_constants() {
+        let found = adjustable::Limits::of(&params(61.0, 30.0)).unwrap();
+        let constant: (FourBar<f64>, SliderCrank<f64>) = (constant::LIMITS.I, constant::LIMITS.D);
+        assert!(matches!(constant.0.range, DriverRange::Two(_)), "{constant:?}");
+        let (numbers, words) = parts(&format!("{:?}", (found.I, found.D)));
+        let (expected, expected_words) = parts(&format!("{constant:?}"));
+        assert_eq!(words, expected_words);
+        assert!(numbers.len() > 12 && numbers.len() == expected.len(), "{numbers:?}");
+        for (number, expected) in numbers.iter().zip(&expected) {
+            assert!((number - expected).abs() < 1e-14 * 180.0, "{number} for {expected}");
+        }
+    }
+
+    #[test]
+    fn limits_of_parameters_are_those_of_the_pose() {
+        for (crank, coupler, class) in [
+            (61.0, 30.0, Grashof::DoubleRocker),
+            (30.0, 90.0, Grashof::CrankRocker),
+            (95.0, 20.0, Grashof::DoubleRocker),
+            (150.0, 110.0, Grashof::TripleRocker),
+            (61.0, 90.0, Grashof::TripleRocker),
+        ] {
+            let params = params(crank, coupler);
+            let linkage = adjustable::Linkage::new(&params).unwrap();
+            let limits = adjustable::Limits::of(&params).unwrap().I;
+            assert_eq!(limits.class, class, "{params:?}");
+            let pieces = match limits.range {
+                DriverRange::Unlimited => Vec::new(),
+                DriverRange::One(one) => vec![one],
+                DriverRange::Two(two) => two.to_vec(),
+            };
+            for (end, inwards) in pieces.iter().flat_map(|piece| [(piece.from, 1e-12), (piece.to, -1e-12)]) {
+                // The second loop may have limits of its own.
+                let open = |at: f64| {
+                    matches!(adjustable::Pose::at(&linkage, at), Err(Error::CannotAssemble { joint: "I", .. }))
+                };
+                assert!(!open(end.at + inwards) && open(end.at - inwards), "{end:?} of {params:?}");
+            }
+            assert_eq!(limits.swing.is_some(), class == Grashof::CrankRocker);
+        }
+        let error = adjustable::Limits::of(&params(5.0, 5.0)).unwrap_err();
+        assert!(matches!(error, Error::CannotAssemble { joint: "I", .. }), "{error:?}");
+        assert!(matches!(adjustable::Limits::of(&params(-1.0, 5.0)).unwrap_err(), Error::Parameter { .. }));
+        assert!(matches!(adjustable::Limits::of(&params(f64::NAN, 5.0)).unwrap_err(), Error::NotFinite { .. }));
+        assert!(matches!(adjustable::Limits::of(&params(1e200, 1e200)).unwrap_err(), Error::NotFinite { .. }));
+    }
+
+    #[test]
+    fn in_single_precision() {
+        let limits = cylinders::Limits::of(&cylinders::Params::default()).unwrap();
+        let linkage = cylinders::Linkage::new(&cylinders::Params::default()).unwrap();
+        // The boom's cylinder reaches from |1.2 − √0.52| to 1.2 + √0.52, its rod's eye 0.1 beside its line.
+        let DriverRange::Two([_, range]) = limits.Q.range else { panic!("{limits:?}") };
+        let reach = |d: f64| (d * d - 0.01).sqrt();
+        assert!((f64::from(range.from.at) - reach(1.2 - 0.52f64.sqrt())).abs() < 3e-7, "{range:?}");
+        assert!((f64::from(range.to.at) - reach(1.2 + 0.52f64.sqrt())).abs() < 3e-7, "{range:?}");
+        assert_eq!((range.from.posture, range.to.posture), (Posture::Folded, Posture::Stretched));
+        for (at, by) in [(range.from.at, 1e-5), (range.to.at, -1e-5)] {
+            assert!(cylinders::places_at(&linkage, at + by, 1.0).is_ok());
+            assert!(matches!(cylinders::places_at(&linkage, at - by, 1.0), Err(Error::CannotAssemble { .. })));
+        }
+    }
+}

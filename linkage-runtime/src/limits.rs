@@ -287,3 +287,58 @@ macro_rules! limits {
     };
 }
 pub(crate) use limits;
+
+#[cfg(test)]
+mod tests {
+    use super::{DriverRange, Grashof, Posture};
+    use crate::__private::f64::{grashof, possible, sliding, stroke, turned, turning};
+    use core::f64::consts::PI;
+
+    #[test]
+    fn angles_within_a_turn() {
+        assert_eq!([turned(PI), turned(-PI), turned(4.0), turned(-4.0)], [PI, PI, 4.0 - 2.0 * PI, 2.0 * PI - 4.0]);
+    }
+
+    #[test]
+    fn classes_by_signs() {
+        let all = [
+            ([1.0, 1.0, 1.0], Grashof::CrankRocker),
+            ([1.0, -1.0, -1.0], Grashof::RockerCrank),
+            ([-1.0, -1.0, 1.0], Grashof::DoubleCrank),
+            ([-1.0, 1.0, -1.0], Grashof::DoubleRocker),
+            ([-1.0, -1.0, -1.0], Grashof::TripleRocker),
+            ([-1.0, 1.0, 1.0], Grashof::TripleRocker),
+            ([1.0, -1.0, 1.0], Grashof::TripleRocker),
+            ([1.0, 1.0, -1.0], Grashof::TripleRocker),
+            ([1.0, 0.0, -1.0], Grashof::ChangePoint),
+        ];
+        assert!(all.iter().all(|(signs, class)| grashof(*signs) == *class));
+    }
+
+    #[test]
+    fn ranges_lie_about_their_centre() {
+        let range =
+            |near: f64, far: f64| turning(3.0, (near, 0.5, Posture::Folded), (far, 2.0, Posture::Stretched), "B");
+        assert_eq!(range(1.0, 0.0), DriverRange::Unlimited);
+        let DriverRange::One(one) = range(-1.0, 1.0) else { panic!() };
+        assert!((one.from.at - (3.5 - 2.0 * PI)).abs() < 1e-15 && (one.to.at - 2.5).abs() < 1e-15);
+        let DriverRange::One(one) = range(1.0, -1.0) else { panic!() };
+        assert!((one.from.at - 1.0).abs() < 1e-15 && (one.to.at - 5.0).abs() < 1e-15);
+        let DriverRange::Two([first, second]) = range(-1.0, -1.0) else { panic!() };
+        assert_eq!((first.from.posture, first.to.posture), (Posture::Stretched, Posture::Folded));
+        assert!((first.from.at - 1.0).abs() < 1e-15 && (first.to.at - 2.5).abs() < 1e-15);
+        assert!((second.from.at - (3.5 - 2.0 * PI)).abs() < 1e-15 && (second.to.at - (5.0 - 2.0 * PI)).abs() < 1e-15);
+        let DriverRange::Two([first, second]) = sliding(1.0, (1.0, 2.0), 5.0, "B") else { panic!() };
+        assert_eq!([first.from.at, first.to.at, second.from.at, second.to.at], [-4.0, -1.0, 3.0, 6.0]);
+        let DriverRange::One(one) = sliding(1.0, (0.0, 0.0), 5.0, "B") else { panic!() };
+        assert_eq!([one.from.at, one.to.at], [-4.0, 6.0]);
+    }
+
+    #[test]
+    fn what_there_may_be() {
+        assert!(possible([0.0, -1e-300], 1.0, "A", Posture::Folded).is_none());
+        assert_eq!(possible([0.0], 4.0, "A", Posture::Folded).map(|there| there.at), Some(4.0 - 2.0 * PI));
+        assert!(stroke([1.0, 0.0], 1.0, 0.0).is_none() && stroke([1.0], 1.0, PI).is_none());
+        assert_eq!(stroke([1.0], 2.0, -PI / 2.0).map(|found| [found.extent, found.time_ratio]), Some([2.0, 3.0]));
+    }
+}
