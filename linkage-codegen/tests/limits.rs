@@ -827,7 +827,8 @@ mod emitted {
             (30.0, 90.0, Grashof::CrankRocker),
             (95.0, 20.0, Grashof::DoubleRocker),
             (150.0, 110.0, Grashof::TripleRocker),
-            (61.0, 90.0, Grashof::TripleRocker),
+            (70.0, 60.0, Grashof::TripleRocker),
+            (61.0, 90.0, Grashof::CrankRocker),
         ] {
             let params = params(crank, coupler);
             let linkage = adjustable::Linkage::new(&params).unwrap();

@@ -482,7 +482,7 @@ impl Words<'_> {
             && !matches!(self.found.shape, Shape::DrivenSlide(_))
     }
 
-    fn value(&self, number: &Number, turns: bool) -> String {
+    fn value(number: &Number, turns: bool) -> String {
         let value = number.to_f64();
         if !turns {
             return number_text(value);
@@ -496,7 +496,7 @@ impl Words<'_> {
         let turns = self.turns();
         let piece = |[from, to]: &[KnownPosition; 2]| {
             let end =
-                |at: &KnownPosition| format!("{}, {} {}", self.value(&at.at, turns), at.joint, at.posture.words());
+                |at: &KnownPosition| format!("{}, {} {}", Self::value(&at.at, turns), at.joint, at.posture.words());
             format!("from {} to {}", end(from), end(to))
         };
         let coordinate = &self.found.coordinate;
@@ -510,7 +510,7 @@ impl Words<'_> {
     fn dead_centres(&self) -> String {
         let Some(known) = &self.found.known else { return String::new() };
         let there = known.dead_centres.iter().flatten();
-        let each = there.map(|dead| format!("{} at {}", dead.posture.words(), self.value(&dead.at, self.turns())));
+        let each = there.map(|dead| format!("{} at {}", dead.posture.words(), Self::value(&dead.at, self.turns())));
         let each = each.collect::<Vec<_>>();
         if each.is_empty() {
             ": nowhere".to_owned()
@@ -521,7 +521,7 @@ impl Words<'_> {
 
     fn stroke(&self, what: &str, turns: bool) -> Option<String> {
         let stroke = self.found.known.as_ref()?.stroke.as_ref()?;
-        let (extent, ratio) = (self.value(&stroke.extent, turns), number_text(stroke.time_ratio.to_f64()));
+        let (extent, ratio) = (Self::value(&stroke.extent, turns), number_text(stroke.time_ratio.to_f64()));
         let equals = if turns { " " } else { " = " };
         Some(format!("{what}{equals}{extent}, time ratio (180° + α)/(180° − α) = {ratio}"))
     }
@@ -529,7 +529,7 @@ impl Words<'_> {
     fn transmission(&self, joint: &str, formula: &str) -> Option<String> {
         let [least, greatest] = self.found.known.as_ref()?.transmission.as_ref()?;
         let one = |one: &crate::limits::KnownTransmission| {
-            format!("{} at {}", self.value(&one.angle, true), self.value(&one.at, true))
+            format!("{} at {}", Self::value(&one.angle, true), Self::value(&one.at, true))
         };
         Some(format!("transmission angle at {joint}, {formula}: least {}, greatest {}", one(least), one(greatest)))
     }

@@ -32,6 +32,13 @@ pub(super) struct Side<'m> {
     end: Option<End>,
 }
 
+impl<'m> Side<'m> {
+    /// From a slide's line to a pin of the same body, along and across the slide.
+    pub(super) fn to(self, pin: Self) -> Vector<'m> {
+        (pin.point - self.point).resolved_along(self.axis)
+    }
+}
+
 /// A hinge of a chain, from the body before it to the one behind it.
 #[derive(Clone, Debug)]
 pub(super) struct Hinge<'m> {
@@ -131,11 +138,6 @@ impl<'m> Chain<'m> {
     /// How the distance of two hinges is written: `|A B|`.
     pub(super) fn distance_name(&self, [from, to]: [usize; 2]) -> String {
         format!("|{} {}|", self.hinge_name(from), self.hinge_name(to))
-    }
-
-    /// From a slide's line to a pin of the same body, along and across the slide.
-    pub(super) fn from_slide(&self, slide: Side<'m>, pin: Side<'m>) -> Vector<'m> {
-        (pin.point - slide.point).resolved_along(slide.axis)
     }
 }
 

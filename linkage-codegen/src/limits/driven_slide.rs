@@ -9,15 +9,15 @@
 //! ```
 
 use super::cycles::Chain;
-use super::{Closing, DrivenSlide, Loop, Origin, Shape, Writing};
+use super::{Closing, DrivenSlide, Loop, Shape, Writing, dimension};
 
 /// A loop that its slide drives. `None` if it closes at no travel.
 pub(super) fn of(chain: &Chain<'_>, closing: &Closing<'_>) -> Option<Loop> {
     let writing = Writing::new(chain, closing);
-    let [r1, r2] = [1, 2].map(|body| writing.length(body));
+    let [r1, r2] = [(1, "r1"), (2, "r2")].map(|(body, symbol)| writing.length(body, symbol));
     let slide = &chain.hinges[0];
-    let behind = chain.from_slide(slide.sides[1], chain.hinges[1].sides[0]);
-    let before = chain.from_slide(slide.sides[0], chain.hinges[3].sides[1]);
+    let behind = slide.sides[1].to(chain.hinges[1].sides[0]);
+    let before = slide.sides[0].to(chain.hinges[3].sides[1]);
     let offset = behind - before;
     let c = writing.named(offset.y, "offset", "c, across the slide from the one outer pin to the other");
     let phase = writing.named(offset.x, "phase", "x at the travel 0");
@@ -41,11 +41,11 @@ pub(super) fn of(chain: &Chain<'_>, closing: &Closing<'_>) -> Option<Loop> {
         names[2]
     );
     let dimensions = vec![
-        writing.dimension("r₁", &chain.distance_name([1, 2]), r1),
-        writing.dimension("r₂", &chain.distance_name([3, 2]), r2),
-        writing.dimension("c", &format!("offset of {} from {} across the slide", joint(1), joint(3)), c),
+        dimension("r₁", &chain.distance_name([1, 2]), r1),
+        dimension("r₂", &chain.distance_name([3, 2]), r2),
+        dimension("c", &format!("offset of {} from {} across the slide", joint(1), joint(3)), c),
     ];
     let meaning = format!("x, from {} to {} along the slide,", joint(3), joint(1));
-    let origin = Origin { meaning, forwards: slide.forwards, phase: phase.id() };
+    let origin = writing.origin(meaning, phase);
     Some(writing.of(title, dimensions, origin, Shape::DrivenSlide(shape)))
 }

@@ -22,27 +22,18 @@
 //! ```
 
 use super::cycles::Chain;
-use super::{Closing, Extreme, FourBar, Loop, Origin, Possible, Posture, Shape, Stroke, Turning, Writing};
+use super::{Closing, Extreme, FourBar, Loop, Possible, Posture, Shape, Stroke, Turning, Writing, dimension};
+use crate::graph::Expr;
 
 /// A loop of four pins; `sense` is 1 if the outer pin on the crank, that on the frame and the inner pin follow each other counter-clockwise.
 /// `None` if it closes at no angle.
 pub(super) fn of(chain: &Chain<'_>, sense: i64, closing: &Closing<'_>) -> Option<Loop> {
     let writing = Writing::new(chain, closing);
-    let [a, h, b, g] = [0, 1, 2, 3].map(|body| writing.length(body));
+    let lengths = [(0, "a"), (1, "h"), (2, "b"), (3, "g")];
+    let [a, h, b, g] = lengths.map(|(body, symbol)| writing.length(body, symbol));
     let sum = writing.named(g + a + h + b, "sum", "Σ = g + a + h + b");
-    let balances = [
-        ((g - a) + (h - b), "T1", "T₁ = g − a + h − b"),
-        ((g - a) - (h - b), "T2", "T₂ = g − a − h + b"),
-        ((h + b) - (g + a), "T3", "T₃ = h + b − g − a"),
-    ];
-    let [t1, t2, t3] = balances.map(|(value, name, equation)| writing.named(value, name, equation));
-    let excess = [
-        ((a + h + b) - g, "e_g", "e_g = a + h + b − g"),
-        ((g + h + b) - a, "e_a", "e_a = g + h + b − a"),
-        ((g + a + b) - h, "e_h", "e_h = g + a + b − h"),
-        ((g + a + h) - b, "e_b", "e_b = g + a + h − b"),
-    ];
-    let excess = excess.map(|(value, name, equation)| writing.named(value, name, equation));
+    let [t1, t2, t3] = balances(&writing, [g, a, h, b]);
+    let excess = excesses(&writing, [g, a, h, b]);
     let [eg, ea, eh, eb] = writing.assembled(&excess)?.try_into().ok()?;
     let phase = writing.phase(-chain.arm(3), chain.arm(0));
     let phase = writing.named(phase, "phase", "ψ at the coordinate 0");
@@ -88,15 +79,15 @@ pub(super) fn of(chain: &Chain<'_>, sense: i64, closing: &Closing<'_>) -> Option
     );
 
     let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
-    let dead = |margin: crate::graph::Expr<'_>, angle, name, posture| Possible {
+    let dead = |margin: Expr<'_>, angle, name, posture| Possible {
         margins: vec![margin.id()],
         at: at(angle, name),
         joint: joint(1),
         posture,
     };
     let shape = FourBar {
-        lengths: [g, a, h, b].map(crate::graph::Expr::id),
-        balances: [t1, t2, t3].map(crate::graph::Expr::id),
+        lengths: [g, a, h, b].map(Expr::id),
+        balances: [t1, t2, t3].map(Expr::id),
         range: Turning {
             centre: at(writing.graph.zero(), "centre"),
             near: Some([nearest.id(), near.id()]),
@@ -110,11 +101,7 @@ pub(super) fn of(chain: &Chain<'_>, sense: i64, closing: &Closing<'_>) -> Option
             dead(t2, sense * stretched, "dead_stretched", Posture::Stretched),
             dead(both, -(sense * folded), "dead_folded", Posture::Folded),
         ],
-        swing: Stroke {
-            margins: [t1, t2, t3].map(crate::graph::Expr::id).to_vec(),
-            extent: swing.id(),
-            advance: advance.id(),
-        },
+        swing: Stroke { margins: [t1, t2, t3].map(Expr::id).to_vec(), extent: swing.id(), advance: advance.id() },
         transmission: [
             Extreme { angle: least.id(), at: at(near, "mu_least") },
             Extreme { angle: greatest.id(), at: at(far, "mu_greatest") },
@@ -131,9 +118,29 @@ pub(super) fn of(chain: &Chain<'_>, sense: i64, closing: &Closing<'_>) -> Option
         names[3]
     );
     let dimensions = [("g", [0, 3], g), ("a", [0, 1], a), ("h", [1, 2], h), ("b", [3, 2], b)];
-    let dimensions =
-        dimensions.map(|(symbol, ends, value)| writing.dimension(symbol, &chain.distance_name(ends), value));
-    let meaning = format!("ψ, from the line {} {} to the line {} {},", joint(0), joint(3), joint(0), joint(1));
-    let origin = Origin { meaning, forwards: chain.hinges[0].forwards, phase: phase.id() };
+    let dimensions = dimensions.map(|(symbol, ends, value)| dimension(symbol, &chain.distance_name(ends), value));
+    let lines = [[0, 3], [0, 1]].map(|[from, to]| format!("the line {} {}", joint(from), joint(to)));
+    let origin = writing.origin(format!("ψ, from {} to {},", lines[0], lines[1]), phase);
     Some(writing.of(title, dimensions.to_vec(), origin, Shape::FourBar(shape)))
+}
+
+/// T₁, T₂, T₃.
+fn balances<'m>(writing: &Writing<'m>, [g, a, h, b]: [Expr<'m>; 4]) -> [Expr<'m>; 3] {
+    let all = [
+        ((g - a) + (h - b), "T1", "T₁ = g − a + h − b"),
+        ((g - a) - (h - b), "T2", "T₂ = g − a − h + b"),
+        ((h + b) - (g + a), "T3", "T₃ = h + b − g − a"),
+    ];
+    all.map(|(value, name, equation)| writing.named(value, name, equation))
+}
+
+/// By how much each three lengths together exceed the fourth.
+fn excesses<'m>(writing: &Writing<'m>, [g, a, h, b]: [Expr<'m>; 4]) -> [Expr<'m>; 4] {
+    let all = [
+        ((a + h + b) - g, "e_g", "e_g = a + h + b − g"),
+        ((g + h + b) - a, "e_a", "e_a = g + h + b − a"),
+        ((g + a + b) - h, "e_h", "e_h = g + a + b − h"),
+        ((g + a + h) - b, "e_b", "e_b = g + a + h − b"),
+    ];
+    all.map(|(value, name, equation)| writing.named(value, name, equation))
 }

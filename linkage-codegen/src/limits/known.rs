@@ -119,42 +119,34 @@ pub struct KnownTransmission {
 
 /// The loop's values. `None` if one is not constant or does not fit the scalar.
 pub(super) fn known(graph: &Graph, found: &Loop) -> Option<Known> {
+    let fits = |node: &NodeId| graph.constant_value(*node).is_some_and(|number| number.fits(graph.scalar()));
+    if !found.shape.nodes().iter().all(fits) {
+        return None;
+    }
     let values = Values { graph };
-    match &found.shape {
-        Shape::FourBar(FourBar { balances, range, dead_centres, swing, transmission, .. }) => {
-            let mut signs = [0; 3];
-            for (sign, node) in signs.iter_mut().zip(balances) {
-                *sign = values.of(*node)?.signum();
-            }
-            Some(Known {
-                class: Some(Grashof::of(signs)),
-                range: values.range(range)?,
-                dead_centres: values.dead_centres(dead_centres)?,
-                stroke: values.stroke(swing)?,
-                transmission: Some(values.extremes(transmission)?),
-            })
-        }
-        Shape::SliderCrank(slider_crank) => Some(Known {
+    Some(match &found.shape {
+        Shape::FourBar(FourBar { balances, range, dead_centres, swing, transmission, .. }) => Known {
+            class: Some(Grashof::of(balances.map(|node| values.of(node).signum()))),
+            range: values.range(range),
+            dead_centres: values.dead_centres(dead_centres),
+            stroke: values.stroke(swing),
+            transmission: Some(transmission.map(|one| values.extreme(one))),
+        },
+        Shape::SliderCrank(slider_crank) => Known {
             class: None,
-            range: values.range(&slider_crank.range)?,
-            dead_centres: values.dead_centres(&slider_crank.dead_centres)?,
-            stroke: match &slider_crank.stroke {
-                Some(stroke) => values.stroke(stroke)?,
-                None => None,
-            },
-            transmission: match &slider_crank.transmission {
-                Some(both) => Some(values.extremes(both)?),
-                None => None,
-            },
-        }),
-        Shape::DrivenSlide(driven) => Some(Known {
+            range: values.range(&slider_crank.range),
+            dead_centres: values.dead_centres(&slider_crank.dead_centres),
+            stroke: slider_crank.stroke.as_ref().and_then(|stroke| values.stroke(stroke)),
+            transmission: slider_crank.transmission.map(|both| both.map(|one| values.extreme(one))),
+        },
+        Shape::DrivenSlide(driven) => Known {
             class: None,
-            range: values.travels(driven)?,
+            range: values.travels(driven),
             dead_centres: [None, None],
             stroke: None,
             transmission: None,
-        }),
-    }
+        },
+    })
 }
 
 /// An angle in (−π, π].
@@ -174,80 +166,69 @@ struct Values<'g> {
 }
 
 impl Values<'_> {
-    fn of(&self, node: NodeId) -> Option<Number> {
-        self.graph.constant_value(node).filter(|number| number.fits(self.graph.scalar()))
+    /// The value of a node; all that is asked for is constant.
+    fn of(&self, node: NodeId) -> Number {
+        self.graph.constant_value(node).unwrap_or_else(Number::zero)
     }
 
     /// The limit, if there is one.
-    fn limit(&self, limit: Option<[NodeId; 2]>) -> Option<Option<Number>> {
-        let Some([margin, angle]) = limit else { return Some(None) };
-        let (margin, angle) = (self.of(margin)?, self.of(angle)?);
-        Some((margin.signum() < 0).then_some(angle))
+    fn limit(&self, limit: Option<[NodeId; 2]>) -> Option<Number> {
+        let [margin, angle] = limit?;
+        (self.of(margin).signum() < 0).then(|| self.of(angle))
     }
 
-    fn range(&self, turning: &Turning) -> Option<KnownRange> {
-        let centre = self.of(turning.centre)?;
-        let [near, far] = [self.limit(turning.near)?, self.limit(turning.far)?];
+    fn range(&self, turning: &Turning) -> KnownRange {
+        let centre = self.of(turning.centre);
+        let (near, far) = (self.limit(turning.near), self.limit(turning.far));
         let position = |at: Number, posture| KnownPosition { at, joint: turning.joint.clone(), posture };
         let [at_near, at_far] = turning.postures;
-        // Both ends lie as far from the first, which is within a turn.
-        let piece = |from: Number, to: Number, postures: [Posture; 2]| {
+        let piece = |from: Number, to: &Number, postures: [Posture; 2]| {
             let (first, width) = (turned(centre.add(&from)), to.sub(&from));
             [position(first.clone(), postures[0]), position(first.add(&width), postures[1])]
         };
-        let rest = |near: &Number| Number::pi(2, 1).sub(near);
-        Some(match (near, far) {
+        match (near, far) {
             (None, None) => KnownRange::Unlimited,
-            (Some(near), None) => KnownRange::One(piece(near.clone(), rest(&near), [at_near; 2])),
-            (None, Some(far)) => KnownRange::One(piece(far.neg(), far, [at_far; 2])),
-            (Some(near), Some(far)) => {
-                KnownRange::Two([piece(far.neg(), near.neg(), [at_far, at_near]), piece(near, far, [at_near, at_far])])
+            (Some(near), None) => {
+                let rest = Number::pi(2, 1).sub(&near);
+                KnownRange::One(piece(near, &rest, [at_near; 2]))
             }
-        })
+            (None, Some(far)) => KnownRange::One(piece(far.neg(), &far, [at_far; 2])),
+            (Some(near), Some(far)) => KnownRange::Two([
+                piece(far.neg(), &near.neg(), [at_far, at_near]),
+                piece(near, &far, [at_near, at_far]),
+            ]),
+        }
     }
 
-    fn travels(&self, driven: &DrivenSlide) -> Option<KnownRange> {
-        let (centre, far) = (self.of(driven.centre)?, self.of(driven.far)?);
+    fn travels(&self, driven: &DrivenSlide) -> KnownRange {
+        let (centre, far) = (self.of(driven.centre), self.of(driven.far));
         let [margin, near] = driven.near.map(|node| self.of(node));
-        let near = (margin?.signum() > 0).then_some(near?);
-        let at = |by: Number, posture| KnownPosition { at: centre.add(&by), joint: driven.joint.clone(), posture };
+        let at = |by: &Number, posture| KnownPosition { at: centre.add(by), joint: driven.joint.clone(), posture };
         let (stretched, folded) = (|by| at(by, Posture::Stretched), |by| at(by, Posture::Folded));
-        Some(match near {
-            None => KnownRange::One([stretched(far.neg()), stretched(far)]),
-            Some(near) => KnownRange::Two([[stretched(far.neg()), folded(near.neg())], [folded(near), stretched(far)]]),
+        if margin.signum() > 0 {
+            KnownRange::Two([[stretched(&far.neg()), folded(&near.neg())], [folded(&near), stretched(&far)]])
+        } else {
+            KnownRange::One([stretched(&far.neg()), stretched(&far)])
+        }
+    }
+
+    fn dead_centres(&self, all: &[Possible]) -> [Option<KnownPosition>; 2] {
+        [0, 1].map(|index| {
+            let Possible { margins, at, joint, posture } = all.get(index)?;
+            let there = margins.iter().all(|margin| self.of(*margin).signum() >= 0);
+            there.then(|| KnownPosition { at: turned(self.of(*at)), joint: joint.clone(), posture: *posture })
         })
     }
 
-    fn dead_centres(&self, all: &[Possible]) -> Option<[Option<KnownPosition>; 2]> {
-        let mut found = [None, None];
-        for (found, possible) in found.iter_mut().zip(all) {
-            let mut there = true;
-            for margin in &possible.margins {
-                there &= self.of(*margin)?.signum() >= 0;
-            }
-            let at = turned(self.of(possible.at)?);
-            let (joint, posture) = (possible.joint.clone(), possible.posture);
-            *found = there.then_some(KnownPosition { at, joint, posture });
-        }
-        Some(found)
-    }
-
-    fn stroke(&self, stroke: &Stroke) -> Option<Option<KnownStroke>> {
-        for margin in &stroke.margins {
-            if self.of(*margin)?.signum() <= 0 {
-                return Some(None);
-            }
-        }
-        let (extent, advance) = (self.of(stroke.extent)?, self.of(stroke.advance)?.abs());
+    fn stroke(&self, stroke: &Stroke) -> Option<KnownStroke> {
+        let (extent, advance) = (self.of(stroke.extent), self.of(stroke.advance).abs());
         let half = Number::pi(1, 1);
         let time_ratio = half.add(&advance).div(&half.sub(&advance))?;
-        Some(time_ratio.fits(self.graph.scalar()).then_some(KnownStroke { extent, time_ratio }))
+        let there = stroke.margins.iter().all(|margin| self.of(*margin).signum() > 0);
+        (there && time_ratio.fits(self.graph.scalar())).then_some(KnownStroke { extent, time_ratio })
     }
 
-    fn extremes(&self, both: &[Extreme; 2]) -> Option<[KnownTransmission; 2]> {
-        let one = |extreme: &Extreme| {
-            Some(KnownTransmission { angle: self.of(extreme.angle)?, at: turned(self.of(extreme.at)?) })
-        };
-        Some([one(&both[0])?, one(&both[1])?])
+    fn extreme(&self, extreme: Extreme) -> KnownTransmission {
+        KnownTransmission { angle: self.of(extreme.angle), at: turned(self.of(extreme.at)) }
     }
 }

@@ -364,8 +364,8 @@ impl<'m> Writing<'m> {
         Self { chain: chain.clone(), graph: &chain.model.graph, name: closing.name.clone() }
     }
 
-    /// The length of a body; of one that depends on parameters it is checked when they are given.
-    fn length(&self, body: usize) -> Expr<'m> {
+    /// The length of a body, under a name; of one that depends on parameters it is checked when they are given.
+    fn length(&self, body: usize, symbol: &str) -> Expr<'m> {
         let length = self.chain.length(body);
         let requirement = format!(
             "{}: its joints {} and {} must be apart",
@@ -374,7 +374,9 @@ impl<'m> Writing<'m> {
             { self.chain.hinge_name((body + 1) % 4) }
         );
         let checked = length.require_above(length, self.graph.zero(), Failure::Parameter { requirement });
-        if checked.value().is_some() { checked } else { checked.known_positive() }
+        let checked = if checked.value().is_some() { checked } else { checked.known_positive() };
+        let [from, to] = [body, (body + 1) % 4].map(|hinge| self.chain.hinge_name(hinge));
+        self.named(checked, symbol, &format!("|{from} {to}|"))
     }
 
     /// The value, named after the loop.
@@ -444,8 +446,8 @@ impl<'m> Writing<'m> {
         undriven.then(|| format!("of {} from {}", model.link(joint.to.link).name, model.link(joint.from.link).name))
     }
 
-    fn dimension(&self, symbol: &str, name: &str, value: Expr<'m>) -> (String, NodeId) {
-        (format!("{symbol} = {name}"), value.id())
+    fn origin(&self, meaning: String, phase: Expr<'m>) -> Origin {
+        Origin { meaning, forwards: self.chain.hinges[0].forwards, phase: phase.id() }
     }
 
     fn of(&self, title: String, dimensions: Vec<(String, NodeId)>, origin: Origin, shape: Shape) -> Loop {
@@ -461,6 +463,11 @@ impl<'m> Writing<'m> {
             known: None,
         }
     }
+}
+
+/// A length with its symbol.
+fn dimension(symbol: &str, name: &str, value: Expr<'_>) -> (String, NodeId) {
+    (format!("{symbol} = {name}"), value.id())
 }
 
 impl Turning {

@@ -25,7 +25,7 @@
 
 use super::cycles::Chain;
 use super::{
-    Closing, Extreme, Inversion, Loop, Origin, Possible, Posture, Shape, SliderCrank, Stroke, Turning, Writing,
+    Closing, Extreme, Inversion, Loop, Possible, Posture, Shape, SliderCrank, Stroke, Turning, Writing, dimension,
 };
 use crate::graph::Expr;
 use crate::graph::number::Number;
@@ -34,10 +34,10 @@ use crate::graph::number::Number;
 pub(super) fn of(chain: &Chain<'_>, ahead: i64, inversion: Inversion, closing: &Closing<'_>) -> Option<Loop> {
     let writing = Writing::new(chain, closing);
     let graph = writing.graph;
-    let [a, r] = [0, 1].map(|body| writing.length(body));
+    let [a, r] = [(0, "a"), (1, "r")].map(|(body, symbol)| writing.length(body, symbol));
     let slide = &chain.hinges[3];
-    let on_frame = chain.from_slide(slide.sides[1], chain.hinges[0].sides[0]);
-    let on_slider = chain.from_slide(slide.sides[0], chain.hinges[2].sides[1]);
+    let on_frame = slide.sides[1].to(chain.hinges[0].sides[0]);
+    let on_slider = slide.sides[0].to(chain.hinges[2].sides[1]);
     let c =
         writing.named(on_slider.y - on_frame.y, "eccentricity", "c, across the slide from the driver to the rod's end");
     let margin = |value: Expr<'_>, name: &str, equation: &str| writing.named(graph.expr(value.id()), name, equation);
@@ -109,44 +109,38 @@ pub(super) fn of(chain: &Chain<'_>, ahead: i64, inversion: Inversion, closing: &
             Extreme { angle: greatest.id(), at: at(far - quarter, "mu_greatest") },
         ]),
     };
-    let names = [0, 1, 2, 3].map(|body| chain.body_name(body));
-    let title = match inversion {
-        Inversion::OnFrame => format!(
-            "slider-crank {}: {} driven at {}, {}, {} on {}",
-            writing.name,
-            names[0],
-            joint(0),
-            names[1],
-            names[2],
-            names[3]
-        ),
-        _ => format!(
-            "inverted slider-crank {}: {} driven at {}, {} sliding on it, {} on {}",
-            writing.name,
-            names[3],
-            joint(0),
-            names[2],
-            names[1],
-            names[0]
-        ),
-    };
+    let title = title(&writing, inversion);
     let dimensions = vec![
-        writing.dimension("a", &chain.distance_name([0, 1]), a),
-        writing.dimension("r", &chain.distance_name([1, 2]), r),
-        writing.dimension("c", &format!("eccentricity of {} from {}", joint(2), joint(0)), c),
+        dimension("a", &chain.distance_name([0, 1]), a),
+        dimension("r", &chain.distance_name([1, 2]), r),
+        dimension("c", &format!("eccentricity of {} from {}", joint(2), joint(0)), c),
     ];
     let meaning = format!("χ, from the direction of the slide {} to the line {} {},", joint(3), joint(0), joint(1));
-    let origin = Origin { meaning, forwards: chain.hinges[0].forwards, phase: phase.id() };
+    let origin = writing.origin(meaning, phase);
     Some(writing.of(title, dimensions, origin, Shape::SliderCrank(shape)))
+}
+
+/// What a loop with its slide beside the driver is.
+fn title(writing: &Writing<'_>, inversion: Inversion) -> String {
+    let chain = &writing.chain;
+    let ([first, second, third, fourth], driver) =
+        ([0, 1, 2, 3].map(|body| chain.body_name(body)), chain.hinge_name(0));
+    if inversion == Inversion::OnFrame {
+        return format!("slider-crank {}: {first} driven at {driver}, {second}, {third} on {fourth}", writing.name);
+    }
+    format!(
+        "inverted slider-crank {}: {fourth} driven at {driver}, {third} sliding on it, {second} on {first}",
+        writing.name
+    )
 }
 
 /// A loop with its slide opposite to the driver; `ahead` is 1 if the output's pin lies ahead of the crank's. `None` if it closes at no angle.
 pub(super) fn inverted(chain: &Chain<'_>, ahead: i64, closing: &Closing<'_>) -> Option<Loop> {
     let writing = Writing::new(chain, closing);
-    let [a, g] = [0, 3].map(|body| writing.length(body));
+    let [a, g] = [(0, "a"), (3, "g")].map(|(body, symbol)| writing.length(body, symbol));
     let slide = &chain.hinges[2];
-    let on_crank = chain.from_slide(slide.sides[0], chain.hinges[1].sides[1]);
-    let on_frame = chain.from_slide(slide.sides[1], chain.hinges[3].sides[0]);
+    let on_crank = slide.sides[0].to(chain.hinges[1].sides[1]);
+    let on_frame = slide.sides[1].to(chain.hinges[3].sides[0]);
     let h =
         writing.named(on_frame.y - on_crank.y, "offset", "h, across the slide from the crank's pin to the output's");
     let u1 = writing.named((g - a) - h, "u1", "u₁ = g − a − h");
@@ -197,11 +191,11 @@ pub(super) fn inverted(chain: &Chain<'_>, ahead: i64, closing: &Closing<'_>) -> 
         names[3]
     );
     let dimensions = vec![
-        writing.dimension("g", &chain.distance_name([0, 3]), g),
-        writing.dimension("a", &chain.distance_name([0, 1]), a),
-        writing.dimension("h", &format!("offset of {} from the line of the slide through {}", joint(3), joint(1)), h),
+        dimension("g", &chain.distance_name([0, 3]), g),
+        dimension("a", &chain.distance_name([0, 1]), a),
+        dimension("h", &format!("offset of {} from the line of the slide through {}", joint(3), joint(1)), h),
     ];
-    let meaning = format!("ψ, from the line {} {} to the line {} {},", joint(0), joint(3), joint(0), joint(1));
-    let origin = Origin { meaning, forwards: chain.hinges[0].forwards, phase: phase.id() };
+    let lines = [[0, 3], [0, 1]].map(|[from, to]| format!("the line {} {}", joint(from), joint(to)));
+    let origin = writing.origin(format!("ψ, from {} to {},", lines[0], lines[1]), phase);
     Some(writing.of(title, dimensions, origin, Shape::SliderCrank(shape)))
 }
