@@ -850,7 +850,7 @@ mod emitted {
         }
         let error = adjustable::Limits::of(&params(5.0, 5.0)).unwrap_err();
         assert!(matches!(error, Error::CannotAssemble { joint: "I", .. }), "{error:?}");
-        assert!(matches!(adjustable::Limits::of(&params(-1.0, 5.0)).unwrap_err(), Error::Parameter { .. }));
+        assert!(matches!(adjustable::Limits::of(&params(61.0, -1.0)).unwrap_err(), Error::Parameter { .. }));
         assert!(matches!(adjustable::Limits::of(&params(f64::NAN, 5.0)).unwrap_err(), Error::NotFinite { .. }));
         assert!(matches!(adjustable::Limits::of(&params(1e200, 1e200)).unwrap_err(), Error::NotFinite { .. }));
     }
