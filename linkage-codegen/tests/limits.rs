@@ -623,10 +623,10 @@ fn loops_further_out() {
         format!(
             "mod six_bar; units {{ mm, N }} ground {{ A0: (0, 0), B0: (300mm, -40mm), D0: (620mm, 60mm) }}
              link crank {{ A0 -> A: 90mm }} link coupler {{ A -> B: 280mm }} link rocker {{ B0 -> B: 200mm }} link rod {{ B -> D: 320mm }}
-             link output {{ D0 -> D: 170mm }} {second}
+             link output {{ D0 -> D: 170mm }}
              revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
              revolute D: rod -> output; revolute D0: ground -> output;
-             drive theta: A0; assemble B: left(A -> B0); scene places: position;"
+             drive theta: A0; assemble B: left(A -> B0); {second} scene places: position;"
         )
     };
     let with = [

@@ -286,7 +286,8 @@ struct Closing<'m> {
 
 impl<'m> Closing<'m> {
     fn of(chain: &Chain<'m>) -> Option<Self> {
-        let closed = |closure: &&Closure| chain.hinges[1..].iter().any(|hinge| hinge.is(closure.joint));
+        let holds = |joint: &JointId| chain.hinges[1..].iter().any(|hinge| hinge.is(*joint));
+        let closed = |closure: &&Closure| holds(&closure.joint) && closure.of.iter().all(holds);
         let closure = chain.model.closures.iter().find(closed)?;
         Some(Self { name: chain.model.joint(closure.joint).name.text.clone(), closure })
     }

@@ -7,7 +7,7 @@ use super::pivots::Pivots;
 use super::placement::Placement;
 use crate::diagnostics::{Diagnostic, list};
 use crate::graph::{Expr, Graph, Symbol};
-use crate::model::ids::{DriveId, JointId};
+use crate::model::ids::{DriveId, JointId, LinkId};
 use crate::model::units::Kind;
 use crate::model::{Closure, Model, Side};
 use crate::topology::{Group, Topology};
@@ -54,6 +54,8 @@ pub struct Assembly<'m> {
     pub dyads: Vec<DyadPivot<'m>>,
     /// The groups of motion.
     pub topology: &'m Topology,
+    /// The links that are placed by iteration, from a start.
+    pub started: BTreeSet<LinkId>,
     used: BTreeSet<JointId>,
 }
 
@@ -66,6 +68,7 @@ impl<'m> Assembly<'m> {
             pivots: Pivots::default(),
             dyads: Vec::new(),
             topology,
+            started: BTreeSet::new(),
             used: BTreeSet::new(),
         }
     }
