@@ -181,7 +181,7 @@ macro_rules! limits {
 
         /// An angle of less than two turns in (−π, π].
         #[must_use]
-        pub fn turned(angle: $scalar) -> $scalar {
+        pub fn within_a_turn(angle: $scalar) -> $scalar {
             let angle = if angle > PI { angle - 2.0 * PI } else { angle };
             if angle <= -PI { angle + 2.0 * PI } else { angle }
         }
@@ -213,7 +213,7 @@ macro_rules! limits {
             let (near_margin, near, at_near) = near;
             let (far_margin, far, at_far) = far;
             let interval = |from: $scalar, to: $scalar, first, last| {
-                let at = turned(centre + from);
+                let at = within_a_turn(centre + from);
                 let from_there = Position { at: at + (to - from), joint, posture: last };
                 Interval { from: Position { at, joint, posture: first }, to: from_there }
             };
@@ -263,7 +263,7 @@ macro_rules! limits {
                 }
                 rest = others;
             }
-            Some(Position { at: turned(at), joint, posture })
+            Some(Position { at: within_a_turn(at), joint, posture })
         }
 
         /// The stroke of an output if all margins are positive, with the driver's turn from end to end, less half a turn.
@@ -293,12 +293,12 @@ pub(crate) use limits;
 #[cfg(test)]
 mod tests {
     use super::{DriverRange, Grashof, Posture};
-    use crate::__private::f64::{grashof, possible, sliding, stroke, turned, turning};
+    use crate::__private::f64::{grashof, possible, sliding, stroke, turning, within_a_turn};
     use core::f64::consts::PI;
 
     #[test]
     fn angles_within_a_turn() {
-        let found = [turned(PI), turned(-PI), turned(4.0), turned(-4.0)].map(f64::to_bits);
+        let found = [within_a_turn(PI), within_a_turn(-PI), within_a_turn(4.0), within_a_turn(-4.0)].map(f64::to_bits);
         assert_eq!(found, [PI, PI, 4.0 - 2.0 * PI, 2.0 * PI - 4.0].map(f64::to_bits));
     }
 

@@ -333,7 +333,7 @@ impl Values {
     fn extremes(&self, both: &[Extreme; 2]) -> TokenStream {
         let [least, greatest] = both.map(|one| {
             let (angle, at) = (self.value(one.angle), self.value(one.at));
-            quote!(limits::Transmission { angle: #angle, at: math::turned(#at) })
+            quote!(limits::Transmission { angle: #angle, at: math::within_a_turn(#at) })
         });
         quote!([#least, #greatest])
     }
