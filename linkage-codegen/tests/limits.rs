@@ -682,6 +682,21 @@ fn no_loops() {
     assert!(!code.contains("LIMITS") && !code.contains("limits"));
 }
 
+/// Many links on one pin are searched through as quickly as few.
+#[test]
+fn levers_on_one_pin() {
+    let mut text = "mod levers; ground { O: (0, 0) }".to_owned();
+    for lever in 0..60 {
+        let _ = write!(
+            text,
+            "link lever{lever} {{ O{lever}: (0, 0), P: (250mm, 0) }} revolute J{lever}: ground.O -> lever{lever}.O{lever};
+             drive theta{lever}: J{lever};"
+        );
+    }
+    let linkage = compile(&format!("{text} scene places: position -> (lever7.P);"));
+    assert!(linkage.limits.loops.is_empty());
+}
+
 /// Every type of a four-bar in the table of signs, by lengths of each.
 #[test]
 fn classes() {

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::graph::{Expr, Vector};
+use crate::graph::{Expr, NodeId, Vector};
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
 use crate::model::{End, Joint, JointKind, Model};
 
@@ -148,6 +148,12 @@ struct Frame<'m> {
     turn: Vector<'m>,
 }
 
+/// Whether the links and the points of a joint are there: in a sound declaration they are.
+fn is_read(model: &Model, joint: &Joint) -> bool {
+    let there = |end: End| model.links.get(end.link.index()).is_some_and(|link| end.point.index() < link.points.len());
+    joint.ends().into_iter().all(there)
+}
+
 /// Links and the bodies that welds make of them, each called after its first link.
 struct Bodies<'m> {
     model: &'m Model,
@@ -161,7 +167,8 @@ impl<'m> Bodies<'m> {
         let own = Frame { origin: graph.zero_vector(), turn: Vector::new(graph.one(), graph.zero()) };
         let links: Vec<LinkId> = (0..model.links.len()).map(LinkId::new).collect();
         let mut bodies = Self { model, frames: vec![own; links.len()], of: links.clone() };
-        let welds: Vec<&Joint> = model.joints.iter().filter(|j| matches!(j.kind, JointKind::Weld { .. })).collect();
+        let welds = model.joints.iter().filter(|joint| matches!(joint.kind, JointKind::Weld { .. }));
+        let welds: Vec<&Joint> = welds.filter(|weld| is_read(model, weld)).collect();
         for first in links {
             let mut reached = vec![first];
             let mut next = 0;
@@ -224,7 +231,8 @@ impl<'m> Bodies<'m> {
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     joint: JointId,
-    other: Option<JointId>,
+    /// Of links on one pin the other joint that they share, and where on which body they meet.
+    other: Option<(JointId, (LinkId, [NodeId; 2]))>,
     ends: [End; 2],
 }
 
@@ -246,19 +254,24 @@ fn edges(bodies: &Bodies<'_>) -> Vec<Edge> {
     let joined = |joint: JointId| {
         let data = model.joint(joint);
         let kind = matches!(data.kind, JointKind::Revolute | JointKind::Prismatic { .. } | JointKind::Slot { .. });
-        (kind && body(data.from) != body(data.to)).then_some(Edge { joint, other: None, ends: data.ends() })
+        (kind && is_read(model, data) && body(data.from) != body(data.to)).then_some(Edge {
+            joint,
+            other: None,
+            ends: data.ends(),
+        })
     };
     let mut all: Vec<Edge> = model.joint_ids().filter_map(joined).collect();
-    let pins: Vec<Edge> =
-        all.iter().copied().filter(|edge| matches!(model.joint(edge.joint).kind, JointKind::Revolute)).collect();
-    for (index, first) in pins.iter().enumerate() {
-        for second in &pins[index + 1..] {
+    let pins = all.iter().copied().filter(|edge| matches!(model.joint(edge.joint).kind, JointKind::Revolute));
+    let pins: Vec<(Edge, [Vector<'_>; 2])> = pins.map(|edge| (edge, edge.ends.map(|end| bodies.place(end)))).collect();
+    for (index, (first, first_places)) in pins.iter().enumerate() {
+        for (second, second_places) in &pins[index + 1..] {
             for (at, to) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let [mine, its] = [first.ends[at], second.ends[to]];
                 let ends = [first.ends[1 - at], second.ends[1 - to]];
-                let meet = body(mine) == body(its) && bodies.place(mine) == bodies.place(its);
+                let meet = body(mine) == body(its) && first_places[at] == second_places[to];
                 if meet && body(ends[0]) != body(ends[1]) {
-                    all.push(Edge { joint: second.joint, other: Some(first.joint), ends });
+                    let place = [first_places[at].x, first_places[at].y].map(Expr::id);
+                    all.push(Edge { joint: second.joint, other: Some((first.joint, (body(mine), place))), ends });
                 }
             }
         }
@@ -292,7 +305,12 @@ pub(super) fn chains(model: &Model) -> Vec<Chain<'_>> {
             for (index, side) in at.get(here).into_iter().flatten().copied().filter(|(index, _)| *index > first) {
                 let there = bodies.of[edges[index].ends[1 - side].link.index()];
                 let weight = weight + edges[index].weight(model);
-                if weight <= HINGES && !passed.contains(&there) {
+                // Two hinges of a chain at one point would be one.
+                let meets = |(other, _): &(usize, usize)| {
+                    let shared = [edges[*other], edges[index]].map(|edge| edge.other.map(|(_, at)| at));
+                    shared[0].is_some() && shared[0] == shared[1]
+                };
+                if weight <= HINGES && !passed.contains(&there) && !path.iter().any(meets) {
                     let path = path.iter().copied().chain([(index, side)]).collect();
                     open.push((path, passed.iter().copied().chain([there]).collect(), weight));
                 }
@@ -319,7 +337,8 @@ fn chain<'m>(bodies: &Bodies<'m>, edges: &[Edge], path: &[(usize, usize)]) -> Op
             // What stands for two joints has no coordinate.
             let drive = model.drive_of(edge.joint).filter(|_| edge.other.is_none());
             let sides = [bodies.side(joint, from), bodies.side(joint, to)];
-            hinges.push(Hinge { kind, joint: edge.joint, other: edge.other, drive, sides, forwards: joint.to == to });
+            let other = edge.other.map(|(joint, _)| joint);
+            hinges.push(Hinge { kind, joint: edge.joint, other, drive, sides, forwards: joint.to == to });
             behind.push(next);
         }
     }
