@@ -670,6 +670,25 @@ fn loops_further_out() {
     }
 }
 
+/// A crank of two welded links, driven at the one that is declared second.
+#[test]
+fn a_welded_crank() {
+    for (pin, angle) in [("hub -> ground", 30), ("ground -> hub", -75)] {
+        let text = format!(
+            "mod welded; units {{ mm, N }} ground {{ O: (0, 0), Q: 97mm @ 37deg }} link arm {{ W: (0, 0), P: (50mm, 10mm) }}
+             link hub {{ O: (1mm, 2mm), W: (9mm, 5mm) }} link coupler {{ P -> I: 30mm }} link rocker {{ Q -> I: 80mm }}
+             revolute O: {pin}; weld W: hub -> arm, angle {angle}deg; revolute P: arm -> coupler; revolute I: coupler -> rocker;
+             revolute Q: ground -> rocker; drive theta: O; assemble I: right(P -> Q); scene places: position;"
+        );
+        let linkage = compile(&text);
+        let known = known(&linkage.limits.loops[0]);
+        let near = sharpness(&linkage, &known.range);
+        assert!(near > 0.0 && near < 1e-12, "{near} {known:?}\n{text}");
+        let toggle = |places: &Places| cross(from_to(places, "O", "P"), from_to(places, "P", "I"));
+        check_dead_centres(&linkage, known, &toggle, &text);
+    }
+}
+
 /// A loop of which nothing can be said is left out; a linkage without loops has no such section.
 #[test]
 fn no_loops() {
