@@ -21,6 +21,7 @@ pub use equations::text as equations;
 pub use fallback::module as fallback;
 use formula::{Formula, Nodes};
 use literals::ident;
+pub use types::given_motion;
 
 /// The module of a linkage.
 #[must_use]
@@ -56,6 +57,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     let equations = literals::text(&equations::text(linkage));
     let operations = literals::text(&operations(linkage));
     let limits = limits::tokens(linkage, &runtime);
+    let motion = types::motion(model);
     let loads = types::loads(model, true);
     let prepare = if types::has_params(linkage) { functions::prepare(linkage) } else { TokenStream::new() };
     let params = types::params(linkage, &prepare);
@@ -102,6 +104,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
                 pub const OPERATIONS: &str = #operations;
                 #source
 
+                #motion
                 #loads
                 #params
                 #limits
