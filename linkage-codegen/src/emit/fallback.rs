@@ -233,7 +233,15 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
             _ => terms(),
         },
         Some(Wanted::Point(_)) => vector,
+        Some(Wanted::ErrorBound) => {
+            let others = Scene { results: without_bounds(scene), ..scene.clone() };
+            record(model, &others, zero)
+        }
         Some(Wanted::Along(..)) => Output::Resolved([zero, zero]),
         Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..)) | None => Output::Scalar(zero, Meaning::Number),
     }
+}
+
+fn without_bounds(scene: &Scene) -> Vec<Wanted> {
+    scene.results.iter().copied().filter(|wanted| *wanted != Wanted::ErrorBound).collect()
 }

@@ -475,7 +475,7 @@ pub enum LoadKind {
 }
 
 /// What is wanted.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// Its name.
     pub name: Name,
@@ -521,6 +521,8 @@ pub enum Wanted {
     Along(JointId, LinkId),
     /// The couple of a joint about a point.
     About(JointId, End),
+    /// Bounds of the rounding errors of all other results.
+    ErrorBound,
 }
 
 impl Model {
@@ -602,6 +604,7 @@ impl Model {
             Wanted::Angle(id) => format!("{}_angle", link(id)?),
             Wanted::Along(id, along) => format!("{}_along_{}", joint(id)?, link(along)?),
             Wanted::About(id, end) => format!("{}_about_{}", joint(id)?, point(end)?),
+            Wanted::ErrorBound => scenes::ERROR_BOUND.to_owned(),
         })
     }
 

@@ -6,6 +6,7 @@
 mod assembly;
 mod balance;
 pub mod efforts;
+mod error_bound;
 mod framed;
 mod half_angle;
 mod linear;
@@ -128,10 +129,14 @@ impl Plan {
             return None;
         }
         let links = placed_links(&assembly);
+        let accessors = accessors(&assembly);
+        let mut pose = kept(&assembly);
+        let mut scenes = scenes::outputs(&assembly, &force_rules, (system, &links), sink);
+        pose.extend(error_bound::add(model, &mut scenes, &pose));
         let plan = Self {
-            pose: kept(&assembly),
-            accessors: accessors(&assembly),
-            scenes: scenes::outputs(&assembly, &force_rules, (system, &links), sink),
+            pose,
+            accessors,
+            scenes,
             links,
             motion_rules: motion_rules.iter().map(|rule| rule.class()).collect(),
             force_rules: force_rules.iter().map(|rule| rule.class()).collect(),

@@ -74,7 +74,7 @@ fn position(forces: &Forces<'_, '_>, scene: &Scene) -> Output {
             ),
             value: Output::scalar(placement.angle(link), Meaning::Angle),
         }),
-        Wanted::Unknown(_) | Wanted::Load(_) | Wanted::Along(..) | Wanted::About(..) => None,
+        Wanted::Unknown(_) | Wanted::Load(_) | Wanted::Along(..) | Wanted::About(..) | Wanted::ErrorBound => None,
     });
     Output::Record(fields.collect())
 }

@@ -522,13 +522,4 @@ pub enum ResultItem {
     Along(End, Name),
     /// `S about rail.P`
     About(End, End),
-    /// A form that is not carried out yet.
-    Planned {
-        /// What it is about.
-        of: End,
-        /// The whole.
-        place: Place,
-        /// What it is called.
-        what: &'static str,
-    },
 }

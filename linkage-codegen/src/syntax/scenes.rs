@@ -74,7 +74,6 @@ fn shown(result: &ResultItem) -> String {
         ResultItem::Point(link, point) => format!("{link}.{point}"),
         ResultItem::Along(joint, link) => format!("{} along {link}", joint.written()),
         ResultItem::About(joint, point) => format!("{} about {}", joint.written(), point.written()),
-        ResultItem::Planned { .. } => "…".into(),
     }
 }
 
@@ -85,10 +84,6 @@ fn result(input: ParseStream<'_>) -> Result<ResultItem> {
     }
     if eat_word(input, "about") {
         return Ok(ResultItem::About(item, end(input)?));
-    }
-    let planned = |place, what| ResultItem::Planned { of: item.clone(), place, what };
-    if item.point.is_none() && item.link.text == "error_bound" {
-        return Ok(planned(item.place(), "the bound of the error"));
     }
     Ok(match item.point {
         None => ResultItem::Name(item.link),

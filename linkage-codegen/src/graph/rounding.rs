@@ -1,0 +1,210 @@
+//! Running error analysis (Wilkinson 1963; Higham, *Accuracy and Stability of Numerical Algorithms*, § 3.3): beside every value a bound of
+//! how far rounding has taken it from what exact arithmetic would give.
+//!
+//! With `u` half the distance from 1 to the next number, and `e(x)` the bound of a computed value `x`:
+//!
+//! ```text
+//! e(a ± b) = e(a) + e(b) + u|a ± b|               e(√a) = e(a)/√a + u√a
+//! e(a b)   = |a| e(b) + (|b| + e(b)) e(a) + u|ab|   e(a/b) = (e(a) + |a/b| e(b))/(|b| − e(b)) + 2u|a/b|
+//! ```
+//!
+//! A quotient counts twice, because it may become a product with a reciprocal. What is given (drives, parameters, loads) is exact; constants
+//! are rounded once. Bounds are not exact either: what all of them lack is made up for where a result takes its bound.
+
+use std::collections::HashMap;
+
+use super::number::Number;
+use super::{Expr, Graph, Kernel, NodeId, Op, Scalar};
+
+/// Bounds of the rounding errors of nodes.
+#[derive(Debug)]
+pub struct Rounding<'g> {
+    graph: &'g Graph,
+    done: HashMap<NodeId, Expr<'g>>,
+    /// The bounds of values that a pose keeps, each with that value; they are kept beside them.
+    pub held: Vec<(NodeId, Expr<'g>)>,
+}
+
+impl<'g> Rounding<'g> {
+    /// Nothing bounded yet.
+    #[must_use]
+    pub fn new(graph: &'g Graph) -> Self {
+        Self { graph, done: HashMap::new(), held: Vec::new() }
+    }
+
+    /// The bound of a result's error: that of its value, and a little more for the rounding of the bound itself. Where nothing can be
+    /// said, because something was divided by what may be zero, it is the largest number.
+    pub fn bound(&mut self, of: Expr<'g>) -> Expr<'g> {
+        let graph = self.graph;
+        let error = self.error(of.id());
+        if error.value().is_some() {
+            return error;
+        }
+        // More than thousands of operations on bounds can lose.
+        let generous = Number::one().add(&Number::power_of_two(match graph.scalar() {
+            Scalar::F64 => -40,
+            Scalar::F32 => -11,
+        }));
+        let (bound, largest) = (graph.constant(&generous) * error, graph.largest());
+        let known = graph.one().where_above(largest, bound);
+        bound.where_above(largest, bound) + largest * (graph.one() - known)
+    }
+
+    fn error(&mut self, of: NodeId) -> Expr<'g> {
+        if let Some(error) = self.done.get(&of) {
+            return *error;
+        }
+        let mut error = self.error_of(of);
+        if let Some(label) = self.graph.label(of) {
+            error = error.named(format!("error_{}", label.name), format!("of {}", label.name));
+        }
+        self.done.insert(of, error);
+        error
+    }
+
+    fn error_of(&mut self, of: NodeId) -> Expr<'g> {
+        let graph = self.graph;
+        let value = graph.expr(of);
+        match graph.op(of) {
+            Op::Constant(_) => {
+                if self.is_exact(value) {
+                    graph.zero()
+                } else {
+                    self.rounded(value)
+                }
+            }
+            Op::Symbol(_) => graph.zero(),
+            Op::Neg(a) | Op::Abs(a) | Op::NonNegative(a) | Op::Quantity(a) | Op::Checked { value: a, .. } => {
+                self.error(a)
+            }
+            // What is not significant counts as zero: then it is an error to divide by it.
+            Op::Where { then, .. } => self.error(then),
+            Op::Held(a) => {
+                let error = self.error(a);
+                if error.value().is_some() {
+                    return error;
+                }
+                let held = error.held();
+                self.held.push((of, held));
+                held
+            }
+            Op::Add(a, b) | Op::Sub(a, b) => self.error(a) + self.error(b) + self.rounded(value),
+            Op::Mul(a, b) => {
+                let (ea, eb) = (self.error(a), self.error(b));
+                let (a, b) = (graph.expr(a), graph.expr(b));
+                let passed = a.abs() * eb + (b.abs() + eb) * ea;
+                if is_power_of_two(a) || is_power_of_two(b) { passed } else { passed + self.rounded(value) }
+            }
+            Op::Div(a, b) => {
+                let (ea, eb) = (self.error(a), self.error(b));
+                let rounded = 2 * self.rounded(value);
+                if ea.is_zero() && eb.is_zero() {
+                    return rounded;
+                }
+                let least = graph.expr(b).abs() - eb;
+                // Nothing is known of a quotient by what may be zero: infinite, here.
+                (ea + value.abs() * eb) / least.where_above(least, graph.zero()) + rounded
+            }
+            Op::Sqrt(a) => {
+                let ea = self.error(a);
+                let passed = if ea.is_zero() { ea } else { ea / value };
+                passed + self.rounded(value)
+            }
+            Op::Kernel { kernel, args, part } => self.error_of_kernel(value, kernel, &args, part),
+        }
+    }
+
+    fn error_of_kernel(&mut self, value: Expr<'g>, kernel: Kernel, args: &[NodeId], part: u8) -> Expr<'g> {
+        let graph = self.graph;
+        let errors: Vec<Expr<'g>> = args.iter().map(|arg| self.error(*arg)).collect();
+        let args: Vec<Expr<'g>> = args.iter().map(|arg| graph.expr(*arg)).collect();
+        // Of 0.80 ulp, and of 1.5 ε a direction.
+        let own = 2 * self.rounded(value);
+        match kernel {
+            Kernel::SinCos => own + graph.kernel(kernel, &args, 1 - part).abs() * errors[0] + errors[0] * errors[0],
+            Kernel::SinCosSum(_) => {
+                // Besides, ε² max(4, |x|).
+                let tail = graph.epsilons(1).squared() * (args[0].abs() + graph.integer(4));
+                own + tail + graph.kernel(kernel, &args, 1 - part).abs() * errors[0] + errors[0] * errors[0]
+            }
+            Kernel::Atan2 => {
+                let (y, x) = (args[0], args[1]);
+                let (ey, ex) = (errors[0], errors[1]);
+                if ey.is_zero() && ex.is_zero() {
+                    return own;
+                }
+                // The angle of an error ρ across a vector of size r ≥ ρ is at most (π/2) ρ/r.
+                let size = (x * x + y * y).sqrt();
+                let error = ex + ey;
+                let least = (size - error).where_above(size, error);
+                own + 2 * (error / least)
+            }
+            Kernel::Unit => {
+                let error = errors[0] + errors[1];
+                let own = own + self.rounded(value);
+                if error.is_zero() {
+                    return own;
+                }
+                let size = (args[0] * args[0] + args[1] * args[1]).sqrt();
+                let least = (size - error).where_above(size, error);
+                own + 2 * (error / least)
+            }
+            Kernel::Solve2 => self.error_of_solution(kernel, &args, &errors, part, 2),
+            Kernel::Solve3 => self.error_of_solution(kernel, &args, &errors, part, 3),
+        }
+    }
+
+    /// `|x̂ − x| ≤ 2 |A⁻¹| (E|x̂| + e + γ(|A||x̂| + |b|))` for equations `A x = b` with errors E and e of their numbers, as long as these are
+    /// far from making A singular; `γ` stands for the elimination with row pivoting.
+    fn error_of_solution(
+        &self,
+        kernel: Kernel,
+        args: &[Expr<'g>],
+        errors: &[Expr<'g>],
+        part: u8,
+        size: usize,
+    ) -> Expr<'g> {
+        let graph = self.graph;
+        let (matrix, right) = args.split_at(size * size);
+        let (matrix_errors, right_errors) = errors.split_at(size * size);
+        let solution: Vec<Expr<'g>> =
+            (0..size).map(|k| graph.kernel(kernel, args, u8::try_from(k).unwrap_or(0)).abs()).collect();
+        let elimination = graph.epsilons(8);
+        let mut sum = graph.zero();
+        for line in 0..size {
+            let mut residual = right_errors[line] + elimination * right[line].abs();
+            for column in 0..size {
+                let at = size * line + column;
+                residual = residual + (matrix_errors[at] + elimination * matrix[at].abs()) * solution[column];
+            }
+            let unit = (0..size).map(|other| if other == line { graph.one() } else { graph.zero() });
+            let equations: Vec<Expr<'g>> = matrix.iter().copied().chain(unit).collect();
+            sum = sum + graph.kernel(kernel, &equations, part).abs() * residual;
+        }
+        2 * sum
+    }
+
+    /// `u|x|`: what rounding a result of this size may change.
+    fn rounded(&self, value: Expr<'g>) -> Expr<'g> {
+        let unit = self.graph.scalar().epsilon().mul(&Number::ratio(1, 2));
+        self.graph.constant(&unit) * value.abs()
+    }
+
+    /// Whether a constant is a number of the scalar.
+    fn is_exact(&self, constant: Expr<'g>) -> bool {
+        let Some(number) = constant.value() else { return false };
+        let nearest = match self.graph.scalar() {
+            Scalar::F64 => number.to_f64(),
+            Scalar::F32 => f64::from(number.to_f32()),
+        };
+        Number::from_f64(nearest).is_some_and(|nearest| nearest.compare(&number).is_eq())
+    }
+}
+
+/// Whether a product with this is exact.
+fn is_power_of_two(factor: Expr<'_>) -> bool {
+    let Some(number) = factor.value() else { return false };
+    let bits = number.to_f64().abs().to_bits();
+    bits & ((1 << 52) - 1) == 0
+        && Number::from_f64(f64::from_bits(bits)).is_some_and(|n| n.compare(&number.abs()).is_eq())
+}
