@@ -4,8 +4,15 @@
 //! With `u` half the distance from 1 to the next number, and `e(x)` the bound of a computed value `x`:
 //!
 //! ```text
-//! e(a ± b) = e(a) + e(b) + u|a ± b|               e(√a) = e(a)/√a + u√a
+//! e(a ± b) = e(a) + e(b) + u|a ± b|               e(√a) = √a (t + t²)/2 + u√a, t = e(a)/a
 //! e(a b)   = |a| e(b) + (|b| + e(b)) e(a) + u|ab|   e(a/b) = (e(a) + |a/b| e(b))/(|b| − e(b)) + 2u|a/b|
+//! ```
+//!
+//! The errors of the two components of a direction are not independent: they are those of its angle, `δ`, and of its size, `ν`. So a sum
+//! of products with them (a projection, a moment, a turned vector) has
+//!
+//! ```text
+//! e(x a + y b) = |x b − y a| δ + |x a + y b| ν + |x| e(a) + |y| e(b) + u(|x a| + |y b| + |x a + y b|)
 //! ```
 //!
 //! A quotient counts twice, because it may become a product with a reciprocal. What is given (drives, parameters, loads) is exact; constants
@@ -14,13 +21,25 @@
 use std::collections::HashMap;
 
 use super::number::Number;
-use super::{Expr, Graph, Kernel, NodeId, Op, Scalar};
+use super::{Expr, Graph, Kernel, NodeId, Op, Scalar, Vector};
+
+/// A direction, and the bounds of the errors of its angle and of its size.
+#[derive(Clone, Copy, Debug)]
+struct Direction<'g> {
+    unit: Vector<'g>,
+    turn: Expr<'g>,
+    stretch: Expr<'g>,
+}
 
 /// Bounds of the rounding errors of nodes.
 #[derive(Debug)]
 pub struct Rounding<'g> {
     graph: &'g Graph,
     done: HashMap<NodeId, Expr<'g>>,
+    /// Directions, by either component.
+    directions: HashMap<NodeId, Direction<'g>>,
+    /// Which values are directions.
+    pairs: HashMap<NodeId, Vector<'g>>,
     /// The bounds of values that a pose keeps, each with that value; they are kept beside them.
     pub held: Vec<(NodeId, Expr<'g>)>,
 }
@@ -29,7 +48,57 @@ impl<'g> Rounding<'g> {
     /// Nothing bounded yet.
     #[must_use]
     pub fn new(graph: &'g Graph) -> Self {
-        Self { graph, done: HashMap::new(), held: Vec::new() }
+        Self { graph, done: HashMap::new(), directions: HashMap::new(), pairs: HashMap::new(), held: Vec::new() }
+    }
+
+    /// Says that two values are a direction.
+    pub fn is_direction(&mut self, unit: Vector<'g>) {
+        self.pairs.extend([unit.x, unit.y].map(|part| (part.id(), unit)));
+    }
+
+    /// States the bounds of a direction's angle and size.
+    pub fn state_direction(&mut self, unit: Vector<'g>, turn: Expr<'g>, stretch: Expr<'g>) {
+        let found = Direction { unit, turn, stretch };
+        for (part, other) in [(unit.x, unit.y), (unit.y, unit.x)] {
+            self.directions.insert(part.id(), found);
+            self.done.insert(part.id(), other.abs() * turn + part.abs() * stretch + turn * turn);
+        }
+    }
+
+    /// What is known of a direction that a value is a component of.
+    fn direction_of(&mut self, part: NodeId) -> Option<Direction<'g>> {
+        if let Some(found) = self.directions.get(&part) {
+            return Some(*found);
+        }
+        if let Op::Held(inner) = self.graph.op(part) {
+            let Direction { unit, turn, stretch } = self.direction_of(inner)?;
+            let unit = unit.held();
+            let (turn, stretch) = (self.keep(unit.x.id(), turn), self.keep(unit.y.id(), stretch));
+            self.state_direction(unit, turn, stretch);
+        } else {
+            let unit = *self.pairs.get(&part)?;
+            // Its components are as far off as their operations tell, also where one is computed from the other.
+            self.pairs.retain(|_, other| *other != unit);
+            let [ex, ey] = [unit.x, unit.y].map(|part| {
+                let error = self.error_of(part.id());
+                self.named(part.id(), error)
+            });
+            let (x, y) = (unit.x.abs(), unit.y.abs());
+            self.state_direction(unit, y * ex + x * ey, x * ex + y * ey);
+        }
+        self.directions.get(&part).copied()
+    }
+
+    /// The bound of a kept value, as a pose keeps it.
+    fn keep(&mut self, of: NodeId, error: Expr<'g>) -> Expr<'g> {
+        if error.value().is_some() {
+            return error;
+        }
+        let held = error.held();
+        if self.held.iter().all(|(kept, _)| *kept != of) {
+            self.held.push((of, held));
+        }
+        held
     }
 
     /// The bound of a result's error: that of its value, and a little more for the rounding of the bound itself. Where nothing can be
@@ -50,14 +119,45 @@ impl<'g> Rounding<'g> {
         bound.where_above(largest, bound) + largest * (graph.one() - known)
     }
 
+    /// States the bound of a value that is known better than its operations tell.
+    pub fn state(&mut self, of: Expr<'g>, error: Expr<'g>) {
+        if of.value().is_none() {
+            self.done.insert(of.id(), self.named(of.id(), error));
+        }
+    }
+
+    /// The bound of the error with which an expression is computed from some values, were these exact.
+    pub fn error_from(&mut self, of: Expr<'g>, exact: &[Expr<'g>]) -> Expr<'g> {
+        let before = (self.done.clone(), self.directions.clone(), self.pairs.clone());
+        for value in exact {
+            let zero = self.graph.zero();
+            self.done.insert(value.id(), zero);
+            let known = self.directions.get(&value.id()).map(|direction| direction.unit);
+            if let Some(unit) = known.or_else(|| self.pairs.get(&value.id()).copied()) {
+                self.directions.insert(value.id(), Direction { unit, turn: zero, stretch: zero });
+            }
+        }
+        let error = self.error(of.id());
+        (self.done, self.directions, self.pairs) = before;
+        error
+    }
+
+    fn named(&self, of: NodeId, error: Expr<'g>) -> Expr<'g> {
+        match self.graph.label(of) {
+            Some(label) => error.named(format!("error_{}", label.name), format!("of {}", label.name)),
+            None => error,
+        }
+    }
+
     fn error(&mut self, of: NodeId) -> Expr<'g> {
         if let Some(error) = self.done.get(&of) {
             return *error;
         }
-        let mut error = self.error_of(of);
-        if let Some(label) = self.graph.label(of) {
-            error = error.named(format!("error_{}", label.name), format!("of {}", label.name));
+        if self.direction_of(of).is_some() {
+            return self.done[&of];
         }
+        let error = self.error_of(of);
+        let error = self.named(of, error);
         self.done.insert(of, error);
         error
     }
@@ -81,13 +181,9 @@ impl<'g> Rounding<'g> {
             Op::Where { then, .. } => self.error(then),
             Op::Held(a) => {
                 let error = self.error(a);
-                if error.value().is_some() {
-                    return error;
-                }
-                let held = error.held();
-                self.held.push((of, held));
-                held
+                self.keep(of, error)
             }
+            Op::Add(a, b) | Op::Sub(a, b) if let Some(error) = self.error_of_projection(value, [a, b]) => error,
             Op::Add(a, b) | Op::Sub(a, b) => self.error(a) + self.error(b) + self.rounded(value),
             Op::Mul(a, b) => {
                 let (ea, eb) = (self.error(a), self.error(b));
@@ -107,19 +203,66 @@ impl<'g> Rounding<'g> {
             }
             Op::Sqrt(a) => {
                 let ea = self.error(a);
-                let passed = if ea.is_zero() { ea } else { ea / value };
-                passed + self.rounded(value)
+                if ea.is_zero() {
+                    return self.rounded(value);
+                }
+                // 1 − √(1 − t) ≤ (t + t²)/2.
+                let part = ea / graph.expr(a);
+                let half = graph.constant(&Number::ratio(1, 2));
+                value * (half * (part + part * part)) + self.rounded(value)
             }
             Op::Kernel { kernel, args, part } => self.error_of_kernel(value, kernel, &args, part),
         }
+    }
+
+    /// The error of a sum or a difference of products with the components of one direction.
+    fn error_of_projection(&mut self, value: Expr<'g>, terms: [NodeId; 2]) -> Option<Expr<'g>> {
+        let graph = self.graph;
+        let factors = |term: NodeId| match graph.op(term) {
+            Op::Mul(a, b) => Some([[a, b], [b, a]]),
+            _ => None,
+        };
+        let (first, second) = (factors(terms[0])?, factors(terms[1])?);
+        let minus = matches!(value.op(), Op::Sub(..));
+        let signed = |x: Expr<'g>| if minus { -x } else { x };
+        for [p, a] in first {
+            let Some(direction) = self.direction_of(p) else { continue };
+            for [q, b] in second {
+                let Direction { unit, turn, stretch } = direction;
+                if p == q || ![unit.x.id(), unit.y.id()].contains(&q) {
+                    continue;
+                }
+                let (p, q, a, b) = (graph.expr(p), graph.expr(q), graph.expr(a), graph.expr(b));
+                // With the angle, x changes by −y and y by x.
+                let turned = |of: Expr<'g>, unit: Vector<'g>| if of == unit.x { -unit.y } else { unit.x };
+                let change = turned(p, unit) * a + signed(turned(q, unit) * b);
+                let own = change.abs() * turn + value.abs() * stretch + turn * turn * (a.abs() + b.abs());
+                let others = match (self.direction_of(a.id()), self.direction_of(b.id())) {
+                    (Some(other), Some(same)) if other.unit == same.unit && a != b => {
+                        let change = p * turned(a, other.unit) + signed(q * turned(b, other.unit));
+                        change.abs() * other.turn
+                            + value.abs() * other.stretch
+                            + other.turn * (other.turn + turn) * (p.abs() + q.abs())
+                    }
+                    _ => {
+                        let (ea, eb) = (self.error(a.id()), self.error(b.id()));
+                        (p.abs() + turn) * ea + (q.abs() + turn) * eb
+                    }
+                };
+                let products = (p * a).abs() + (q * b).abs();
+                return Some(own + others + self.rounded(products) + self.rounded(value));
+            }
+        }
+        None
     }
 
     fn error_of_kernel(&mut self, value: Expr<'g>, kernel: Kernel, args: &[NodeId], part: u8) -> Expr<'g> {
         let graph = self.graph;
         let errors: Vec<Expr<'g>> = args.iter().map(|arg| self.error(*arg)).collect();
         let args: Vec<Expr<'g>> = args.iter().map(|arg| graph.expr(*arg)).collect();
-        // Of 0.80 ulp, and of 1.5 ε a direction.
-        let own = 2 * self.rounded(value);
+        // 0.82 ulp of a sine, 0.70 of an angle, and no ulp is more than 2u|x|; 1.5 ε of a direction.
+        let ulps = Number::ratio(164, 100);
+        let own = graph.constant(&ulps) * self.rounded(value);
         match kernel {
             Kernel::SinCos => own + graph.kernel(kernel, &args, 1 - part).abs() * errors[0] + errors[0] * errors[0],
             Kernel::SinCosSum(_) => {
@@ -141,7 +284,7 @@ impl<'g> Rounding<'g> {
             }
             Kernel::Unit => {
                 let error = errors[0] + errors[1];
-                let own = own + self.rounded(value);
+                let own = 3 * self.rounded(value);
                 if error.is_zero() {
                     return own;
                 }

@@ -1,15 +1,36 @@
 //! Bounds of the rounding errors of a scene's results.
+//!
+//! They follow the operations (see [`Rounding`]), but for what closes a loop: there the operations' own bounds would add up what in truth
+//! makes up for each other. What the closure leaves over, which is computed, says more: with the residual `ρ` of the loop and the columns
+//! `c` by which it changes with the two unknowns, each of these is off by no more than `|ρ × c'|/|c × c'|`, c' the other's column, as long
+//! as this is too little to change `c × c'` much.
 
+use super::assembly::{ClosedLoop, Found};
 use super::output::Field;
-use super::{Kept, Output};
+use super::{Assembly, Kept, Output};
+use crate::graph::number::Number;
 use crate::graph::rounding::Rounding;
-use crate::graph::{Graph, NodeId};
-use crate::model::{Model, Wanted};
+use crate::graph::{Expr, Graph, NodeId, Op, Vector};
+use crate::model::Wanted;
 
 /// Adds their bounds to the results of the scenes that want them. What a pose has to keep for that comes back.
-pub(super) fn add(model: &Model, scenes: &mut [Output], kept: &[Kept]) -> Vec<Kept> {
+pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept]) -> Vec<Kept> {
+    let model = assembly.model();
     let graph = &model.graph;
+    if !model.scenes.iter().any(|scene| scene.results.contains(&Wanted::ErrorBound)) {
+        return Vec::new();
+    }
     let mut rounding = Rounding::new(graph);
+    graph.begin_section("Bounds of rounding errors");
+    for link in model.moving_links() {
+        let Vector { x, y } = assembly.placement.direction(link);
+        if let (Op::Held(x), Op::Held(y)) = (x.op(), y.op()) {
+            rounding.is_direction(Vector::new(graph.expr(x), graph.expr(y)));
+        }
+    }
+    for closed in &assembly.loops {
+        state(&mut rounding, closed);
+    }
     for (scene, output) in model.scenes.iter().zip(scenes) {
         if !scene.results.contains(&Wanted::ErrorBound) {
             continue;
@@ -33,6 +54,78 @@ pub(super) fn add(model: &Model, scenes: &mut [Output], kept: &[Kept]) -> Vec<Ke
             Kept { name, meaning: format!("bound of the rounding error of `{of}`"), node: bound.id() }
         })
         .collect()
+}
+
+/// The errors of a loop's unknowns.
+fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>) {
+    let graph = closed.determinant.graph();
+    let exact: Vec<Expr<'g>> = closed.found.iter().flat_map(Found::values).collect();
+    let ClosedLoop { residual, .. } = closed;
+    let [x, y] = [residual.x, residual.y].map(|part| part.abs() + rounding.error_from(part, &exact));
+    // How far directions are from unit size.
+    let half = graph.constant(&Number::ratio(1, 2));
+    let stretch = closed.found.each_ref().map(|found| match found {
+        Found::Direction { direction, .. } => {
+            let excess = direction.squared() - graph.one();
+            half * (excess.abs() + rounding.error_from(excess, &exact))
+        }
+        Found::Length { .. } => graph.zero(),
+    });
+    // |v × column| of what the residual may be, and of what the sizes of the directions bring into it.
+    let across = |column: Vector<'g>| {
+        let stretched = closed.found.iter().zip(stretch).fold(graph.zero(), |sum, (found, stretch)| match found {
+            Found::Direction { arm, .. } => sum + stretch * arm.cross(column).abs(),
+            Found::Length { .. } => sum,
+        });
+        x * column.y.abs() + y * column.x.abs() + stretched
+    };
+    let columns = closed.found.each_ref().map(Found::column);
+    let first_order = [across(columns[1]), across(columns[0])].map(|sum| sum / closed.determinant);
+    // What these may change of the columns, and these of the determinant.
+    let sum_of = |angles: bool| {
+        let counted = closed.found.iter().zip(first_order).filter(|(found, _)| found.is_direction() == angles);
+        counted.fold(graph.zero(), |sum, (_, error)| sum + error)
+    };
+    let (turned, longer) = (sum_of(true), sum_of(false));
+    let size = |column: Vector<'g>| column.x.abs() + column.y.abs();
+    let [first, second] = columns.map(size);
+    let [change, other_change] = [first, second].map(|size| size * turned + longer);
+    let changed = 2 * (change * second + first * other_change);
+    let least = closed.determinant - changed;
+    let factor = closed.determinant / least.where_above(least, graph.zero());
+    for ((found, error), stretch) in closed.found.iter().zip(first_order).zip(stretch) {
+        let error = error * factor;
+        match found {
+            Found::Direction { direction, .. } => {
+                rounding.state_direction(*direction, error, stretch);
+            }
+            Found::Length { length, .. } => rounding.state(*length, error),
+        }
+    }
+    for (value, again) in &closed.beside {
+        let difference = *again - *value;
+        let error = rounding.error_from(difference, &[*value]);
+        rounding.state(*value, difference.abs() + error);
+    }
+}
+
+impl<'g> Found<'g> {
+    fn values(&self) -> Vec<Expr<'g>> {
+        match *self {
+            Self::Direction { direction, .. } => vec![direction.x, direction.y],
+            Self::Length { length, .. } => vec![length],
+        }
+    }
+
+    fn column(&self) -> Vector<'g> {
+        match *self {
+            Self::Direction { column, .. } | Self::Length { column, .. } => column,
+        }
+    }
+
+    fn is_direction(&self) -> bool {
+        matches!(self, Self::Direction { .. })
+    }
 }
 
 fn bounded<'g>(graph: &'g Graph, rounding: &mut Rounding<'g>, field: &Field) -> Field {

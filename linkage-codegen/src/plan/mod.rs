@@ -132,7 +132,7 @@ impl Plan {
         let accessors = accessors(&assembly);
         let mut pose = kept(&assembly);
         let mut scenes = scenes::outputs(&assembly, &force_rules, (system, &links), sink);
-        pose.extend(error_bound::add(model, &mut scenes, &pose));
+        pose.extend(error_bound::add(&assembly, &mut scenes, &pose));
         let plan = Self {
             pose,
             accessors,
