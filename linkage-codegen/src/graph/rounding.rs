@@ -31,6 +31,28 @@ struct Direction<'g> {
     stretch: Expr<'g>,
 }
 
+/// What a bound of a kept value is a bound of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BoundOf {
+    /// The value.
+    Value,
+    /// The angle of the direction whose first component it is.
+    Angle,
+    /// The size of that direction.
+    Size,
+}
+
+/// A bound that a pose keeps.
+#[derive(Clone, Copy, Debug)]
+pub struct HeldBound<'g> {
+    /// The kept value.
+    pub value: NodeId,
+    /// What of it is bounded.
+    pub what: BoundOf,
+    /// The bound.
+    pub bound: Expr<'g>,
+}
+
 /// Bounds of the rounding errors of nodes.
 #[derive(Debug)]
 pub struct Rounding<'g> {
@@ -40,8 +62,8 @@ pub struct Rounding<'g> {
     directions: HashMap<NodeId, Direction<'g>>,
     /// Which values are directions.
     pairs: HashMap<NodeId, Vector<'g>>,
-    /// The bounds of values that a pose keeps, each with that value; they are kept beside them.
-    pub held: Vec<(NodeId, Expr<'g>)>,
+    /// The bounds that belong to values that a pose keeps; they are kept beside them.
+    pub held: Vec<HeldBound<'g>>,
 }
 
 impl<'g> Rounding<'g> {
@@ -73,7 +95,8 @@ impl<'g> Rounding<'g> {
         if let Op::Held(inner) = self.graph.op(part) {
             let Direction { unit, turn, stretch } = self.direction_of(inner)?;
             let unit = unit.held();
-            let (turn, stretch) = (self.keep(unit.x.id(), turn), self.keep(unit.y.id(), stretch));
+            let value = unit.x.id();
+            let (turn, stretch) = (self.keep(value, BoundOf::Angle, turn), self.keep(value, BoundOf::Size, stretch));
             self.state_direction(unit, turn, stretch);
         } else {
             let unit = *self.pairs.get(&part)?;
@@ -90,15 +113,13 @@ impl<'g> Rounding<'g> {
     }
 
     /// The bound of a kept value, as a pose keeps it.
-    fn keep(&mut self, of: NodeId, error: Expr<'g>) -> Expr<'g> {
-        if error.value().is_some() {
-            return error;
+    fn keep(&mut self, value: NodeId, what: BoundOf, error: Expr<'g>) -> Expr<'g> {
+        let bound = error.held();
+        let known = self.held.iter().any(|held| (held.value, held.what) == (value, what));
+        if matches!(bound.op(), Op::Held(_)) && !known {
+            self.held.push(HeldBound { value, what, bound });
         }
-        let held = error.held();
-        if self.held.iter().all(|(kept, _)| *kept != of) {
-            self.held.push((of, held));
-        }
-        held
+        bound
     }
 
     /// The bound of a result's error: that of its value, and a little more for the rounding of the bound itself. Where nothing can be
@@ -181,7 +202,7 @@ impl<'g> Rounding<'g> {
             Op::Where { then, .. } => self.error(then),
             Op::Held(a) => {
                 let error = self.error(a);
-                self.keep(of, error)
+                self.keep(of, BoundOf::Value, error)
             }
             Op::Add(a, b) | Op::Sub(a, b) if let Some(error) = self.error_of_projection(value, [a, b]) => error,
             Op::Add(a, b) | Op::Sub(a, b) => self.error(a) + self.error(b) + self.rounded(value),
@@ -316,9 +337,9 @@ impl<'g> Rounding<'g> {
         let mut sum = graph.zero();
         for line in 0..size {
             let mut residual = right_errors[line] + elimination * right[line].abs();
-            for column in 0..size {
+            for (column, value) in solution.iter().enumerate() {
                 let at = size * line + column;
-                residual = residual + (matrix_errors[at] + elimination * matrix[at].abs()) * solution[column];
+                residual = residual + (matrix_errors[at] + elimination * matrix[at].abs()) * *value;
             }
             let unit = (0..size).map(|other| if other == line { graph.one() } else { graph.zero() });
             let equations: Vec<Expr<'g>> = matrix.iter().copied().chain(unit).collect();

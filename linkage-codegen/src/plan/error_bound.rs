@@ -9,7 +9,7 @@ use super::assembly::{ClosedLoop, Found};
 use super::output::Field;
 use super::{Assembly, Kept, Output};
 use crate::graph::number::Number;
-use crate::graph::rounding::Rounding;
+use crate::graph::rounding::{BoundOf, HeldBound, Rounding};
 use crate::graph::{Expr, Graph, NodeId, Op, Vector};
 use crate::model::Wanted;
 
@@ -43,17 +43,22 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept])
         fields.push(Field { name, doc, value: Output::Record(bounds) });
     }
     let named = |node: NodeId| kept.iter().find(|kept| kept.node == node).map(|kept| kept.name.clone());
-    rounding
-        .held
-        .iter()
-        .enumerate()
-        .map(|(index, (of, bound))| {
-            let of = named(*of).unwrap_or_else(|| format!("value_{}", index + 1));
-            let name = format!("error_{of}");
-            graph.name_kept(*bound, &name);
-            Kept { name, meaning: format!("bound of the rounding error of `{of}`"), node: bound.id() }
-        })
-        .collect()
+    let keep = |held: &HeldBound<'_>| {
+        let value = named(held.value).unwrap_or_else(|| format!("value_{}", held.value.index()));
+        let direction = value.strip_suffix("_cos").unwrap_or(&value);
+        let (name, what) = match held.what {
+            BoundOf::Value => (format!("error_{value}"), format!("`{value}`")),
+            BoundOf::Angle => {
+                (format!("error_angle_{direction}"), format!("the angle of the direction carried by `{direction}`"))
+            }
+            BoundOf::Size => {
+                (format!("error_size_{direction}"), format!("the size of the direction carried by `{direction}`"))
+            }
+        };
+        graph.name_kept(held.bound, &name);
+        Kept { name, meaning: format!("bound of the rounding error of {what}"), node: held.bound.id() }
+    };
+    rounding.held.iter().map(keep).collect()
 }
 
 /// The errors of a loop's unknowns.
