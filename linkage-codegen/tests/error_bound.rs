@@ -63,6 +63,7 @@ fn in_single_precision(arguments: &Arguments) -> Arguments {
         drives: arguments.drives.iter().map(round).collect(),
         loads: arguments.loads.iter().map(|load| load.map(|x| round(&x))).collect(),
         params: arguments.params.iter().map(round).collect(),
+        motion: arguments.motion.clone(),
     }
 }
 
@@ -80,6 +81,7 @@ fn random_linkages(seeds: core::ops::Range<u64>, scalar: &'static str) {
             joints: seed % 2 == 0,
             unknown_anywhere: false,
             params: seed % 5 == 0,
+            moving: false,
             scalar,
         };
         let sample = sample(seed, kind);
@@ -142,7 +144,7 @@ fn around(seed: u64, count: usize, poses: usize) {
                 let range = if name == "booms" { 0.5..3.0 } else { -1.2..1.2 };
                 let drives = vec![random.range(range.start, range.end)];
                 let loads = vec![[random.range(-50.0, 50.0), random.range(-50.0, 50.0)]; 2];
-                all.extend(check::<Double>(&linkage, &Arguments { drives, loads, params: Vec::new() }, &text));
+                all.extend(check::<Double>(&linkage, &Arguments { drives, loads, params: Vec::new(), motion: Vec::new() }, &text));
             }
         }
         let count = all.len();
@@ -175,7 +177,7 @@ fn near_dead_centres() {
     let mut before = 0.0;
     for exponent in 1..=7 {
         let drives = vec![core::f64::consts::PI - 10f64.powi(-exponent)];
-        let arguments = Arguments { drives, loads: vec![[10.0, -20.0], [-5.0, 30.0]], params: Vec::new() };
+        let arguments = Arguments { drives, loads: vec![[10.0, -20.0], [-5.0, 30.0]], params: Vec::new(), motion: Vec::new() };
         let Ok(found) = scene::<Double>(&linkage, "bounded", &arguments) else { continue };
         ratios(&linkage, &arguments, &found, text);
         let bound = found["error_bound.B.x"].to_f64();

@@ -4,12 +4,12 @@ mod support;
 
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::plan::rules::RULES;
-use support::general::{equations, solve_extended};
+use support::general::{equations, open_motion, solve_extended};
 use support::numbers::Extended;
 use support::{Arguments, Number, compile, scene};
 
 /// A linkage for each class of groups, with the class named, drives at which it closes, and how the rule is used.
-const CASES: [(&str, &[f64], &str); 35] = [
+const CASES: [(&str, &[f64], &str); 48] = [
     // Motion and forces of a crank, its arrow either way, with an inclined dyad.
     (
         "link on a pin",
@@ -163,6 +163,91 @@ const CASES: [(&str, &[f64], &str); 35] = [
          revolute O: ground -> crank; revolute A: crank -> b; revolute B: b -> c; revolute Q: ground -> c; drive q: O;
          unknown E: torque(ground -> b); assemble B: left(A -> Q); load F: force(b.P) = (3N, -2N); load H: force(crank.P) = (1N, 4N);",
     ),
+    // A triad: Stephenson III. The unknown at the crank leaves a core of three, one at the ternary link a larger one.
+    (
+        "block",
+        &[0.4, 0.9, -0.2],
+        "ground { O: (0, 0), Q: (5m, 1m), P: (4m, -1m) } link crank { O -> A: 1m } link b { A -> E: 1.95m, G: (1m, 1m) }
+         link t { E: (0, 0), C: (1m, 0.7m), D: (0.7m, -0.9m), G: (0.3m, 0.3m) } link c { Q -> C: 1.92m } link d { D: (0.2m, 0.1m), P: (1.8m, 0.6m) }
+         revolute O: ground -> crank; revolute A: crank -> b; revolute E: t -> b; revolute C: t -> c; revolute D: d -> t;
+         revolute Q: ground -> c; revolute P: d -> ground; drive q: O;
+         start q: 0.4rad; start b: (1m, 0.4m), angle 36deg; start t: (2.5m, 1.5m), angle 0; start c: (5m, 1m), angle 140deg;
+         start d: (3m, 0.6m), angle -80deg; load F: force(t.G) = (3N, -2N); load H: force(b.G) in c = (1N, 4N); load M: moment(d) = 2N*m;",
+    ),
+    (
+        "block",
+        &[0.4, 0.7],
+        "ground { O: (0, 0), Q: (5m, 1m), P: (4m, -1m) } link crank { O -> A: 1m } link b { A -> E: 1.95m, G: (1m, 1m) }
+         link t { E: (0, 0), C: (1m, 0.7m), D: (0.7m, -0.9m), G: (0.3m, 0.3m) } link c { Q -> C: 1.92m } link d { D: (0.2m, 0.1m), P: (1.8m, 0.6m) }
+         revolute O: ground -> crank; revolute A: crank -> b; revolute E: t -> b; revolute C: t -> c; revolute D: d -> t;
+         revolute Q: ground -> c; revolute P: d -> ground; drive q: O; unknown T: torque(b -> t);
+         start q: 0.4rad; start b: (1m, 0.4m), angle 36deg; start t: (2.5m, 1.5m), angle 0; start c: (5m, 1m), angle 140deg;
+         start d: (3m, 0.6m), angle -80deg; load F: force(t.G) = (3N, -2N); load H: force(b.G) in c = (1N, 4N); load M: moment(d) = 2N*m;",
+    ),
+    // A group of class IV: two ternary links, joined by two links; one of these is guided by a slide instead.
+    (
+        "block",
+        &[0.4, 0.8],
+        "ground { O: (0, 0), B: (6m, 0.5m) } link crank { O -> A: 1m } link a { A: (0, 0), C: (1.5m, 1m), D: (1.6m, -0.6m), G: (1m, 1m) }
+         link b { B: (0, 0), E: (-1.4m, 1.2m), F: (-1m, -1.2m) } link up { C -> E: 2.3m } link down { D: (0.1m, 0.2m), S: (1.95m, 0.3m), G: (0, 1m) }
+         link runner { S: (0.1m, 0), F: (0.6m, 0.2m) }
+         revolute O: ground -> crank; revolute A: crank -> a; revolute B: ground -> b; revolute C: a -> up; revolute E: up -> b;
+         revolute D: a -> down; prismatic S: down -> runner along 10deg of down, angle 20deg; drive r: S; revolute F: runner -> b; drive q: O;
+         start q: 0.4rad; start r: 0.3m; start a: (1m, 0.4m), angle 0; start b: (6m, 0.5m), angle 0; start up: (2.5m, 1.4m), angle 10deg;
+         start down: (2.5m, -0.4m), angle -20deg; start runner: (4.5m, -0.8m), angle 0;
+         load F1: force(a.G) = (3N, -2N); load H: force(down.G) = (1N, 4N); load M: moment(b) = 2N*m;",
+    ),
+    // A triad with a slider on a moving guide that is placed before.
+    (
+        "block",
+        &[0.4, 0.8],
+        "ground { O: (0, 0), Q: (5m, 1m), P: (4m, -1m) } link crank { O -> A: 1m } link guide { Q: (0, 0), S: (-0.5m, 0.5m) }
+         link b { A -> E: 1.95m, G: (1m, 1m) } link t { E: (0, 0), C: (1m, 0.7m), D: (0.7m, -0.9m), G: (0.3m, 0.3m) }
+         link c { S: (0.1m, 0.3m), C: (0.4m, 0) } link d { D -> P: 1.7m }
+         revolute O: ground -> crank; revolute Q: ground -> guide; revolute A: crank -> b; revolute E: t -> b; revolute C: t -> c;
+         prismatic S: guide -> c along 120deg of c, angle 15deg; revolute D: d -> t; revolute P: d -> ground; drive q: O; drive r: Q;
+         start q: 0.4rad; start r: 0.3rad; start b: (1m, 0.4m), angle 36deg; start t: (2.5m, 1.5m), angle 0; start c: (3.5m, 2m), angle 30deg;
+         start d: (3.2m, 0.6m), angle -60deg; load F: force(t.G) = (3N, -2N); load H: force(b.G) in c = (1N, 4N); load M: moment(d) = 2N*m;",
+    ),
+    // A pin of a link in a driven slot of another: the travel is given, and on two slots, where both travels are sought.
+    (
+        "block",
+        &[0.6, 0.4],
+        "ground { O: (0, 0), Q: (3m, 0.5m) } link crank { O -> A: 1m } link b { A -> B: 2m, S: (0.2m, 0.1m), G: (1m, 1m) }
+         link c { Q: (0, 0), S: (-1.2m, 0.3m), G: (0.3m, 0.4m) } revolute O: ground -> crank; revolute A: crank -> b; revolute Q: ground -> c;
+         slot S: b -> c along 10deg of b; drive q: O; drive s: S.travel;
+         start q: 0.6rad; start s: 0.9m; start b: (0.8m, 0.6m), angle 10deg; start c: (3m, 0.5m), angle 0;
+         load F: force(b.G) = (3N, -2N); load H: force(c.G) = (1N, 4N);",
+    ),
+    (
+        "block",
+        &[0.6, 0.8],
+        "ground { O: (0, 0), Q: (3m, 0.5m) } link crank { O -> A: 1m } link b { A -> B: 2m, S: (0.2m, 0.1m), T: (0.5m, 1m), G: (1m, 1m) }
+         link c { Q: (0, 0), S: (-1.2m, 0.3m), T: (-1m, 1.4m), G: (0.3m, 0.4m) } revolute O: ground -> crank; revolute A: crank -> b;
+         revolute Q: ground -> c; slot S: b -> c along 10deg of b; slot T: c -> b along 80deg of c; drive q: O;
+         start q: 0.6rad; start b: (0.8m, 0.6m), angle 10deg; start c: (3m, 0.5m), angle 0;
+         load F: force(b.G) = (3N, -2N); load H: force(c.G) in b = (1N, 4N);",
+    ),
+    // A slot of which the angle is given.
+    (
+        "block",
+        &[0.6, 0.8],
+        "ground { O: (0, 0), Q: (3m, 0.5m) } link crank { O -> A: 1m } link b { A -> B: 2m, S: (0.2m, 0.1m), G: (1m, 1m) }
+         link c { Q: (0, 0), S: (-1.2m, 0.3m), G: (0.3m, 0.4m) } revolute O: ground -> crank; revolute A: crank -> b; revolute Q: ground -> c;
+         slot S: b -> c along 10deg of b; drive q: O; drive s: S.angle;
+         start q: 0.6rad; start s: -0.1rad; start b: (0.8m, 0.6m), angle 10deg; start c: (3m, 0.5m), angle 0;
+         load F: force(b.G) = (3N, -2N); load H: force(c.G) = (1N, 4N);",
+    ),
+    // A dyad of which a body is two links, welded to each other.
+    (
+        "block",
+        &[0.6, 0.9],
+        "ground { O: (0, 0), Q: (3m, 0.5m) } link crank { O -> A: 1m } link b { A -> W: 1.5m, G: (1m, 1m) } link d { W: (0, 0), B: (1m, 0.2m) }
+         link c { Q -> B: 1.9m, G: (0.3m, 0.4m) } revolute O: ground -> crank; revolute A: crank -> b; weld W: d -> b, angle -25deg;
+         revolute B: d -> c; revolute Q: ground -> c; drive q: O;
+         start q: 0.6rad; start b: (0.8m, 0.6m), angle 30deg; start d: (2m, 1.3m), angle 55deg; start c: (3m, 0.5m), angle 80deg;
+         load F: force(b.G) = (3N, -2N); load H: force(c.G) in d = (1N, 4N);",
+    ),
     // A force on the rod of a slider-crank: a core of three.
     (
         "block",
@@ -312,21 +397,86 @@ const CASES: [(&str, &[f64], &str); 35] = [
          revolute B: lever -> rod; revolute C: rod -> ram; prismatic R: ground.R -> ram.C along 0deg; drive q: O; unknown E: torque(crank -> rod);
          assemble S: ahead(Q); assemble C: behind(B); load F: force(ram.T) = (-30N, 4N); load M: moment(crank) = 2N*m;",
     ),
+    // An oscillating block whose rod is bent by a drive, and one whose rod is lengthened.
+    (
+        "RPR dyad",
+        &[0.4, 2.0],
+        "ground { O: (0, 0), C: (2m, -0.3m) } link crank { O -> A: 0.6m } link rod { A: (0.1m, 0.2m), E: (0.5m, 0.1m) } link tip { E: (0, 0.1m), S: (0.3m, 0.1m), P: (1m, 1m) }
+         link block { C: (0.2m, 0.1m), S: (-0.1m, 0.3m), P: (0.5m, 0) } revolute O: ground -> crank; revolute A: rod -> crank; revolute C: ground -> block;
+         revolute E: tip -> rod; prismatic S: block -> tip along 25deg of tip, angle 40deg; drive q: O; drive r: E; assemble S: behind(C);
+         load F: force(tip.P) = (3N, -2N); load H: force(block.P) in rod = (1N, 4N);",
+    ),
+    (
+        "RPR dyad",
+        &[0.4, 2.0],
+        "ground { O: (0, 0), C: (2m, -0.3m) } link crank { O -> A: 0.6m } link rod { A: (0.1m, 0.2m), E: (0.5m, 0.1m) } link tip { E: (0, 0.1m), S: (0.3m, 0.1m), P: (1m, 1m) }
+         link block { C: (0.2m, 0.1m), S: (-0.1m, 0.3m), P: (0.5m, 0) } revolute O: ground -> crank; revolute A: rod -> crank; revolute C: ground -> block;
+         prismatic E: tip -> rod along 70deg of rod, angle 20deg; prismatic S: block -> tip along 25deg of tip, angle 40deg; drive q: O; drive r: E; assemble S: behind(C);
+         load F: force(tip.P) = (3N, -2N); load H: force(block.P) in rod = (1N, 4N);",
+    ),
+    // Two sliders, one of them bent by a drive.
+    (
+        "PRP dyad",
+        &[0.4, 1.0],
+        "ground { O: (0, 0) } link crank { O -> G: 0.5m } link one { E: (0.1m, 0.2m), G: (0.4m, 0.3m) } link mid { E: (0, 0.1m), B: (0.3m, 0.2m), P: (1m, 0) }
+         link two { B: (0.3m, -0.2m), H: (0.2m, 0.3m), P: (0.3m, 1m) } revolute O: ground -> crank; revolute E: one -> mid; revolute B: two -> mid;
+         prismatic G: one -> crank along 80deg of crank, angle 15deg; prismatic H: ground.O -> two along 15deg of two, angle -35deg;
+         drive q: O; drive r: E; load F: force(mid.P) = (3N, -2N); load K: force(two.P) in crank = (1N, 4N);",
+    ),
+    // A slider on a slider, each of them bent by a drive.
+    (
+        "RPP dyad",
+        &[0.4, 1.0],
+        "ground { O: (0, 0), H: (1m, 1m) } link crank { O -> A: 0.5m } link one { A: (0.1m, 0.2m), E: (0.4m, 0.3m) } link mid { E: (0, 0.1m), S: (0.3m, 0.2m), P: (1m, 0) }
+         link two { S: (0.3m, -0.2m), H: (0.2m, 0.3m), P: (0.3m, 1m) } revolute O: ground -> crank; revolute A: crank -> one; revolute E: one -> mid;
+         prismatic S: mid -> two along 80deg of mid, angle 15deg; prismatic H: crank.A -> two along 15deg of two, angle -35deg;
+         drive q: O; drive r: E; load F: force(mid.P) = (3N, -2N); load K: force(two.P) in crank = (1N, 4N);",
+    ),
+    (
+        "RPP dyad",
+        &[0.4, 1.0],
+        "ground { O: (0, 0) } link crank { O -> A: 0.5m, H: (0.2m, 0.7m) } link one { A: (0.1m, 0.2m), S: (0.4m, 0.3m), P: (1m, 0) } link mid { E: (0, 0.1m), S: (0.3m, 0.2m) }
+         link two { E: (0.3m, -0.2m), H: (0.2m, 0.3m), P: (0.3m, 1m) } revolute O: ground -> crank; revolute A: crank -> one; revolute E: two -> mid;
+         prismatic S: one -> mid along 80deg of one, angle 15deg; prismatic H: crank -> two along 15deg of two, angle -35deg;
+         drive q: O; drive r: E; load F: force(one.P) = (3N, -2N); load K: force(two.P) in crank = (1N, 4N);",
+    ),
 ];
 
 #[test]
 fn every_rule_satisfies_the_equations_of_its_group() {
     for (class, drives, items) in CASES {
-        let text = format!("pub mod sample; {items} scene all: equilibrium; scene work: virtual_work;");
+        let text = format!(
+            "pub mod sample; {items} scene all: equilibrium; scene work: virtual_work; scene moved: acceleration;"
+        );
         let linkage = compile(&text);
         let used = linkage.plan.motion_rules.iter().chain(&linkage.plan.force_rules);
         assert!(used.into_iter().any(|rule| *rule == class), "{class} is not used\n{text}");
-        let second = if text.contains("drive r: lift") { 1.7 } else { 0.3 };
+        let start = linkage.model.drives.last().and_then(|drive| linkage.model.graph.constant_value(drive.start?.0));
+        let elsewhere = if text.contains("drive r: lift") { 1.7 } else { 0.3 };
         for drive in drives {
             // A second drive stays where the linkage closes.
+            let second = start.as_ref().map_or(elsewhere, linkage_codegen::graph::number::Number::to_f64);
             let drives = if linkage.model.drives.len() == 2 { vec![*drive, second] } else { vec![*drive] };
-            let arguments = Arguments { drives, loads: vec![[0.0; 2]; linkage.model.loads.len()], params: Vec::new() };
+            let arguments = Arguments {
+                drives,
+                loads: vec![[0.0; 2]; linkage.model.loads.len()],
+                params: Vec::new(),
+                ..Arguments::default()
+            };
             check(&linkage, &arguments, &text);
+            check_motion(&linkage, &arguments, &text);
+        }
+    }
+}
+
+/// Velocities keep the constraints, and so do accelerations: `J q̇ = 0` and `J q̈ + J̇ q̇ = 0`, the drives' own coordinates as given.
+fn check_motion(linkage: &linkage_codegen::Linkage, arguments: &Arguments, text: &str) {
+    for motion in [[[1.3, -0.7], [0.6, 2.1]], [[-0.4, 0.0], [1.9, -1.0]]] {
+        let arguments = Arguments { motion: motion.to_vec(), ..arguments.clone() };
+        for (source, [rate, acceleration]) in open_motion::<Extended>(linkage, &arguments).unwrap() {
+            assert!(rate.to_f64().abs() < 1e-50, "velocity at {source:?}: {:e}\n{text}", rate.to_f64());
+            let open = acceleration.to_f64();
+            assert!(open.abs() < 1e-50, "acceleration at {source:?}: {open:e}\n{text}");
         }
     }
 }

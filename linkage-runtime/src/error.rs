@@ -42,6 +42,14 @@ pub enum Error {
         /// By how much, in the linkage's unit of length; a diagnostic in single precision.
         gap: f32,
     },
+    /// The search for the places of a group's links, from its starting pose or from the pose before, does not arrive: on its branch
+    /// the group cannot be closed, or the way there is too far.
+    NoConvergence {
+        /// The group, by its links.
+        group: &'static str,
+        /// How much stays open, in the linkage's unit of length: the sum over all loops; a diagnostic in single precision.
+        gap: f32,
+    },
     /// The outer joints of a group coincide, so that the place of its inner joint is undetermined.
     CoincidentPivots {
         /// The group, by its links.
@@ -49,7 +57,8 @@ pub enum Error {
         /// The undetermined joint.
         joint: &'static str,
     },
-    /// A group is at a dead centre of the scene's unknown: no effort, however large, holds its loads.
+    /// A group is at a dead centre: of the scene's unknown, no effort, however large, holds its loads; or of the drives, no rate of them
+    /// moves it on.
     DeadCentre {
         /// The group, by its links.
         group: &'static str,
@@ -59,6 +68,12 @@ pub enum Error {
     /// The two points between which a spring or a thrust acts coincide: its force has no direction.
     CoincidentEnds {
         /// The load or the unknown.
+        of: &'static str,
+    },
+    /// A vector vanishes whose direction is asked for, or is no larger than its rounding: of a point that rests, its path; of a centre of
+    /// mass without acceleration, the line of its inertia.
+    NoDirection {
+        /// The vector.
         of: &'static str,
     },
     /// A parameter is out of its range.
@@ -79,11 +94,15 @@ impl fmt::Display for Error {
             Self::CannotAssemble { group, joint, gap } => {
                 write!(f, "{group} cannot be assembled: {joint} stays open by {gap}")
             }
+            Self::NoConvergence { group, gap } => {
+                write!(f, "{group} cannot be closed from where the search starts: {gap} stays open")
+            }
             Self::CoincidentPivots { group, joint } => {
                 write!(f, "the outer joints of {group} coincide: the place of {joint} is undetermined")
             }
             Self::DeadCentre { group, pivot } => write!(f, "{group} is at a dead centre: {pivot} vanishes"),
             Self::CoincidentEnds { of } => write!(f, "the ends of {of} coincide: it has no direction"),
+            Self::NoDirection { of } => write!(f, "{of} vanishes: it has no direction"),
             Self::Parameter { requirement } => f.write_str(requirement),
             Self::NotFinite { what } => write!(f, "{what} is not finite"),
         }

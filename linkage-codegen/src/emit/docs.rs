@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::Linkage;
+use crate::graph::Search;
 use crate::model::Method;
 use crate::program::{Program, Step};
 use crate::topology::Group;
@@ -93,6 +94,8 @@ pub(super) fn scene_summary(linkage: &Linkage, index: usize, from_pose: bool) ->
     let from = if from_pose { "from this pose" } else { "straight from the drives" };
     match scene.method {
         Method::Position => format!("Where everything is, {from}."),
+        Method::Velocity => format!("How fast everything moves, {from}."),
+        Method::Acceleration => format!("The accelerations, {from}."),
         Method::Equilibrium => format!("Equilibrium under {loads}, {from}."),
         Method::Superposition => format!("Equilibrium under each of {loads} by itself, {from}."),
         Method::VirtualWork => format!("Virtual work of {loads}, {from}."),
@@ -117,6 +120,18 @@ pub(super) fn function(summary: &str, points: &[String], program: &Program, equa
     lines(&text)
 }
 
+/// Documentation of a search: what it does, and what a step costs.
+pub(super) fn search(search: &Search, program: &Program) -> TokenStream {
+    lines(&format!(
+        "Places {} by Newton's method, from the given start: what stays open, and the places.\n\n\
+         A step turns each direction `u` by `δ`, to the direction of `u + δ u⊥`; the steps solve `J δ = −gap`, with the exact Jacobian `J`.\n\n\
+         Operations of a step, beside the solution of its {} equations: {}.",
+        search.group,
+        search.residuals.len(),
+        program.counts()
+    ))
+}
+
 fn errors(program: &Program) -> Vec<String> {
     use crate::graph::Failure;
     let mut all: Vec<String> = Vec::new();
@@ -136,9 +151,13 @@ fn errors(program: &Program) -> Vec<String> {
                         "* [`Error::CoincidentPivots`]: the outer joints of {group} coincide, the place of `{joint}` is open."
                     ));
                 }
+                Failure::NoConvergence { group, .. } => {
+                    add(format!("* [`Error::NoConvergence`]: the search for the places of {group} does not arrive."));
+                }
                 Failure::DeadCentre { group, pivot } => {
                     add(format!("* [`Error::DeadCentre`]: {group} is at a dead centre, `{pivot}` vanishes."));
                 }
+                Failure::NoDirection { of } => add(format!("* [`Error::NoDirection`]: {of} vanishes.")),
                 Failure::CoincidentEnds { of } => {
                     add(format!("* [`Error::CoincidentEnds`]: the points between which `{of}` acts coincide."));
                 }
@@ -146,8 +165,13 @@ fn errors(program: &Program) -> Vec<String> {
             },
             Step::FiniteInput(_) => add("* [`Error::NotFinite`]: a drive is not a finite number.".into()),
             Step::FiniteResults(_) => {
-                let load = if program.reads_loads() { "a load is not a finite number, or " } else { "" };
-                add(format!("* [`Error::NotFinite`]: {load}a result is too large for one."));
+                let read = match (program.reads_motion(), program.reads_loads()) {
+                    (true, true) => "a rate or a load is not a finite number, or ",
+                    (true, false) => "a rate is not a finite number, or ",
+                    (false, true) => "a load is not a finite number, or ",
+                    (false, false) => "",
+                };
+                add(format!("* [`Error::NotFinite`]: {read}a result is too large for one."));
             }
             Step::Let(_) => {}
         }

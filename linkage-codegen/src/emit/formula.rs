@@ -1,6 +1,6 @@
 //! Expressions as text, in the notation of a textbook.
 
-use crate::graph::{Coordinate, Graph, Kernel, NodeId, Op, Stage, Symbol};
+use crate::graph::{Coordinate, Graph, Kernel, NodeId, Op, Order, Stage, Symbol};
 use crate::model::Model;
 use crate::program::{Definition, Program, ValueId};
 
@@ -168,6 +168,23 @@ impl<S> Formula<'_, S> {
                 let rows: Vec<String> = rows.map(|(row, right)| format!("[{} | {right}]", row.join(", "))).collect();
                 format!("unknown {} of {}", part + 1, rows.join(" "))
             }
+            (Kernel::Solve(unknowns), part) => {
+                let unknowns = usize::from(unknowns);
+                let (coefficients, rest) = args.split_at(unknowns * unknowns);
+                let rows = coefficients.chunks(unknowns).zip(&rest[unknowns * unknowns..]);
+                let rows: Vec<String> = rows.map(|(row, right)| format!("[{} | {right}]", row.join(", "))).collect();
+                if usize::from(part) < unknowns {
+                    format!("unknown {} of {}", part + 1, rows.join(" "))
+                } else {
+                    format!("smallest pivot, over the size of its terms, of {}", rows.join(" "))
+                }
+            }
+            (Kernel::Search { search, .. }, part) => {
+                let search = self.model.graph.search(search);
+                let names: Vec<String> = search.sought.iter().flat_map(crate::graph::Sought::names).collect();
+                let what = usize::from(part).checked_sub(1).and_then(|index| names.get(index));
+                format!("{} by {}", what.map_or("what stays open", String::as_str), search.name)
+            }
             (Kernel::Unit, part) => format!("{}/|({}, {})|", args[usize::from(part)], args[0], args[1]),
         }
     }
@@ -178,7 +195,7 @@ impl<S> Formula<'_, S> {
             Symbol::Drive(drive) => self.model.drive(drive).name.text.clone(),
             Symbol::Load(load, part) => {
                 let load = self.model.load(load);
-                let value = load.kind.values()[usize::from(part)].0;
+                let value = load.kind.value_name(part);
                 format!("{}{}{value}", load.name, if value.is_empty() { "" } else { "." })
             }
             Symbol::Coordinate(link, coordinate) => {
@@ -190,6 +207,22 @@ impl<S> Formula<'_, S> {
                     Coordinate::Cos => format!("cos({link})"),
                     Coordinate::Sin => format!("sin({link})"),
                 }
+            }
+            Symbol::Driven(drive, order) => self.model.drive(drive).motion_name(order),
+            Symbol::Moving(link, coordinate, order) => {
+                let link = &self.model.link(link).name;
+                let (along, turning) = match order {
+                    Order::Rate => ('v', 'ω'),
+                    Order::Acceleration => ('a', 'α'),
+                };
+                match coordinate {
+                    Coordinate::X => format!("{along}x({link})"),
+                    Coordinate::Y => format!("{along}y({link})"),
+                    Coordinate::Angle | Coordinate::Cos | Coordinate::Sin => format!("{turning}({link})"),
+                }
+            }
+            Symbol::Sought(search, number) | Symbol::Start(search, number) => {
+                super::search::kept_name(&self.model.graph.search(search), number)
             }
             Symbol::Dimension(_) => String::new(),
         }

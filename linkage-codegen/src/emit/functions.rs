@@ -17,7 +17,7 @@ use crate::plan::{Comparison, Output};
 use crate::program::{Input, Program, ValueId};
 
 /// Names that a function's own values cannot have.
-const TAKEN: [&str; 6] = ["loads", "linkage", "params", "EQUATIONS", "OPERATIONS", "SOURCE"];
+const TAKEN: [&str; 7] = ["motion", "loads", "linkage", "params", "EQUATIONS", "OPERATIONS", "SOURCE"];
 
 /// The name of an input.
 fn input_name(linkage: &Linkage, input: Input) -> String {
@@ -27,9 +27,16 @@ fn input_name(linkage: &Linkage, input: Input) -> String {
         Input::Symbol(Symbol::Parameter(param)) => model.param(param).name.text.clone(),
         Input::Symbol(Symbol::Load(load, part)) => {
             let load = model.load(load);
-            load.value_name(load.kind.values()[usize::from(part)].0)
+            load.value_name(load.kind.value_name(part))
         }
-        Input::Symbol(Symbol::Coordinate(..) | Symbol::Dimension(_)) => String::new(),
+        Input::Symbol(Symbol::Driven(drive, order)) => model.drive(drive).motion_name(order),
+        // A number of an unknown, at the pose from which its search starts.
+        Input::Symbol(Symbol::Start(search, number)) => {
+            format!("{}_before", super::search::kept_name(&model.graph.search(search), number))
+        }
+        // Only in the functions of searches, and nowhere.
+        Input::Symbol(Symbol::Sought(..) | Symbol::Coordinate(..) | Symbol::Moving(..) | Symbol::Dimension(_))
+        | Input::Known(_) => String::new(),
         Input::Kept(node) => {
             let kept = linkage.plan.pose.iter().find(|kept| kept.node == node);
             kept.map_or_else(String::new, |kept| kept.name.clone())
@@ -59,16 +66,22 @@ enum Drives {
 fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream {
     let mut prepared = Vec::new();
     let mut kept = Vec::new();
+    let mut motion = Vec::new();
     let mut statements = TokenStream::new();
     let mut loads: BTreeMap<LoadId, Vec<u8>> = BTreeMap::new();
     for (_, input) in program.inputs() {
         let name = ident(&input_name(linkage, input));
         match input {
             Input::Prepared(_) => prepared.push(name),
-            Input::Kept(_) => kept.push(name),
-            Input::Symbol(Symbol::Drive(_)) if drives == Drives::Pose => kept.push(name),
+            Input::Kept(_) => kept.push(quote!(#name)),
+            Input::Symbol(Symbol::Drive(_)) if drives == Drives::Pose => kept.push(quote!(#name)),
+            Input::Symbol(Symbol::Start(search, number)) => {
+                let own = ident(&super::search::kept_name(&linkage.model.graph.search(search), number));
+                kept.push(quote!(#own: #name));
+            }
+            Input::Symbol(Symbol::Driven(..)) => motion.push(name),
             Input::Symbol(Symbol::Load(load, part)) => loads.entry(load).or_default().push(part),
-            Input::Symbol(_) => {}
+            Input::Symbol(_) | Input::Known(_) => {}
         }
     }
     if !kept.is_empty() {
@@ -76,6 +89,9 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
     }
     if !prepared.is_empty() {
         statements.extend(quote!(let Linkage { #(#prepared,)* .. } = *linkage;));
+    }
+    if !motion.is_empty() {
+        statements.extend(quote!(let Motion { #(#motion,)* .. } = *motion;));
     }
     for (load, read) in loads {
         let data = linkage.model.load(load);
@@ -92,13 +108,13 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
                 quote!(let [[#x, #y]] = loads.#name.data.0;)
             }
             LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
-                let values = data.kind.values();
                 let each = read.iter().map(|part| {
-                    let (field, local) = (ident(values[usize::from(*part)].0), local(*part));
+                    let (field, local) = (ident(data.kind.value_name(*part)), local(*part));
                     quote!(let #local = loads.#name.#field;)
                 });
                 each.collect()
             }
+            LoadKind::Inertia => TokenStream::new(),
         });
     }
     statements
@@ -235,17 +251,43 @@ pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
     }
 }
 
-/// `Pose::at`.
-pub(super) fn pose_at(linkage: &Linkage) -> TokenStream {
-    let program = &linkage.functions.pose;
+/// `Pose::at`, and with searches `Pose::moved_to`.
+pub(super) fn poses(linkage: &Linkage) -> TokenStream {
+    let summary = "The pose at given coordinates of the drives.";
+    let start = "Groups that are placed by Newton's method are searched from their declared start.";
+    let points: &[&str] = if linkage.functions.near.is_some() { &[start] } else { &[] };
+    let receiver = linkage_argument(linkage, &quote!('l));
+    let own = if has_params(linkage) { quote!(linkage,) } else { TokenStream::new() };
+    let mut all = pose_function(linkage, &linkage.functions.pose, &quote!(at), &receiver, &own, summary, points);
+    if let Some(near) = &linkage.functions.near {
+        let summary = "The pose at other coordinates of the drives, from this one.";
+        let points = [
+            "Groups that are placed by Newton's method are searched from where they are, and stay on their branch: a search that would \
+             have to go through a singular pose does not arrive. Take steps that are small against the motion between such poses.",
+        ];
+        let own = if has_params(linkage) { quote!(linkage: self.linkage,) } else { TokenStream::new() };
+        all.extend(pose_function(linkage, near, &quote!(moved_to), &quote!(&self,), &own, summary, &points));
+    }
+    all
+}
+
+fn pose_function(
+    linkage: &Linkage,
+    program: &Program,
+    name: &TokenStream,
+    receiver: &TokenStream,
+    own: &TokenStream,
+    summary: &str,
+    points: &[&str],
+) -> TokenStream {
+    let from_self = receiver.to_string().contains("self");
+    let prepared = if from_self { prepared_of_pose(linkage, program) } else { TokenStream::new() };
     let bindings = bindings(linkage, program, Drives::Arguments);
     let (statements, body) = body(linkage, program).statements();
     let values = outputs(&body, program);
     let kept = linkage.plan.pose.iter().zip(values).map(|(kept, value)| member(&kept.name, &value));
     let drives = linkage.model.drives.iter().map(|drive| ident(&drive.name.text));
     let arguments = drive_arguments(linkage);
-    let prepared = linkage_argument(linkage, &quote!('l));
-    let own = if has_params(linkage) { quote!(linkage,) } else { TokenStream::new() };
     // A drive that no direction depends on is checked all the same.
     let read: Vec<Input> = program.inputs().map(|(_, input)| input).collect();
     let unread =
@@ -257,13 +299,15 @@ pub(super) fn pose_at(linkage: &Linkage) -> TokenStream {
     });
     let drive_docs =
         linkage.model.drives.iter().map(|d| format!("* `{}`: {}", d.name, drive_doc(&linkage.model, &d.name.text)));
-    let lines =
-        docs::function("The pose at given coordinates of the drives.", &drive_docs.collect::<Vec<_>>(), program, &[]);
+    let mut points: Vec<String> = points.iter().map(|point| format!("{point}\n")).collect();
+    points.extend(drive_docs);
+    let lines = docs::function(summary, &points, program, &[]);
     quote! {
         #lines
         #[inline]
-        pub fn at(#prepared #(#arguments),*) -> Result<Self, Error> {
+        pub fn #name(#receiver #(#arguments),*) -> Result<Self, Error> {
             #(#unread)*
+            #prepared
             #bindings
             #statements
             Ok(Self { #own #(#drives,)* #(#kept),* })
@@ -315,7 +359,7 @@ pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
     let program = without_input_checks(&linkage.functions.scenes[index].from_pose);
     let name = ident(&scene.name.text);
     let ty = output_type(&linkage.model, &linkage.plan.scenes[index], &type_name(&scene.name.text));
-    let loads = loads_argument(&program);
+    let given = given_arguments(&program);
     let prepared = prepared_of_pose(linkage, &program);
     let bindings = bindings(linkage, &program, Drives::Pose);
     let (statements, body) = body(linkage, &program).statements();
@@ -327,7 +371,7 @@ pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
     quote! {
         #lines
         #[inline]
-        pub fn #name(&self #loads) -> Result<#ty, Error> {
+        pub fn #name(&self #given) -> Result<#ty, Error> {
             #prepared
             #bindings
             #statements
@@ -343,8 +387,11 @@ fn without_input_checks(program: &Program) -> Program {
     program
 }
 
-fn loads_argument(program: &Program) -> TokenStream {
-    if program.reads_loads() { quote!(, loads: &Loads) } else { TokenStream::new() }
+/// The arguments behind the drives.
+fn given_arguments(program: &Program) -> TokenStream {
+    let motion = program.reads_motion().then(|| quote!(, motion: &Motion));
+    let loads = program.reads_loads().then(|| quote!(, loads: &Loads));
+    quote!(#motion #loads)
 }
 
 /// A scene straight from the drives.
@@ -353,7 +400,7 @@ pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
     let program = &linkage.functions.scenes[index].direct;
     let name = ident(&format!("{}_at", scene.name));
     let ty = output_type(&linkage.model, &linkage.plan.scenes[index], &type_name(&scene.name.text));
-    let loads = loads_argument(program);
+    let given = given_arguments(program);
     let prepared = linkage_argument(linkage, &TokenStream::new());
     let arguments = drive_arguments(linkage);
     let bindings = bindings(linkage, program, Drives::Arguments);
@@ -369,7 +416,7 @@ pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
     quote! {
         #lines
         #[inline]
-        pub fn #name(#prepared #(#arguments),* #loads) -> Result<#ty, Error> {
+        pub fn #name(#prepared #(#arguments),* #given) -> Result<#ty, Error> {
             #bindings
             #statements
             Ok(#value)

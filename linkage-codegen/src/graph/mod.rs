@@ -11,6 +11,7 @@ mod fold;
 pub mod number;
 pub mod real;
 pub mod rounding;
+mod search;
 mod vector;
 
 use core::cell::RefCell;
@@ -18,6 +19,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 pub use expr::Expr;
 use number::Number;
+pub use search::{Search, SearchId, Sought, sought_direction};
 pub use vector::Vector;
 
 use crate::model::ids::{DriveId, LinkId, LoadId, ParamId};
@@ -91,6 +93,15 @@ pub enum Coordinate {
     Sin,
 }
 
+/// How often a coordinate is differentiated by time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Order {
+    /// Once.
+    Rate,
+    /// Twice.
+    Acceleration,
+}
+
 /// What is not known before run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Symbol {
@@ -98,12 +109,20 @@ pub enum Symbol {
     Parameter(ParamId),
     /// The coordinate of a drive.
     Drive(DriveId),
+    /// Its rate or its acceleration, given at run time.
+    Driven(DriveId, Order),
     /// A component of a load that is given at run time.
     Load(LoadId, u8),
     /// A coordinate of a link in the symbolic equations.
     Coordinate(LinkId, Coordinate),
+    /// The rate or the acceleration of a link's place or angle likewise.
+    Moving(LinkId, Coordinate, Order),
     /// A place in the symbolic equations that stands for any dimension.
     Dimension(u32),
+    /// A number of the unknowns of a search, where it stands.
+    Sought(SearchId, u8),
+    /// The same where it starts: as declared, or at another pose.
+    Start(SearchId, u8),
 }
 
 /// When a value becomes known.
@@ -115,8 +134,10 @@ pub enum Stage {
     Prepared,
     /// When the drives are given.
     Posed,
-    /// When the loads are given.
+    /// When rates and loads are given.
     Loaded,
+    /// In each step of a search.
+    Iterated,
 }
 
 /// A function of the run-time crate.
@@ -134,6 +155,16 @@ pub enum Kernel {
     Solve2,
     /// Solution of three linear equations likewise.
     Solve3,
+    /// Solution of any number of linear equations: coefficients row by row, their sizes likewise, then the right sides. Behind the
+    /// unknowns, how far from singular they are.
+    Solve(u8),
+    /// The places of a group by Newton's method: where it starts, then what is known. How much stays open, then the unknowns.
+    Search {
+        /// Which one.
+        search: SearchId,
+        /// How many results it gives.
+        parts: u8,
+    },
 }
 
 impl Kernel {
@@ -144,6 +175,8 @@ impl Kernel {
             Self::Atan2 => 1,
             Self::SinCos | Self::SinCosSum(_) | Self::Unit | Self::Solve2 => 2,
             Self::Solve3 => 3,
+            Self::Solve(unknowns) => unknowns.saturating_add(1),
+            Self::Search { parts, .. } => parts,
         }
     }
 }
@@ -297,6 +330,13 @@ pub enum Failure<T = NodeId> {
         /// By how much it stays open.
         gap: T,
     },
+    /// The search for the places of a group does not arrive.
+    NoConvergence {
+        /// The group, by its links.
+        group: String,
+        /// How much stays open.
+        gap: T,
+    },
     /// Two pivots meet where the group needs them apart.
     CoincidentPivots {
         /// The group, by its links.
@@ -316,6 +356,11 @@ pub enum Failure<T = NodeId> {
         /// What acts between them.
         of: String,
     },
+    /// A vector vanishes whose direction is needed.
+    NoDirection {
+        /// Which one, as `the velocity of C`.
+        of: String,
+    },
     /// A parameter is out of its range.
     Parameter {
         /// What is wrong with it, as `crank: |A0 A| must be positive`.
@@ -327,7 +372,10 @@ impl<T: Copy> Failure<T> {
     /// What is reported with it.
     #[must_use]
     pub fn operand(&self) -> Option<T> {
-        if let Self::CannotAssemble { gap, .. } = self { Some(*gap) } else { None }
+        match self {
+            Self::CannotAssemble { gap, .. } | Self::NoConvergence { gap, .. } => Some(*gap),
+            _ => None,
+        }
     }
 
     /// The same with another operand.
@@ -337,11 +385,13 @@ impl<T: Copy> Failure<T> {
             Self::CannotAssemble { group, joint, gap } => {
                 Failure::CannotAssemble { group: group.clone(), joint: joint.clone(), gap: with(*gap) }
             }
+            Self::NoConvergence { group, gap } => Failure::NoConvergence { group: group.clone(), gap: with(*gap) },
             Self::CoincidentPivots { group, joint } => {
                 Failure::CoincidentPivots { group: group.clone(), joint: joint.clone() }
             }
             Self::DeadCentre { group, pivot } => Failure::DeadCentre { group: group.clone(), pivot: pivot.clone() },
             Self::CoincidentEnds { of } => Failure::CoincidentEnds { of: of.clone() },
+            Self::NoDirection { of } => Failure::NoDirection { of: of.clone() },
             Self::Parameter { requirement } => Failure::Parameter { requirement: requirement.clone() },
         }
     }
@@ -378,6 +428,7 @@ struct Arena {
     labels: BTreeMap<NodeId, Label>,
     positive: BTreeSet<NodeId>,
     sections: Vec<String>,
+    searches: Vec<Search>,
 }
 
 /// The graph. Nodes are added through a shared reference, so that expressions can be written with operators.
@@ -572,7 +623,8 @@ impl Arena {
     fn stage_of(&self, op: &Op) -> Stage {
         let own = match op {
             Op::Symbol(Symbol::Parameter(_)) => Stage::Prepared,
-            Op::Symbol(Symbol::Load(..)) => Stage::Loaded,
+            Op::Symbol(Symbol::Load(..) | Symbol::Driven(..) | Symbol::Moving(..)) => Stage::Loaded,
+            Op::Symbol(Symbol::Sought(..)) => Stage::Iterated,
             Op::Symbol(_) => Stage::Posed,
             _ => Stage::Constant,
         };

@@ -62,6 +62,8 @@ pub struct Rounding<'g> {
     directions: HashMap<NodeId, Direction<'g>>,
     /// Which values are directions.
     pairs: HashMap<NodeId, Vector<'g>>,
+    /// Whether a bound would have to be known of what is found by iteration, which it is not.
+    pub searched: bool,
     /// The bounds that belong to values that a pose keeps; they are kept beside them.
     pub held: Vec<HeldBound<'g>>,
 }
@@ -70,7 +72,14 @@ impl<'g> Rounding<'g> {
     /// Nothing bounded yet.
     #[must_use]
     pub fn new(graph: &'g Graph) -> Self {
-        Self { graph, done: HashMap::new(), directions: HashMap::new(), pairs: HashMap::new(), held: Vec::new() }
+        Self {
+            graph,
+            done: HashMap::new(),
+            directions: HashMap::new(),
+            pairs: HashMap::new(),
+            searched: false,
+            held: Vec::new(),
+        }
     }
 
     /// Says that two values are a direction.
@@ -315,6 +324,13 @@ impl<'g> Rounding<'g> {
             }
             Kernel::Solve2 => self.error_of_solution(kernel, &args, &errors, part, 2),
             Kernel::Solve3 => self.error_of_solution(kernel, &args, &errors, part, 3),
+            // How far from singular it is only decides.
+            Kernel::Solve(size) if part == size => graph.zero(),
+            Kernel::Solve(size) => self.error_of_solution(kernel, &args, &errors, part, usize::from(size)),
+            Kernel::Search { .. } => {
+                self.searched = true;
+                graph.zero()
+            }
         }
     }
 
@@ -329,8 +345,10 @@ impl<'g> Rounding<'g> {
         size: usize,
     ) -> Expr<'g> {
         let graph = self.graph;
-        let (matrix, right) = args.split_at(size * size);
-        let (matrix_errors, right_errors) = errors.split_at(size * size);
+        // Between coefficients and right sides there may be the sizes of the coefficients.
+        let (before, right) = args.split_at(args.len() - size);
+        let (matrix, matrix_errors) = (&args[..size * size], &errors[..size * size]);
+        let right_errors = &errors[args.len() - size..];
         let solution: Vec<Expr<'g>> =
             (0..size).map(|k| graph.kernel(kernel, args, u8::try_from(k).unwrap_or(0)).abs()).collect();
         let elimination = graph.epsilons(8);
@@ -342,7 +360,7 @@ impl<'g> Rounding<'g> {
                 residual = residual + (matrix_errors[at] + elimination * matrix[at].abs()) * *value;
             }
             let unit = (0..size).map(|other| if other == line { graph.one() } else { graph.zero() });
-            let equations: Vec<Expr<'g>> = matrix.iter().copied().chain(unit).collect();
+            let equations: Vec<Expr<'g>> = before.iter().copied().chain(unit).collect();
             sum = sum + graph.kernel(kernel, &equations, part).abs() * residual;
         }
         2 * sum

@@ -7,7 +7,7 @@ use super::pivots::Pivots;
 use super::placement::Placement;
 use crate::diagnostics::{Diagnostic, list};
 use crate::graph::{Expr, Graph, Symbol, Vector};
-use crate::model::ids::{DriveId, JointId};
+use crate::model::ids::{DriveId, JointId, LinkId};
 use crate::model::units::Kind;
 use crate::model::{Closure, Model, Side, Wanted};
 use crate::topology::{Group, Topology};
@@ -90,6 +90,8 @@ pub struct Assembly<'m> {
     pub loops: Vec<ClosedLoop<'m>>,
     /// The groups of motion.
     pub topology: &'m Topology,
+    /// The links that are placed by iteration, from a start.
+    pub started: BTreeSet<LinkId>,
     used: BTreeSet<JointId>,
 }
 
@@ -103,6 +105,7 @@ impl<'m> Assembly<'m> {
             dyads: Vec::new(),
             loops: Vec::new(),
             topology,
+            started: BTreeSet::new(),
             used: BTreeSet::new(),
         }
     }

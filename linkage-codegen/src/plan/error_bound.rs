@@ -8,13 +8,14 @@
 use super::assembly::{ClosedLoop, Found};
 use super::output::Field;
 use super::{Assembly, Kept, Output};
+use crate::diagnostics::{Diagnostic, Sink};
 use crate::graph::number::Number;
 use crate::graph::rounding::{BoundOf, HeldBound, Rounding};
 use crate::graph::{Expr, Graph, NodeId, Op, Vector};
 use crate::model::Wanted;
 
 /// Adds their bounds to the results of the scenes that want them. What a pose has to keep for that comes back.
-pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept]) -> Vec<Kept> {
+pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept], sink: &Sink) -> Vec<Kept> {
     let model = assembly.model();
     let graph = &model.graph;
     if !model.scenes.iter().any(|scene| scene.results.contains(&Wanted::ErrorBound)) {
@@ -41,6 +42,13 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept])
         let doc = "Bounds of the rounding errors of the other results, each in its own unit.".to_owned();
         let bounds = fields.iter().map(|field| bounded(graph, &mut rounding, field)).collect();
         fields.push(Field { name, doc, value: Output::Record(bounds) });
+        if core::mem::take(&mut rounding.searched) {
+            let problem = "bounds of errors are not supported yet where links are placed by iteration";
+            sink.report(
+                Diagnostic::new(scene.name.place(), problem)
+                    .help("leave `error_bound` out, or ask for results that do not depend on these links"),
+            );
+        }
     }
     let named = |node: NodeId| kept.iter().find(|kept| kept.node == node).map(|kept| kept.name.clone());
     let keep = |held: &HeldBound<'_>| {

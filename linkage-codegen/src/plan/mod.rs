@@ -13,6 +13,7 @@ mod linear;
 mod output;
 mod pivots;
 mod placement;
+mod posed;
 mod reactions;
 pub mod rules;
 pub(crate) mod scenes;
@@ -26,14 +27,16 @@ pub use placement::Placement;
 pub(crate) use scenes::reaction_type;
 pub use velocities::Motion;
 
+use posed::Posed;
+
 use std::collections::{BTreeSet, HashMap};
 
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::equations::System;
-use crate::graph::{Coordinate, Expr, NodeId, Op, Symbol};
+use crate::graph::{Coordinate, Expr, NodeId, Op, Order, Symbol};
 use crate::model::ids::{DriveId, JointId, LinkId, ParamId};
 use crate::model::units::Kind;
-use crate::model::{End, Model, Pair};
+use crate::model::{Along, End, Model, Pair, Scene, Wanted};
 use crate::topology::{Group, Input, Topology};
 
 /// The solution of a linkage.
@@ -62,9 +65,27 @@ pub struct PlacedLink {
     pub direction: Pair,
     /// The angle of its x axis.
     pub angle: NodeId,
+    /// Of a linkage whose motion anything depends on: rate and acceleration of the origin's coordinates and of the angle.
+    pub motion: Option<[[NodeId; 3]; 2]>,
 }
 
 impl PlacedLink {
+    /// The node of the rate or the acceleration of a coordinate.
+    #[must_use]
+    pub fn moving(&self, which: Coordinate, order: Order) -> Option<NodeId> {
+        let [rates, accelerations] = self.motion?;
+        let [x, y, angle] = match order {
+            Order::Rate => rates,
+            Order::Acceleration => accelerations,
+        };
+        match which {
+            Coordinate::X => Some(x),
+            Coordinate::Y => Some(y),
+            Coordinate::Angle => Some(angle),
+            Coordinate::Cos | Coordinate::Sin => None,
+        }
+    }
+
     /// The node of a coordinate.
     #[must_use]
     pub fn coordinate(&self, which: Coordinate) -> NodeId {
@@ -104,8 +125,8 @@ impl Plan {
     /// Solves a linkage. `None` if that is not possible; why is reported.
     #[must_use]
     pub fn of(model: &Model, topology: &Topology, system: &System, sink: &Sink) -> Option<Self> {
-        let motion_rules = rules_of(model, &topology.motion, "place", rules::placing_rule, sink)?;
-        let force_rules = rules_of(model, &topology.forces, "find the forces of", rules::force_rule, sink)?;
+        let motion_rules = rules_of(model, &topology.motion, "place", sink)?;
+        let force_rules = rules_of(model, &topology.forces, "find the forces of", sink)?;
         let mut assembly = Assembly::new(model, topology);
         for (index, (group, rule)) in topology.motion.iter().zip(&motion_rules).enumerate() {
             model.graph.begin_section(heading(model, index, group, rule.class(), "position"));
@@ -125,14 +146,28 @@ impl Plan {
                     .help("leave it out"),
             );
         }
+        check_starts_used(model, &assembly, sink);
         if !sink.is_clean() {
             return None;
         }
-        let links = placed_links(&assembly);
+        let velocities = model.moves().then(|| {
+            let motion = Motion::velocities(&assembly.placement, &assembly.pivots);
+            motion.through(&topology.motion, &motion_rules, sink)
+        });
+        let accelerations = velocities
+            .as_ref()
+            .filter(|_| model.accelerates())
+            .map(|velocities| Motion::accelerations(velocities).through(&topology.motion, &motion_rules, sink));
+        let posed = Posed {
+            placement: &assembly.placement,
+            velocities: velocities.as_ref(),
+            accelerations: accelerations.as_ref(),
+        };
+        let links = placed_links(posed);
         let accessors = accessors(&assembly);
         let mut pose = kept(&assembly);
-        let mut scenes = scenes::outputs(&assembly, &force_rules, (system, &links), sink);
-        pose.extend(error_bound::add(&assembly, &mut scenes, &pose));
+        let mut scenes = scenes::outputs(&assembly, posed, &force_rules, (system, &links), sink);
+        pose.extend(error_bound::add(&assembly, &mut scenes, &pose, sink));
         let plan = Self {
             pose,
             accessors,
@@ -147,14 +182,31 @@ impl Plan {
     }
 }
 
+/// Only what is placed by iteration starts anywhere.
+fn check_starts_used(model: &Model, assembly: &Assembly<'_>, sink: &Sink) {
+    let unused = |place, name: &str| {
+        sink.report(
+            Diagnostic::new(place, format!("`{name}` needs no start"))
+                .note("a start is for links that are placed by iteration, and for the drives of a linkage that has such links")
+                .help("leave it out"),
+        );
+    };
+    for start in model.starts.iter().filter(|start| !assembly.started.contains(&start.link)) {
+        unused(start.place, &model.link(start.link).name.text);
+    }
+    for drive in model.drives.iter().filter(|_| assembly.started.is_empty()) {
+        if let Some((_, place)) = drive.start {
+            unused(place, &drive.name.text);
+        }
+    }
+}
+
 type Rules = Vec<&'static dyn rules::Rule>;
 
-type Choice = fn(&Model, &Group) -> Option<&'static dyn rules::Rule>;
-
-fn rules_of(model: &Model, groups: &[Group], what: &str, choose: Choice, sink: &Sink) -> Option<Rules> {
+fn rules_of(model: &Model, groups: &[Group], what: &str, sink: &Sink) -> Option<Rules> {
     let mut found = Vec::new();
     for group in groups {
-        match choose(model, group) {
+        match rules::rule_of(model, group) {
             Some(rule) => found.push(rule),
             None => sink.report(unsupported(model, group, what)),
         }
@@ -176,7 +228,7 @@ fn unsupported(model: &Model, group: &Group, what: &str) -> Diagnostic {
     let class = "its class is not supported yet";
     Diagnostic::new(place, format!("there is no rule to {what} the group of {}: {class}", list(&links)))
         .note(format!("its joints are {} ({letters})", list(&joints)))
-        .help("supported are links on one pin or one slide, welded links, levers and sliders with a slot, gear trains on pins, and RRR, RRP, RPR, PRP and RPP dyads: another drive or unknown may split the linkage so")
+        .help("supported are gear trains on pins, and groups of pins, slides, slots and welds of every class: another drive or unknown may split the linkage so")
 }
 
 /// The heading of a group's steps.
@@ -186,14 +238,21 @@ fn heading(model: &Model, index: usize, group: &Group, class: &str, what: &str) 
     format!("Group {}, {class}: {} ({joints}): {what}", index + 1, model.link_names(&group.links))
 }
 
-fn placed_links(assembly: &Assembly<'_>) -> Vec<PlacedLink> {
-    let placement = &assembly.placement;
+fn placed_links(posed: Posed<'_, '_>) -> Vec<PlacedLink> {
+    let placement = posed.placement;
+    let zero = placement.graph().zero();
+    let moving = |motion: Option<&Motion<'_, '_>>, link: LinkId| {
+        let Some(motion) = motion else { return [zero.id(); 3] };
+        let origin = motion.of_place(link, placement.graph().zero_vector()).ground();
+        [origin.x.id(), origin.y.id(), motion.rate(link).id()]
+    };
     let place = |link: LinkId| PlacedLink {
         origin: placement.origin(link).into(),
         direction: placement.frame(link).into(),
         angle: placement.angle(link).id(),
+        motion: posed.velocities.map(|_| [posed.velocities, posed.accelerations].map(|motion| moving(motion, link))),
     };
-    (0..assembly.model().links.len()).map(LinkId::new).map(place).collect()
+    (0..placement.model.links.len()).map(LinkId::new).map(place).collect()
 }
 
 /// Directions, travels and pivots, each once; what is constant is not kept.
@@ -290,6 +349,8 @@ fn check_possible(model: &Model, sink: &Sink) {
             )
             .note("whatever the drives are, its links are too short or too long to meet there")
             .help("check their lengths, and where the joints are on which they hang"),
+            // Nothing is known of what a search leaves open.
+            Failure::NoConvergence { .. } => continue,
             Failure::CoincidentPivots { group, joint } => Diagnostic::new(
                 joint_place(model, joint),
                 format!(
@@ -303,6 +364,16 @@ fn check_possible(model: &Model, sink: &Sink) {
             )
             .note("the unknown does no work on the motion that the loads drive, whatever the pose")
             .help("let it act on a coordinate that changes when the drive moves"),
+            Failure::NoDirection { of } => {
+                let asks = |scene: &&Scene| {
+                    let directed =
+                        |wanted: &Wanted| matches!(wanted, Wanted::Offset(_) | Wanted::Resolved(_, Along::Path));
+                    scene.results.iter().any(directed)
+                };
+                let place = model.scenes.iter().find(asks).map_or(model.name.place(), |scene| scene.name.place());
+                Diagnostic::new(place, format!("{of} vanishes at every pose: it has no direction"))
+                    .help("leave out the result that asks for it")
+            }
             Failure::CoincidentEnds { of } => {
                 let load = model.loads.iter().find(|load| load.name.text == *of).map(|load| load.name.place());
                 let unknown = model.unknowns.iter().find(|unknown| unknown.name == *of).map(|unknown| unknown.place);

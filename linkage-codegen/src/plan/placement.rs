@@ -5,7 +5,6 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use crate::equations::loads::Posture;
 use crate::graph::{Expr, Graph, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{End, Gear, JointKind, Model};
@@ -63,7 +62,7 @@ impl<'m> Way<'m> {
 }
 
 /// What is placed so far.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Placement<'m> {
     /// The linkage.
     pub model: &'m Model,
@@ -384,6 +383,18 @@ impl<'m> Placement<'m> {
         Way { segments, graph: self.graph() }
     }
 
+    /// The way from the first point of a joint to its second that does not go through it; less its travel, if it is a slide: nothing
+    /// stays of it where the joint is closed.
+    #[must_use]
+    pub fn round(&self, joint: JointId, travel: Option<Expr<'m>>) -> Way<'m> {
+        let data = self.model.joint(joint);
+        let mut way = self.way(data.from, data.to);
+        if let Some(travel) = travel {
+            push_segment(&mut way.segments, self.slid(joint, -travel));
+        }
+        way
+    }
+
     /// From a point to another of the same link.
     fn within(&self, from: End, to: End) -> Segment<'m> {
         let along = self.point(to) - self.point(from);
@@ -431,21 +442,6 @@ impl<'m> Placement<'m> {
         }
         route.reverse();
         route
-    }
-}
-
-impl<'m> Posture<'m> for Placement<'m> {
-    fn model(&self) -> &'m Model {
-        self.model
-    }
-
-    fn span(&self, [from, to]: [End; 2]) -> (Vector<'m>, Option<Expr<'m>>) {
-        let way = self.way(from, to);
-        (way.vector(), Some(way.length()))
-    }
-
-    fn frame(&self, link: LinkId) -> Vector<'m> {
-        self.frame(link)
     }
 }
 

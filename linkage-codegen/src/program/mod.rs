@@ -9,12 +9,14 @@ mod functions;
 mod interpret;
 pub mod passes;
 mod range;
+mod start;
 
 pub use counts::Counts;
 pub use extract::{Extract, Form};
 pub use functions::{Functions, SceneFunctions};
 pub use interpret::{Fault, Run};
 pub use range::check_range;
+pub use start::check_start;
 
 use crate::graph::{Guard, Label, NodeId, Op, Symbol};
 
@@ -43,6 +45,8 @@ pub enum Input {
     Kept(NodeId),
     /// Prepared from the parameters.
     Prepared(NodeId),
+    /// Known to a search before it begins.
+    Known(NodeId),
 }
 
 /// How a value comes about.
@@ -122,6 +126,12 @@ impl Program {
     #[must_use]
     pub fn reads_loads(&self) -> bool {
         self.inputs().any(|(_, input)| matches!(input, Input::Symbol(Symbol::Load(..))))
+    }
+
+    /// Whether any rate or acceleration of a drive is read.
+    #[must_use]
+    pub fn reads_motion(&self) -> bool {
+        self.inputs().any(|(_, input)| matches!(input, Input::Symbol(Symbol::Driven(..))))
     }
 
     /// How often each value is read: by other values, by checks, and as a result.

@@ -78,7 +78,7 @@ pub enum Item {
     /// `assemble B: …;`
     Assemble(Assemble),
     /// `start coupler: …;`
-    Start(Place),
+    Start(Start),
     /// `unknown T12: …;`
     Unknown(Unknown),
     /// `load F13: …;`
@@ -391,7 +391,16 @@ pub struct Drive {
     /// `.angle` or `.travel`
     pub coordinate: Option<Name>,
     /// `{ … }`
-    pub motion: Option<Place>,
+    pub motion: DriveMotion,
+}
+
+/// `{ rate: 3000rpm, acceleration: 0 }`
+#[derive(Clone, Debug, Default)]
+pub struct DriveMotion {
+    /// `rate: …`
+    pub rate: Option<Value>,
+    /// `acceleration: …`
+    pub acceleration: Option<Value>,
 }
 
 /// `assemble JOINT: side;`
@@ -409,6 +418,26 @@ pub struct Assemble {
     pub chosen: Place,
     /// The whole.
     pub place: Place,
+}
+
+/// `start LINK: vector, angle value;` or `start DRIVE: value;`
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// The link or the drive.
+    pub name: Name,
+    /// Where it starts.
+    pub from: StartFrom,
+    /// The whole.
+    pub place: Place,
+}
+
+/// Where a search starts.
+#[derive(Clone, Debug)]
+pub enum StartFrom {
+    /// Of a link, the place of its frame and the angle of its x axis.
+    Pose(VectorValue, Value),
+    /// The coordinate of a drive.
+    Coordinate(Value),
 }
 
 /// `smooth at value`
@@ -485,8 +514,8 @@ pub enum LoadKind {
         /// What is said of it.
         fields: Vec<SpringField>,
     },
-    /// A kind that is not carried out yet, by its keyword.
-    Planned(Name),
+    /// `inertia` or `inertia(rod, piston)`
+    Inertia(Option<Vec<Name>>),
 }
 
 /// `rate: 2N/mm` of a spring.
@@ -522,4 +551,6 @@ pub enum ResultItem {
     Along(End, Name),
     /// `S about rail.P`
     About(End, End),
+    /// `inertia(rod)` or `offset(rod)`
+    OfLink(Name, Name),
 }

@@ -5,11 +5,12 @@ use syn::parse::discouraged::Speculative;
 use syn::token::{Brace, Paren};
 use syn::{Error, Result, Token};
 
+use super::ast::Magnitude;
 use super::ast::{
-    Assemble, Distances, Drive, Effort, End, Gear, Item, Joint, Link, Mass, Name, Param, PointPlace, PointRef, Smooth,
-    Unknown, words,
+    Assemble, Distances, Drive, DriveMotion, Effort, End, Gear, Item, Joint, Link, Mass, Name, Param, PointPlace,
+    PointRef, Smooth, Start, StartFrom, Unknown, Value, words,
 };
-use super::quantity::{at_pair, direction, value, vector};
+use super::quantity::{at_pair, direction, magnitude, value, vector};
 use super::tokens::{at_word, between, comma_list, eat_word, expect_word, name, peek_word, place_of, take};
 use super::{ITEMS, header, loads, scenes};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
@@ -48,10 +49,7 @@ pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         "revolute" | "prismatic" | "slot" | "weld" | "gear" => joint(input, keyword),
         "drive" => drive(input),
         "assemble" => assemble(input, &keyword),
-        "start" => {
-            rest(input);
-            Ok(Item::Start(keyword.place()))
-        }
+        "start" => start(input, &keyword),
         "unknown" => unknown(input, slips),
         "load" => loads::load(input, slips),
         _ => scenes::scene(input, slips),
@@ -280,8 +278,39 @@ fn drive(input: ParseStream<'_>) -> Result<Item> {
     } else {
         None
     };
-    let motion = if input.peek(Brace) { take(input).and_then(|braces| place_of(&[braces])) } else { None };
+    let mut motion = DriveMotion::default();
+    if input.peek(Brace) {
+        let content;
+        let _ = syn::braced!(content in input);
+        for (name, value) in comma_list(&content, field)? {
+            put_motion(&mut motion, &name, value)?;
+        }
+    }
     Ok(Item::Drive(Drive { name: name_, joint, coordinate, motion }))
+}
+
+/// `rate: 3000rpm`
+fn field(input: ParseStream<'_>) -> Result<(Name, Value)> {
+    let name = colon_name(input)?;
+    Ok((name, value(input)?))
+}
+
+fn put_motion(motion: &mut DriveMotion, name: &Name, value: Value) -> Result<()> {
+    const FIELDS: [&str; 2] = ["rate", "acceleration"];
+    let field = match name.text.as_str() {
+        "rate" => &mut motion.rate,
+        "acceleration" => &mut motion.acceleration,
+        other => {
+            let help = closest(other, FIELDS)
+                .map_or_else(|| format!("it has {}", FIELDS.join(" and ")), |meant| format!("did you mean `{meant}`?"));
+            return Err(Error::new(name.span, format!("the motion of a drive has no `{name}`\nhelp: {help}")));
+        }
+    };
+    if field.is_some() {
+        return Err(Error::new(name.span, format!("the {name} is said twice\nhelp: keep one of the two")));
+    }
+    *field = Some(value);
+    Ok(())
 }
 
 fn assemble(input: ParseStream<'_>, keyword: &Name) -> Result<Item> {
@@ -313,6 +342,29 @@ fn assemble(input: ParseStream<'_>, keyword: &Name) -> Result<Item> {
         None
     };
     Ok(Item::Assemble(Assemble { joint, side, joints, smooth, chosen, place }))
+}
+
+fn start(input: ParseStream<'_>, keyword: &Name) -> Result<Item> {
+    let name = colon_name(input)?;
+    let (from, end) = match magnitude(input)? {
+        Magnitude::Vector(at) => {
+            if !input.peek(Token![,]) {
+                return Err(input.error(format!(
+                    "expected `,` and the angle\nhelp: a link starts with a place and an angle, as in `start {name}: (0, 0), angle 30deg;`"
+                )));
+            }
+            input.parse::<Token![,]>()?;
+            expect_word(input, "angle")?;
+            let angle = value(input)?;
+            let end = angle.place;
+            (StartFrom::Pose(at, angle), end)
+        }
+        Magnitude::Scalar(value) => {
+            let end = value.place;
+            (StartFrom::Coordinate(value), end)
+        }
+    };
+    Ok(Item::Start(Start { name, from, place: keyword.place().to(end) }))
 }
 
 fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
