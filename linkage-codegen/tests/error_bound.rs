@@ -144,7 +144,11 @@ fn around(seed: u64, count: usize, poses: usize) {
                 let range = if name == "booms" { 0.5..3.0 } else { -1.2..1.2 };
                 let drives = vec![random.range(range.start, range.end)];
                 let loads = vec![[random.range(-50.0, 50.0), random.range(-50.0, 50.0)]; 2];
-                all.extend(check::<Double>(&linkage, &Arguments { drives, loads, params: Vec::new(), motion: Vec::new() }, &text));
+                all.extend(check::<Double>(
+                    &linkage,
+                    &Arguments { drives, loads, params: Vec::new(), motion: Vec::new() },
+                    &text,
+                ));
             }
         }
         let count = all.len();
@@ -177,7 +181,8 @@ fn near_dead_centres() {
     let mut before = 0.0;
     for exponent in 1..=7 {
         let drives = vec![core::f64::consts::PI - 10f64.powi(-exponent)];
-        let arguments = Arguments { drives, loads: vec![[10.0, -20.0], [-5.0, 30.0]], params: Vec::new(), motion: Vec::new() };
+        let arguments =
+            Arguments { drives, loads: vec![[10.0, -20.0], [-5.0, 30.0]], params: Vec::new(), motion: Vec::new() };
         let Ok(found) = scene::<Double>(&linkage, "bounded", &arguments) else { continue };
         ratios(&linkage, &arguments, &found, text);
         let bound = found["error_bound.B.x"].to_f64();
@@ -185,4 +190,40 @@ fn near_dead_centres() {
         before = bound;
     }
     assert!(before > 0.0);
+}
+
+/// Of places, velocities and accelerations too, and of inertia.
+#[test]
+fn of_motion() {
+    let text = "pub mod sample; ground { A0: (0, 0), B0: (1.5m, 0) } link crank { A0 -> A: 0.5m }
+         link coupler { A -> B: 1.1m, C: (0.25m, 0.125m) } link rocker { B0 -> B: 1.2m, D: (0.5m, -0.25m) }
+         mass coupler: 3kg at C, inertia 0.2kg*m^2; mass rocker: 2kg at D;
+         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+         drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0); load I: inertia;
+         scene place: position -> (B, coupler.C, rocker.angle, error_bound); scene v: velocity -> (B, coupler.angle, error_bound);
+         scene a: acceleration -> (B, coupler.C, rocker.angle, error_bound); scene f: equilibrium -> (T, B, error_bound);
+         scene w: virtual_work -> (T, error_bound);";
+    let linkage = support::compile(text);
+    let mut random = Random(77);
+    let mut all = Vec::new();
+    for _ in 0..40 {
+        let drives = vec![random.range(-3.0, 3.0)];
+        let motion = vec![[random.range(-20.0, 20.0), random.range(-300.0, 300.0)]];
+        let arguments = Arguments { drives, loads: vec![[0.0; 2]], params: Vec::new(), motion };
+        for name in ["place", "v", "a", "f", "w"] {
+            let Ok(found) = scene::<Double>(&linkage, name, &arguments) else { continue };
+            let exact = scene::<Extended>(&linkage, name, &arguments).expect("regular where doubles are");
+            for (path, value) in found.iter().filter(|(path, _)| !path.starts_with("error_bound.")) {
+                let error = Extended::exactly(value.to_f64()).sub(&exact[path]).to_f64().abs();
+                let bound = found[&format!("error_bound.{path}")].to_f64();
+                assert!(error <= bound, "{name}: {path} is off by {error:e}, bound {bound:e}");
+                if error > 0.0 {
+                    all.push(bound / error);
+                }
+            }
+        }
+    }
+    let (count, median) = (all.len(), median(all));
+    println!("motion: {count} results, median of bound over error {median:.1}");
+    assert!(count > 500 && median < 300.0, "{count} results, median {median:.1}");
 }
