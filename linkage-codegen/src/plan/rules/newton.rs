@@ -69,15 +69,25 @@ pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
         jacobian,
         rounding: (graph.epsilons(1) * graph.constant(&Number::ratio(ROUNDING.0, ROUNDING.1)) * reach).id(),
         known: Vec::new(),
+        changing: 0,
+        drives: Vec::new(),
+        reach: Vec::new(),
+        given: Vec::new(),
     };
     let links = search.group.clone();
-    let found = graph.found(search);
+    let failure = |gap: Expr<'_>| Failure::NoConvergence { group: links.clone(), gap: gap.id() };
+    let id = graph.enter(search, &|drive| {
+        let turns = model.drive(drive).turns;
+        let stride = graph.constant(&Number::ratio(STRIDE.0, STRIDE.1));
+        (if turns { stride } else { scale * stride }).id()
+    });
+    close_start(model, id, &failure);
+    let found = graph.found(id);
     let open = found[0].named(
         format!("open_{}", links.replace(" + ", "_")),
         "what stays open of all loops, zero where it is no more than rounding",
     );
-    let failure = || Failure::NoConvergence { group: links.clone(), gap: open.id() };
-    let mut values = found.into_iter().skip(1).map(|value| value.require_at_least(graph.zero(), open, failure()));
+    let mut values = found.into_iter().skip(1).map(|value| value.require_at_least(graph.zero(), open, failure(open)));
     let mut next = || values.next().unwrap_or_else(|| graph.zero());
     lay_out(&mut assembly.placement, group, &mut |place| match place {
         Place::Direction(link) => {
@@ -97,6 +107,31 @@ pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
 /// What rounding may leave open of all loops together, in epsilons of the lengths that make them up. A search goes on while it gains, to
 /// about a fifth of it; next to a singular pose, where it gains little, it may end here.
 const ROUNDING: (i64, i64) = (1, 2);
+
+/// How far a drive goes at most while nothing is looked at, so that the way is followed and not only its end: in radians, or in the lengths
+/// of the links together.
+const STRIDE: (i64, i64) = (1, 4);
+
+/// The declared start is rough. The search begins where it is closed, with the drives at theirs: known now, or with the parameters.
+fn close_start(model: &Model, id: SearchId, failure: &dyn Fn(Expr<'_>) -> Failure) {
+    let graph = &model.graph;
+    let search = graph.search(id);
+    let drive = |drive: &DriveId| model.drive(*drive).start.map_or(graph.zero(), |(value, _)| graph.expr(value));
+    let drives: Vec<Expr<'_>> = search.drives.iter().map(drive).collect();
+    let rough = search.start.iter().map(|node| graph.expr(*node));
+    let others = search.reach.iter().chain(&search.given).chain(&search.known);
+    let others = others.map(|node| at_start(model, graph.expr(*node)));
+    let args: Vec<Expr<'_>> = rough.chain(drives.clone()).chain(drives.clone()).chain(others).collect();
+    let found = graph.search_from(id, &args);
+    let names = search.sought.iter().flat_map(Sought::names);
+    let open = found[0].named(format!("open_{}_start", search.name), "what stays open at the start");
+    let closed = found[1..].iter().zip(names).map(|(value, name)| {
+        let value = value.require_at_least(graph.zero(), open, failure(open));
+        value.named(format!("{name}_start"), format!("{name} where the drives start"))
+    });
+    let start: Vec<Expr<'_>> = closed.chain(drives).collect();
+    graph.set_start(id, start.into_iter().map(Expr::id).collect());
+}
 
 /// Orients all links, each by a slide or a driven pin that leads to it, or else by a direction that is sought; and connects them. Gives
 /// the joints that close loops, with the way round each from its first point to its second.
