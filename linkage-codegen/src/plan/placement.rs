@@ -5,7 +5,6 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use crate::equations::loads::Posture;
 use crate::graph::{Expr, Graph, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{End, Gear, JointKind, Model};
@@ -443,21 +442,6 @@ impl<'m> Placement<'m> {
         }
         route.reverse();
         route
-    }
-}
-
-impl<'m> Posture<'m> for Placement<'m> {
-    fn model(&self) -> &'m Model {
-        self.model
-    }
-
-    fn span(&self, [from, to]: [End; 2]) -> (Vector<'m>, Option<Expr<'m>>) {
-        let way = self.way(from, to);
-        (way.vector(), Some(way.length()))
-    }
-
-    fn frame(&self, link: LinkId) -> Vector<'m> {
-        self.frame(link)
     }
 }
 

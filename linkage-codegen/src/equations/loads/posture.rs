@@ -1,7 +1,7 @@
 //! Where points and links are, as loads see them.
 
 use crate::equations::Body;
-use crate::graph::{Expr, Vector};
+use crate::graph::{Coordinate, Expr, Order, Symbol, Vector};
 use crate::model::ids::{GROUND, LinkId};
 use crate::model::{End, Model};
 
@@ -15,6 +15,15 @@ pub trait Posture<'m> {
 
     /// The direction of the x axis of a link's frame.
     fn frame(&self, link: LinkId) -> Vector<'m>;
+
+    /// The velocity of the second point as seen from the first, ground axes.
+    fn velocity(&self, ends: [End; 2]) -> Vector<'m>;
+
+    /// The rate of a link's angle, or its acceleration.
+    fn turning(&self, link: LinkId, order: Order) -> Expr<'m>;
+
+    /// The acceleration of a place in a link's frame, in the axes of the frame of one of the links.
+    fn acceleration(&self, link: LinkId, at: Vector<'m>) -> (Vector<'m>, LinkId);
 }
 
 /// In the symbols of the unreduced equations.
@@ -33,6 +42,36 @@ impl<'m> Posture<'m> for Symbolic<'m> {
 
     fn frame(&self, link: LinkId) -> Vector<'m> {
         Body::symbolic(&self.0.graph, link).direction
+    }
+
+    fn velocity(&self, ends: [End; 2]) -> Vector<'m> {
+        let [first, second] = ends.map(|end| {
+            let arm = Body::symbolic(&self.0.graph, end.link).turned(self.0.local(end));
+            self.of_origin(end.link, Order::Rate) + arm.perp().scaled(self.turning(end.link, Order::Rate))
+        });
+        second - first
+    }
+
+    fn turning(&self, link: LinkId, order: Order) -> Expr<'m> {
+        self.moving(link, Coordinate::Angle, order)
+    }
+
+    fn acceleration(&self, link: LinkId, at: Vector<'m>) -> (Vector<'m>, LinkId) {
+        let arm = Body::symbolic(&self.0.graph, link).turned(at);
+        let [rate, acceleration] = [Order::Rate, Order::Acceleration].map(|order| self.turning(link, order));
+        let turning = arm.perp().scaled(acceleration) - arm.scaled(rate.squared());
+        (self.of_origin(link, Order::Acceleration) + turning, GROUND)
+    }
+}
+
+impl<'m> Symbolic<'m> {
+    fn moving(self, link: LinkId, which: Coordinate, order: Order) -> Expr<'m> {
+        let graph = &self.0.graph;
+        if link == GROUND { graph.zero() } else { graph.symbol(Symbol::Moving(link, which, order)) }
+    }
+
+    fn of_origin(self, link: LinkId, order: Order) -> Vector<'m> {
+        Vector::new(self.moving(link, Coordinate::X, order), self.moving(link, Coordinate::Y, order))
     }
 }
 

@@ -11,15 +11,13 @@ use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Symbol, Vector};
-use crate::model::ids::GROUND;
 use crate::model::ids::{DriveId, JointId, LinkId, UnknownId};
 use crate::model::{End, JointKind, Model, UnknownKind};
 use crate::plan::assembly::{Assembly, DyadPivot};
 use crate::plan::balance::Balance;
-use crate::plan::framed::Framed;
 use crate::plan::pivots::{divisor, significant};
 use crate::plan::placement::{Orientation, Placement, Way};
-use crate::plan::velocities::Motion;
+use crate::plan::velocities::{Motion, Twist};
 use crate::topology::{Group, Input};
 
 /// A body of a dyad.
@@ -277,33 +275,16 @@ impl<'a> Dyad<'a> {
         Ok(())
     }
 
-    /// The velocity of a leg's inner joint that its drives give it while its first link rests.
-    pub(super) fn driven_velocity(&self, motion: &Motion<'a, '_>, leg: &Leg) -> Framed<'a> {
-        let (graph, placement) = (motion.graph(), motion.placement);
-        let still = Framed { components: graph.zero_vector(), axes: placement.direction(GROUND) };
-        leg.driven_from(self.model, leg.link()).into_iter().fold(still, |sum, (drive, link)| {
-            let joint = self.model.joint(self.model.drive(drive).joint);
-            let rate = motion.rate_of(UnknownId::new(drive.index()));
-            let rate = if joint.to.link == link { rate } else { -rate };
-            let part = match joint.kind {
-                JointKind::Prismatic { .. } => {
-                    let axes = placement.slide_direction(self.model.drive(drive).joint);
-                    Framed { components: Vector::new(rate, graph.zero()), axes }
-                }
-                // A pin: bodies hold no other driven joints.
-                _ => {
-                    let arm = placement.way(joint.end_on(link).unwrap_or(joint.to), leg.tip).vector();
-                    Framed { components: arm.perp().scaled(rate), axes: placement.direction(GROUND) }
-                }
-            };
-            sum.plus(&part, placement.direction(GROUND))
-        })
+    /// Moves a leg about its outer joint: its first link turns at this rate, the others as their drives say.
+    pub(super) fn turn(&self, motion: &mut Motion<'a, '_>, leg: &Leg, rate: Expr<'a>) -> RuleResult {
+        let (at, velocity) = (motion.placement.point(leg.near), motion.of_point(leg.far));
+        motion.found(leg.link(), Twist { rate, at, velocity });
+        self.follow_rest(motion, leg, leg.link())
     }
 
-    /// The virtual velocities of the other links of a leg, once that of its first one is found.
-    pub(super) fn follow_rest(&self, motion: &mut Motion<'a, '_>, leg: &Leg) -> RuleResult {
-        let effort = |drive: DriveId| Input::Unknown(UnknownId::new(drive.index()));
-        self.driven(leg, leg.link(), effort).iter().try_for_each(|(rule, group)| rule.follow(motion, group))
+    /// The motion of the other links of a leg, once that of one of them is found.
+    pub(super) fn follow_rest(&self, motion: &mut Motion<'a, '_>, leg: &Leg, found: LinkId) -> RuleResult {
+        self.driven(leg, found, Input::Drive).iter().try_for_each(|(rule, group)| rule.follow(motion, group))
     }
 
     pub(super) fn pivot_name(&self) -> String {

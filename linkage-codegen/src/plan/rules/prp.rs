@@ -119,9 +119,12 @@ impl Rule for Prp {
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let Some(dyad) = sliders(motion.model(), group) else { return Ok(()) };
         let [first, second] = &dyad.legs;
-        let ground = motion.placement.direction(GROUND);
-        let carried = dyad.legs.each_ref().map(|leg| super::slide::carried(motion, leg.outer, leg.link(), leg.tip));
-        let gap = motion.difference(&carried[1], &carried[0]);
+        for leg in &dyad.legs {
+            motion.found(leg.link(), motion.carried(leg.outer, leg.link()));
+            dyad.follow_rest(motion, leg, leg.link())?;
+        }
+        let carried = dyad.legs.each_ref().map(|leg| motion.of_point(leg.tip));
+        let gap = motion.lacking(dyad.inner, &carried[1], &carried[0]);
         let across = -motion.part(&gap, motion.placement.slide_direction(second.outer).perp());
         let speed = if across.is_zero() {
             across
@@ -129,22 +132,15 @@ impl Rule for Prp {
             across
                 / motion.pivots.dividing_slides(motion.placement, slides(&dyad), &dyad.pivot_name(), &dyad.group_name())
         };
-        let slide = dyad.joint_name(first.outer);
-        let speed = speed.named(
-            motion.name(&format!("speed_{slide}")),
-            format!(
-                "speed of {} along the slide {slide}: the guides' relative velocity across the other slide over {}",
-                dyad.link_name(first),
-                dyad.pivot_name()
-            ),
-        );
-        let axes = motion.placement.slide_direction(first.outer);
-        let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes };
-        let velocity = carried[0].plus(&sliding, ground);
-        for leg in &dyad.legs {
+        let how = format!(": the guides' relative {{velocity}} across the other slide over {}", dyad.pivot_name());
+        let speed = motion.named_sliding(speed, first.outer, &dyad.link_name(first), &how);
+        motion.records(first.outer, first.link(), speed);
+        let sliding = motion.along_slide(first.outer, speed);
+        let velocity = carried[0].plus(&sliding, motion.placement.direction(GROUND));
+        dyad.legs.iter().try_for_each(|leg| {
             let at = motion.placement.point(leg.tip);
-            motion.found(leg.link(), Twist { rate: motion.rate(leg.far.link), at, velocity });
-        }
-        Ok(())
+            motion.found(leg.tip.link, Twist { rate: motion.rate(leg.tip.link), at, velocity });
+            dyad.follow_rest(motion, leg, leg.tip.link)
+        })
     }
 }

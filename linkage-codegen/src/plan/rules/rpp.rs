@@ -16,13 +16,11 @@
 
 use super::dyad::{Dyad, dyad};
 use super::{Rule, RuleResult};
-use crate::graph::Vector;
 use crate::model::Model;
 use crate::model::ids::{GROUND, JointId};
 use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
-use crate::plan::framed::Framed;
-use crate::plan::velocities::{Motion, Twist};
+use crate::plan::velocities::Motion;
 use crate::topology::Group;
 
 /// The rule.
@@ -123,17 +121,13 @@ impl Rule for Rpp {
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let Some(dyad) = sliders(motion.model(), group) else { return Ok(()) };
         let [pinned, slider] = &dyad.legs;
-        let ground = motion.placement.direction(GROUND);
-        let rate = motion.rate(slider.far.link);
         let pin = motion.of_point(pinned.far);
-        let at = motion.placement.slide_point(slider.outer, slider.link());
-        // All directions are the outer guide's: the way from its runner to the pin goes through the inner slide.
-        let way = motion.placement.slide_point(dyad.inner, slider.link()) - at + motion.placement.point(pinned.near)
-            - motion.placement.slide_point(dyad.inner, pinned.link());
-        let guide = slider.far.link;
-        let guided = motion.of_place(guide, motion.placement.slide_point(slider.outer, guide));
-        let turning = Framed { components: way.perp().scaled(rate), axes: motion.placement.direction(slider.link()) };
-        let gap = motion.difference(&pin, &guided.plus(&turning, ground));
+        // Neither slides: the way from the outer guide's runner to the pin goes through the inner slide.
+        motion.found(slider.link(), motion.carried(slider.outer, slider.link()));
+        dyad.follow_rest(motion, slider, slider.link())?;
+        motion.found(pinned.tip.link, motion.carried(dyad.inner, pinned.tip.link));
+        dyad.follow_rest(motion, pinned, pinned.tip.link)?;
+        let gap = motion.lacking(pinned.outer, &pin, &motion.of_point(pinned.near));
         let across = -motion.part(&gap, motion.placement.slide_direction(dyad.inner).perp());
         let speed = if across.is_zero() {
             across
@@ -141,19 +135,11 @@ impl Rule for Rpp {
             across
                 / motion.pivots.dividing_slides(motion.placement, slides(&dyad), &dyad.pivot_name(), &dyad.group_name())
         };
-        let slide = dyad.joint_name(slider.outer);
-        let speed = speed.named(
-            motion.name(&format!("speed_{slide}")),
-            format!(
-                "speed of {} along the slide {slide}: relative velocity across the inner slide over {}",
-                dyad.link_name(slider),
-                dyad.pivot_name()
-            ),
-        );
-        let axes = motion.placement.slide_direction(slider.outer);
-        let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes };
-        motion.found(slider.link(), Twist { rate, at, velocity: guided.plus(&sliding, ground) });
-        motion.found(pinned.link(), Twist { rate, at: motion.placement.point(pinned.near), velocity: pin });
-        Ok(())
+        let how = format!(": relative {{velocity}} across the inner slide over {}", dyad.pivot_name());
+        let speed = motion.named_sliding(speed, slider.outer, &dyad.link_name(slider), &how);
+        motion.slides(slider.outer, slider.link(), speed);
+        dyad.follow_rest(motion, slider, slider.link())?;
+        let rate = motion.rate(pinned.link());
+        dyad.turn(motion, pinned, rate)
     }
 }

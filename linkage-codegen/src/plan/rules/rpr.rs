@@ -17,17 +17,18 @@
 //! Velocities: `v_Q − v_P = ω d⊥ + ṡ e`, multiplied by n: `ω = n·(v_Q − v_P)/s`. So s is the pivot: where it vanishes, the line between
 //! the pins is square to the slide.
 
-use super::dyad::{Dyad, dyad, towards_unit};
+use super::dyad::{Dyad, Leg, dyad, towards_unit};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
-use crate::model::ids::JointId;
+use crate::model::ids::{GROUND, JointId};
 use crate::model::{Model, Side};
 use crate::plan::assembly::{Assembly, DyadPivot};
 use crate::plan::balance::Balance;
+use crate::plan::framed::Framed;
 use crate::plan::pivots::Pivots;
 use crate::plan::placement::{Orientation, Placement};
-use crate::plan::velocities::{Motion, Twist};
+use crate::plan::velocities::Motion;
 use crate::topology::Group;
 
 /// The rule.
@@ -97,7 +98,7 @@ impl Rule for Rpr {
         super::slide::guide(balance, dyad.inner, leg.link(), acting, pin);
         let guided = balance.reaction(dyad.inner).force;
         let guided = if leg.link() == second.link() { guided } else { guided.opposite() };
-        let ground = balance.placement.direction(crate::model::ids::GROUND);
+        let ground = balance.placement.direction(GROUND);
         balance.pin(leg.outer, leg.link(), loads.plus(&guided, ground).opposite());
         // The guide has put its part on the other link.
         let held = balance.total(other.link());
@@ -109,24 +110,45 @@ impl Rule for Rpr {
         let Some(dyad) = sliding_pair(motion.model(), group) else { return Ok(()) };
         let [first, second] = &dyad.legs;
         let e = motion.placement.slide_direction(dyad.inner);
-        let [p, q] = [first, second].map(|leg| motion.of_point(leg.far));
-        let gap = motion.difference(&q, &p);
+        // If the bodies that slide along each other did not turn; what drives within the legs turn them by is taken off.
+        let own = turns_within(&dyad, motion)?;
+        let ground = motion.placement.direction(GROUND);
+        let carried = place_on(&dyad, motion, first).plus(&motion.coriolis(dyad.inner, second.tip.link), ground);
+        let gap = motion.lacking(dyad.inner, &place_on(&dyad, motion, second), &carried);
         let across = motion.part(&gap, e.perp());
         let rate = if across.is_zero() { across } else { across / reach(&dyad, motion.placement, motion.pivots) };
         let [one, other] = [first, second].map(|leg| dyad.link_name(leg));
-        let rate = rate.named(
-            motion.name(&format!("rate_{one}")),
-            format!(
-                "rate of rotation of {one} and {other}: the pins' relative velocity across the slide over {}",
-                pivot_name(&dyad)
-            ),
-        );
-        for (leg, velocity) in [(first, p), (second, q)] {
-            let at = motion.placement.point(leg.near);
-            motion.found(leg.link(), Twist { rate, at, velocity });
+        let how = format!(" and {other}: the pins' relative {{velocity}} across the slide over {}", pivot_name(&dyad));
+        let rate = motion.named_rate(rate, &one, &how);
+        if [first, second].into_iter().all(Leg::is_single) {
+            // Turning, the slide's places on the two links move apart along it.
+            let arm =
+                |leg: &Leg| motion.placement.slide_point(dyad.inner, leg.link()) - motion.placement.point(leg.near);
+            let apart = (arm(second) - arm(first)).perp().dot(motion.placement.slide_along(dyad.inner));
+            let sliding = motion.part(&gap, e) + rate * apart;
+            motion.records(dyad.inner, second.link(), sliding);
         }
-        Ok(())
+        let legs = [(first, own[0]), (second, own[1])];
+        legs.into_iter().try_for_each(|(leg, own)| dyad.turn(motion, leg, rate - own))
     }
+}
+
+/// Supposes that the links that slide along each other do not turn. Gives what drives turn them by within their legs.
+fn turns_within<'m>(dyad: &Dyad<'m>, motion: &mut Motion<'m, '_>) -> Result<[Expr<'m>; 2], Diagnostic> {
+    let mut own = [motion.graph().zero(); 2];
+    for (leg, own) in dyad.legs.iter().zip(&mut own) {
+        dyad.turn(motion, leg, *own)?;
+        *own = motion.rate(leg.tip.link);
+        if !own.is_zero() {
+            dyad.turn(motion, leg, -*own)?;
+        }
+    }
+    Ok(own)
+}
+
+/// The velocity of the slide's place on a leg.
+fn place_on<'m>(dyad: &Dyad<'m>, motion: &Motion<'m, '_>, leg: &Leg) -> Framed<'m> {
+    motion.of_place(leg.tip.link, motion.placement.slide_point(dyad.inner, leg.tip.link))
 }
 
 fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> RuleResult {

@@ -23,7 +23,7 @@ use crate::plan::assembly::{Assembly, DyadPivot};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::placement::Way;
-use crate::plan::velocities::{Motion, Twist};
+use crate::plan::velocities::Motion;
 use crate::topology::Group;
 
 /// The rule.
@@ -102,43 +102,25 @@ impl Rule for Rrp {
         let slide = slider_leg.outer;
         let e = motion.placement.slide_direction(slide);
         let u = dyad.direction(motion.placement, rod_leg);
-        let far = slider_leg.far.link;
         // The slider turns with the link that guides it, and B moves with that link but for the sliding:
         // v_A + ω r u⊥ = v_C + ṡ e, multiplied by n and by u.
-        let slider_rate = motion.rate(far);
-        let at = motion.placement.slide_point(slide, slider_leg.link());
-        let guided = motion.of_place(far, motion.placement.slide_point(slide, far));
-        let inner = motion.placement.point(slider_leg.tip);
-        let ground = motion.placement.direction(GROUND);
-        let turning = Framed {
-            components: (inner - at).perp().scaled(slider_rate),
-            axes: motion.placement.direction(slider_leg.link()),
-        };
-        let carried = guided.plus(&turning, ground);
-        let outer = motion.of_point(rod_leg.far);
-        let gap = motion.difference(&carried, &outer);
+        motion.found(slider_leg.link(), motion.carried(slide, slider_leg.link()));
+        dyad.follow_rest(motion, slider_leg, slider_leg.link())?;
+        dyad.turn(motion, rod_leg, motion.graph().zero())?;
+        let gap = motion.lacking(dyad.inner, &motion.of_point(slider_leg.tip), &motion.of_point(rod_leg.tip));
         let cosine = motion.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
         let rod = dyad.link_name(rod_leg);
         let across = motion.part(&gap, e.perp());
         let rate = if across.is_zero() { across } else { (across / cosine) / dyad.length(rod_leg) };
-        let rate = rate.named(
-            motion.name(&format!("rate_{rod}")),
-            format!("rate of rotation of {rod}: the pins' relative velocity across the slide over length times u·e"),
-        );
+        let how = ": the pins' relative {velocity} across the slide over length times u·e";
+        let rate = motion.named_rate(rate, &rod, how);
         let along = motion.part(&gap, u);
         let speed = if along.is_zero() { along } else { -(along / cosine) };
-        let speed = speed.named(
-            motion.name(&format!("speed_{}", dyad.joint_name(slide))),
-            format!(
-                "speed of {} along the slide: the pins' relative velocity along {rod} over u·e",
-                dyad.link_name(slider_leg)
-            ),
-        );
-        let rod_at = motion.placement.point(rod_leg.near);
-        motion.found(rod_leg.link(), Twist { rate, at: rod_at, velocity: outer });
-        let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes: e };
-        motion.found(slider_leg.link(), Twist { rate: slider_rate, at, velocity: guided.plus(&sliding, ground) });
-        Ok(())
+        let how = format!(": the pins' relative {{velocity}} along {rod} over u·e");
+        let speed = motion.named_sliding(speed, slide, &dyad.link_name(slider_leg), &how);
+        dyad.turn(motion, rod_leg, rate)?;
+        motion.slides(slide, slider_leg.link(), speed);
+        dyad.follow_rest(motion, slider_leg, slider_leg.link())
     }
 }
 
