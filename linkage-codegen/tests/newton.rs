@@ -145,6 +145,7 @@ fn check_far(seeds: core::ops::Range<u64>) -> [usize; 3] {
             sliders: seed % 2 == 1,
             joints: false,
             unknown_anywhere: false,
+            moving: false,
             params: seed % 3 == 2,
             scalar: "f64",
         };
