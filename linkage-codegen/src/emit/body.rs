@@ -275,7 +275,7 @@ impl<'a> Body<'a> {
                 let sizes = sizes.chunks(unknowns).map(|row| quote!([#(#row),*]));
                 quote!(math::solve([#(#rows),*], [#(#sizes),*], [#(#right),*]))
             }
-            Kernel::Search { search, .. } => super::search::call(&self.graph.search(search), &args),
+            Kernel::Search { search, .. } => super::search::call(self.graph, &self.graph.search(search), &args),
         }
     }
 

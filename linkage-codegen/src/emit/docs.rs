@@ -124,7 +124,7 @@ pub(super) fn function(summary: &str, points: &[String], program: &Program, equa
 pub(super) fn search(search: &Search, program: &Program) -> TokenStream {
     lines(&format!(
         "Places {} by Newton's method, from `start` with the drives at `from`: what stays open, and the places.\n\n\
-         The drives go straight to `to`, by strides of no more than `reach` after which the group is closed again.\n\n\
+         The drives go straight to `to`, by short strides, and after each of them the group is closed again.\n\n\
          A step turns each direction `u` by `δ`, to the direction of `u + δ u⊥`; the steps solve `J δ = −gap`, with the exact Jacobian `J`.\n\n\
          Operations of a step, beside the solution of its {} equations: {}.",
         search.group,

@@ -1,20 +1,19 @@
 //! The functions that place groups by Newton's method.
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{ToTokens, quote};
 
 use super::body::Body;
-use super::literals::ident;
+use super::literals::{ident, signed_literal};
 use super::{docs, name_of};
 use crate::Linkage;
 use crate::emit::types::scalar;
-use crate::graph::{Op, Search, Sought, Symbol};
+use crate::graph::{Graph, Op, Search, Sought, Symbol};
 use crate::model::Model;
 use crate::program::{Input, Program, SearchFunctions};
 
 /// Names that a function's own values cannot have.
-const TAKEN: [&str; 10] =
-    ["search", "start", "from", "to", "reach", "way", "changing", "EQUATIONS", "OPERATIONS", "SOURCE"];
+const TAKEN: [&str; 9] = ["search", "start", "from", "to", "way", "changing", "EQUATIONS", "OPERATIONS", "SOURCE"];
 
 /// The functions of all searches.
 pub(super) fn functions(linkage: &Linkage) -> TokenStream {
@@ -39,6 +38,8 @@ struct Names {
     known: Vec<String>,
     given: Vec<String>,
     drives: Vec<String>,
+    /// How far each drive goes in a stride, where only parameters tell.
+    reach: Vec<Option<String>>,
 }
 
 fn names(linkage: &Linkage, search: &Search) -> Names {
@@ -69,7 +70,13 @@ fn names(linkage: &Linkage, search: &Search) -> Names {
         Some(index) => given[index].clone(),
         None => distinct(own_name(node), "known"),
     });
-    Names { known: known.collect(), given, drives }
+    let known = known.collect();
+    let reach = search.reach.iter().zip(&search.drives).map(|(node, drive)| {
+        let name = format!("reach_{}", model.drive(*drive).name);
+        model.graph.constant_value(*node).is_none().then(|| distinct(Some(name), "reach"))
+    });
+    let reach = reach.collect();
+    Names { known, given, drives, reach }
 }
 
 /// The name under which a pose keeps a number of an unknown, or a drive.
@@ -82,19 +89,21 @@ pub(super) fn kept_name(model: &Model, search: &Search, number: u8) -> String {
 fn arguments(search: &Search, names: &Names) -> Vec<String> {
     let own = |node: &crate::graph::NodeId| !search.given.contains(node);
     let known = search.known.iter().zip(&names.known).filter(|(node, _)| own(node)).map(|(_, name)| name);
-    names.given.iter().chain(known).cloned().collect()
+    names.reach.iter().flatten().chain(&names.given).chain(known).cloned().collect()
 }
 
 /// The call of a search with the code of its arguments.
-pub(super) fn call(search: &Search, all: &[TokenStream]) -> TokenStream {
+pub(super) fn call(graph: &Graph, search: &Search, all: &[TokenStream]) -> TokenStream {
     let parts = search.arguments(all);
     let (directions, travels) = parts.start.split_at(2 * search.directions());
     let directions = directions.chunks(2).map(|pair| quote!((#(#pair),*)));
-    let (from, to, reach, given) = (parts.from, parts.to, parts.reach, parts.given);
+    let (from, to, given) = (parts.from, parts.to, parts.given);
+    let reach = search.reach.iter().zip(parts.reach).filter(|(node, _)| graph.constant_value(**node).is_none());
+    let reach = reach.map(|(_, value)| value);
     let known =
         search.known.iter().zip(parts.known).filter(|(node, _)| !search.given.contains(node)).map(|(_, value)| value);
     let name = ident(&search.name);
-    quote!(#name(([#(#directions),*], [#(#travels),*]), [#(#from),*], [#(#to),*], [#(#reach),*], #(#given,)* #(#known),*))
+    quote!(#name(([#(#directions),*], [#(#travels),*]), [#(#from),*], [#(#to),*], #(#reach,)* #(#given,)* #(#known),*))
 }
 
 /// The pattern of what a search gives, of the names of its parts.
@@ -140,6 +149,11 @@ fn close(linkage: &Linkage, search: &Search, functions: &SearchFunctions) -> Tok
     let changing = of(&names.known[..search.changing]);
     let (given, drives, all) = (of(&names.given), of(&names.drives), of(&arguments(search, &names)));
     let (name, way) = (ident(&search.name), ident(&search.way_name()));
+    let graph = &linkage.model.graph;
+    let reach = search.reach.iter().zip(&names.reach).map(|(node, name)| match (name, graph.constant_value(*node)) {
+        (None, Some(value)) => signed_literal(&value, graph.scalar()),
+        (name, _) => ident(name.as_deref().unwrap_or_default()).to_token_stream(),
+    });
     let lines = docs::search(search, &functions.step);
     let drive_count = proc_macro2::Literal::usize_unsuffixed(search.drives.len());
     let [directions, travels] = [directions, travels].map(proc_macro2::Literal::usize_unsuffixed);
@@ -149,10 +163,9 @@ fn close(linkage: &Linkage, search: &Search, functions: &SearchFunctions) -> Tok
             start: ([(#scalar, #scalar); #directions], [#scalar; #travels]),
             from: [#scalar; #drive_count],
             to: [#scalar; #drive_count],
-            reach: [#scalar; #drive_count],
             #(#all: #scalar),*
         ) -> (#scalar, [(#scalar, #scalar); #directions], [#scalar; #travels]) {
-            let mut search = math::Search::new(start, from, to, reach);
+            let mut search = math::Search::new(start, from, to, [#(#reach),*]);
             while let Some(way) = search.way() {
                 let changing = match way {
                     math::Way::Wanted => Some([#(#changing),*]),

@@ -245,6 +245,21 @@ impl Graph {
         }
     }
 
+    /// Whether an expression reads a symbol of a search.
+    #[must_use]
+    pub fn depends_on(&self, expression: Expr<'_>, symbol: Symbol) -> bool {
+        let (mut open, mut seen) = (vec![expression.id()], std::collections::BTreeSet::new());
+        while let Some(node) = open.pop() {
+            if self.stage(node) == Stage::Iterated && seen.insert(node) {
+                match self.op(node) {
+                    Op::Symbol(own) if own == symbol => return true,
+                    op => open.extend(op.operands()),
+                }
+            }
+        }
+        false
+    }
+
     /// The drives and all else from which some expressions are worked out.
     fn note_given(&self, results: &[NodeId], search: &mut Search) {
         let mut open: Vec<NodeId> = results.iter().rev().copied().collect();
