@@ -512,8 +512,8 @@ fn power<T: Real>(exponent: i32) -> T {
 }
 
 /// Whether a length is at most so much; one that is no number is not.
-fn within<T: Real>(size: &Size<T>, most: &T) -> bool {
-    size.as_ref().is_some_and(|size| most.at_least(size))
+fn within<T: Real>(size: Option<&T>, most: &T) -> bool {
+    size.is_some_and(|size| most.at_least(size))
 }
 
 impl<T: Real> Newton<T> {
@@ -565,7 +565,8 @@ impl<T: Real> Newton<T> {
             Mode::Walks if !self.arrived => self.stride = self.stride.mul(&power(-1)),
             Mode::Walks if one.above(&self.ahead) => {
                 (self.closed, self.behind) = (self.best.clone(), self.ahead.clone());
-                let easy = self.first.as_ref().is_some_and(|first| within(&self.second, &power::<T>(-4).mul(first)));
+                let easy =
+                    self.first.as_ref().is_some_and(|first| within(self.second.as_ref(), &power::<T>(-4).mul(first)));
                 if easy {
                     self.stride = self.stride.mul(&power(1));
                 }
@@ -638,7 +639,9 @@ impl<T: Real> Newton<T> {
                 _ => None,
             };
             let closes = rounding.at_least(&open);
-            let contracts = most.is_some_and(|most| within(&longest, &most)) || within(&longest, &self.short) || closes;
+            let contracts = most.is_some_and(|most| within(longest.as_ref(), &most))
+                || within(longest.as_ref(), &self.short)
+                || closes;
             self.best.clone_from(&self.next);
             (self.open, self.rounding, self.scales) = (Some(open), rounding, scales);
             self.last.clone_from(&longest);
@@ -659,13 +662,13 @@ impl<T: Real> Newton<T> {
             }
             self.arrived = closes;
             let one = power::<T>(0);
-            let near = self.first.as_ref().is_some_and(|first| within(&longest, &power::<T>(-4).mul(first)));
+            let near = self.first.as_ref().is_some_and(|first| within(longest.as_ref(), &power::<T>(-4).mul(first)));
             if walks && one.above(&self.ahead) && near {
                 (self.arrived, self.evaluations) = (true, 0);
             }
             return;
         }
-        if self.arrived || walks && !within(&self.last, &self.short) {
+        if self.arrived || walks && !within(self.last.as_ref(), &self.short) {
             self.evaluations = 0;
         }
         self.step = self.step.iter().map(|s| s.mul(&power(-1))).collect();
