@@ -43,6 +43,7 @@ pub fn module(mut model: Model) -> TokenStream {
         let arguments = arguments(prepared.clone(), &drives, given);
         quote!(pub fn #name(#arguments) -> Result<#ty, Error> { loop {} })
     });
+    let limits = super::limits::fallback(model, &runtime);
     let (motion, loads) = (motion(model), loads(model, false));
     let own = names.iter().map(|name| name.unraw().to_string());
     // Whether there is a search is not known; a pose can be moved unless something else has that name.
@@ -62,6 +63,7 @@ pub fn module(mut model: Model) -> TokenStream {
                 #motion
                 #loads
                 #params
+                #limits
                 #pose
                 impl #lifetime Pose #lifetime {
                     pub fn at(#at) -> Result<Self, Error> { loop {} }
@@ -270,6 +272,10 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
             _ => terms(),
         },
         Some(Wanted::Point(_)) => vector,
+        Some(Wanted::ErrorBound) => {
+            let others = Scene { results: without_bounds(scene), ..scene.clone() };
+            record(model, &others, zero)
+        }
         Some(Wanted::Resolved(_, along)) => {
             let names = if let Along::Path = along { ["tangential", "normal"] } else { ["axial", "transverse"] };
             Output::Record(names.map(|name| field(name, number.clone())).into())
@@ -285,4 +291,8 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
         Some(Wanted::Along(..)) => Output::Resolved([zero, zero]),
         Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..) | Wanted::Power(_)) | None => number,
     }
+}
+
+fn without_bounds(scene: &Scene) -> Vec<Wanted> {
+    scene.results.iter().copied().filter(|wanted| *wanted != Wanted::ErrorBound).collect()
 }

@@ -366,6 +366,8 @@ pub struct Start {
     pub origin: Pair,
     /// The direction of its frame's x axis.
     pub direction: Pair,
+    /// The angle of that direction, with all its turns.
+    pub angle: NodeId,
     /// Where it was declared.
     pub place: Place,
 }
@@ -537,7 +539,7 @@ pub enum LoadKind {
 }
 
 /// What is wanted.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// Its name.
     pub name: Name,
@@ -615,6 +617,8 @@ pub enum Wanted {
     OnGround(End),
     /// The power of an unknown; of all of them.
     Power(Option<UnknownId>),
+    /// Bounds of the rounding errors of all other results.
+    ErrorBound,
 }
 
 /// What moves.
@@ -730,6 +734,7 @@ impl Model {
             Wanted::OnGround(end) => format!("ground_about_{}", point(end)?),
             Wanted::Power(None) => "power".to_owned(),
             Wanted::Power(Some(unknown)) => format!("{}_power", self.unknowns.get(unknown.index())?.name),
+            Wanted::ErrorBound => scenes::ERROR_BOUND.to_owned(),
         })
     }
 

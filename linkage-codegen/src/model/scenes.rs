@@ -196,7 +196,6 @@ fn end_of(item: &ResultItem) -> ast::End {
         ResultItem::Point(link, point) => ast::End { link: link.clone(), point: Some(point.clone()) },
         ResultItem::Along(joint, _) | ResultItem::About(joint, _) => joint.clone(),
         ResultItem::OfLink(what, _) | ResultItem::OfPoint(what, _) => ast::End { link: what.clone(), point: None },
-        ResultItem::Planned { of, .. } => of.clone(),
     }
 }
 
@@ -289,13 +288,6 @@ fn result(
     match item {
         // Of a method that is not known, nothing is known of its results.
         _ if given.method.text != word(method) => Ok(None),
-        ResultItem::Planned { of, place, what } => Err(Diagnostic::new(*place, format!("{what} is not supported yet"))
-            .help(match method {
-                Method::Equilibrium | Method::Superposition if names.find(Role::Joint, &of.link).is_ok() => {
-                    format!("ask for `{}` itself, and resolve it yourself", of.link)
-                }
-                _ => "leave it out".to_owned(),
-            })),
         ResultItem::Point(link, point) => {
             let place = link.place().to(point.place());
             let Some(id) = names.find(Role::Link, link)?.map(LinkId::new) else { return Ok(None) };
@@ -511,6 +503,13 @@ fn named_result(
             _ => Ok(Some(Wanted::Unknown(UnknownId::new(index)))),
         };
     }
+    if name.text == ERROR_BOUND && names.entry(ERROR_BOUND).is_none() {
+        return match method {
+            Method::Superposition => Err(cannot(given, name.place(), ERROR_BOUND, "the bound of the errors")
+                .help("`equilibrium` gives it, of one load too")),
+            _ => Ok(Some(Wanted::ErrorBound)),
+        };
+    }
     match names.entry(&name.text).map(|entry| (entry.role, entry.index)) {
         Some((Role::Broken, _)) => Ok(None),
         Some((Role::Joint, index)) => match method {
@@ -555,6 +554,9 @@ fn named_result(
     }
 }
 
+/// The word for the bounds of all errors among a scene's results.
+pub(crate) const ERROR_BOUND: &str = "error_bound";
+
 fn cannot(given: &ast::Scene, place: Place, result: &str, what: &str) -> Diagnostic {
     Diagnostic::new(place, format!("`{}` cannot give `{result}`: {what} is not among its results", given.method))
 }
@@ -571,12 +573,13 @@ pub fn type_name(name: &str) -> String {
 }
 
 /// Types of the generated module and names that it takes from elsewhere.
-pub(crate) const OWN_TYPES: [&str; 14] = [
+pub(crate) const OWN_TYPES: [&str; 15] = [
     "Pose",
     "Motion",
     "Loads",
     "Params",
     "Linkage",
+    "Limits",
     "Error",
     "Result",
     "Vector2",
@@ -598,6 +601,9 @@ fn check_values(model: &Model, sink: &Sink) {
         values.insert("motion".into(), "holds the rates of the drives".into());
     }
     values.insert("linkage".into(), "holds what is prepared from the parameters".into());
+    for constant in ["EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"] {
+        values.insert(constant.into(), "is a constant of the module".into());
+    }
     for link in &model.links {
         for part in ["cos", "sin"] {
             values.insert(format!("{}_{part}", link.name), format!("is the direction of `{}`", link.name));
@@ -607,6 +613,9 @@ fn check_values(model: &Model, sink: &Sink) {
     for joint in &model.joints {
         values.insert(format!("travel_{}", joint.name), format!("is the travel of `{}`", joint.name));
         values.insert(format!("travel_{}_before", joint.name), format!("is a travel of `{}`", joint.name));
+    }
+    for drive in model.drives.iter().filter(|_| !model.starts.is_empty()) {
+        values.insert(format!("{}_before", drive.name), format!("is where `{}` comes from", drive.name));
     }
     let params = model.params.iter().map(|param| (&param.name, vec![param.name.text.clone()]));
     let drives = model.drives.iter().map(|drive| {
@@ -726,5 +735,6 @@ fn types_of(model: &Model, scene: &Scene) -> Vec<String> {
     });
     let records = records.chain(resolved.map(|name| format!("{base}{}", type_name(&name))));
     let parts = (scene.method == Method::Superposition).then(|| format!("{base}Contribution"));
-    core::iter::once(base.clone()).chain(parts).chain(records).collect()
+    let bounds = scene.results.contains(&Wanted::ErrorBound).then(|| format!("{base}ErrorBound"));
+    core::iter::once(base.clone()).chain(parts).chain(bounds).chain(records).collect()
 }

@@ -6,6 +6,7 @@
 mod assembly;
 mod balance;
 pub mod efforts;
+mod error_bound;
 mod framed;
 mod half_angle;
 mod linear;
@@ -166,10 +167,14 @@ impl Plan {
             accelerations: accelerations.as_ref(),
         };
         let links = placed_links(posed);
+        let accessors = accessors(&assembly);
+        let mut pose = kept(&assembly);
+        let mut scenes = scenes::outputs(&assembly, posed, &force_rules, (system, &links), sink);
+        pose.extend(error_bound::add(&assembly, &mut scenes, &pose, sink));
         let plan = Self {
-            pose: kept(&assembly),
-            accessors: accessors(&assembly),
-            scenes: scenes::outputs(&assembly, posed, &force_rules, (system, &links), sink),
+            pose,
+            accessors,
+            scenes,
             links,
             motion_rules: motion_rules.iter().map(|rule| rule.class()).collect(),
             force_rules: force_rules.iter().map(|rule| rule.class()).collect(),
@@ -269,6 +274,10 @@ fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
         let name = &model.link(link).name;
         keep(format!("{name}_cos"), format!("cosine of the direction carried by `{name}`"), direction.x);
         keep(format!("{name}_sin"), format!("sine of the direction carried by `{name}`"), direction.y);
+    }
+    for (link, angle) in assembly.placement.angles() {
+        let name = &model.link(link).name;
+        keep(format!("angle_{name}"), format!("angle of `{name}`, rad, with all its turns"), angle);
     }
     for (joint, travel) in assembly.placement.travels() {
         let name = &model.joint(joint).name;

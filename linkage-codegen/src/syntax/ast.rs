@@ -555,13 +555,4 @@ pub enum ResultItem {
     OfLink(Name, Name),
     /// `shaking(ground.O)`
     OfPoint(Name, End),
-    /// A form that is not carried out yet.
-    Planned {
-        /// What it is about.
-        of: End,
-        /// The whole.
-        place: Place,
-        /// What it is called.
-        what: &'static str,
-    },
 }
