@@ -52,6 +52,7 @@ pub mod math;
 #[cfg(feature = "reference")]
 pub mod reference;
 mod results;
+mod search;
 mod support;
 
 pub use error::Error;
@@ -70,12 +71,14 @@ pub mod __private {
         pub use crate::math::f32::*;
         crate::limits::limits!(f32);
         crate::linear::linear!(f32);
+        crate::search::search!(f32);
         crate::support::support!(f32, x => x);
     }
     pub mod f64 {
         pub use crate::math::f64::*;
         crate::limits::limits!(f64);
         crate::linear::linear!(f64);
+        crate::search::search!(f64);
         crate::support::support!(f64, x => x as f32);
     }
 }

@@ -235,7 +235,8 @@ fn closed_forms(linkage: &Linkage) -> String {
     let pose = &linkage.functions.pose;
     add("pose, from the drives".into(), pose, &body(linkage, pose));
     let searches = linkage.model.graph.searches();
-    for ((_, search), program) in searches.iter().zip(&linkage.functions.searches) {
+    for ((_, search), functions) in searches.iter().zip(&linkage.functions.searches) {
+        let program = &functions.step;
         let heading = format!("{}, each step until nothing but rounding is open", search.name);
         add(heading, program, &super::search::step(linkage, search, program));
     }

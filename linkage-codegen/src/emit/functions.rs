@@ -32,7 +32,7 @@ fn input_name(linkage: &Linkage, input: Input) -> String {
         Input::Symbol(Symbol::Driven(drive, order)) => model.drive(drive).motion_name(order),
         // A number of an unknown, at the pose from which its search starts.
         Input::Symbol(Symbol::Start(search, number)) => {
-            format!("{}_before", super::search::kept_name(&model.graph.search(search), number))
+            format!("{}_before", super::search::kept_name(model, &model.graph.search(search), number))
         }
         // Only in the functions of searches, and nowhere.
         Input::Symbol(Symbol::Sought(..) | Symbol::Coordinate(..) | Symbol::Moving(..) | Symbol::Dimension(_))
@@ -76,7 +76,7 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
             Input::Kept(_) => kept.push(quote!(#name)),
             Input::Symbol(Symbol::Drive(_)) if drives == Drives::Pose => kept.push(quote!(#name)),
             Input::Symbol(Symbol::Start(search, number)) => {
-                let own = ident(&super::search::kept_name(&linkage.model.graph.search(search), number));
+                let own = ident(&super::search::kept_name(&linkage.model, &linkage.model.graph.search(search), number));
                 kept.push(quote!(#own: #name));
             }
             Input::Symbol(Symbol::Driven(..)) => motion.push(name),
@@ -262,7 +262,8 @@ pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
 /// `Pose::at`, and with searches `Pose::moved_to`.
 pub(super) fn poses(linkage: &Linkage) -> TokenStream {
     let summary = "The pose at given coordinates of the drives.";
-    let start = "Groups that are placed by Newton's method are searched from their declared start.";
+    let start = "Groups that are placed by Newton's method are followed from their declared start: the drives go straight from where they \
+                 start to the given coordinates. A pose to which no motion leads that way is [`Error::NoConvergence`].";
     let points: &[&str] = if linkage.functions.near.is_some() { &[start] } else { &[] };
     let receiver = linkage_argument(linkage, &quote!('l));
     let own = if has_params(linkage) { quote!(linkage,) } else { TokenStream::new() };
@@ -270,8 +271,8 @@ pub(super) fn poses(linkage: &Linkage) -> TokenStream {
     if let Some(near) = &linkage.functions.near {
         let summary = "The pose at other coordinates of the drives, from this one.";
         let points = [
-            "Groups that are placed by Newton's method are searched from where they are, and stay on their branch: a search that would \
-             have to go through a singular pose does not arrive. Take steps that are small against the motion between such poses.",
+            "Groups that are placed by Newton's method are followed from where they are: the drives go straight from their coordinates to \
+             the given ones. A pose to which no motion leads that way, through a singular pose for one, is [`Error::NoConvergence`].",
         ];
         let own = if has_params(linkage) { quote!(linkage: self.linkage,) } else { TokenStream::new() };
         all.extend(pose_function(linkage, near, &quote!(moved_to), &quote!(&self,), &own, summary, &points));

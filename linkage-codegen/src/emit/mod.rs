@@ -128,9 +128,9 @@ pub fn operations(linkage: &Linkage) -> String {
     if let Some(near) = &linkage.functions.near {
         text.push_str(&format!("{:<28} {}\n", "Pose::moved_to", near.counts()));
     }
-    for ((_, search), step) in linkage.model.graph.searches().iter().zip(&linkage.functions.searches) {
+    for ((_, search), functions) in linkage.model.graph.searches().iter().zip(&linkage.functions.searches) {
         let name = format!("{}, each step", search.name);
-        text.push_str(&format!("{name:<28} {}, 1 solve\n", step.counts()));
+        text.push_str(&format!("{name:<28} {}, 1 solve\n", functions.step.counts()));
     }
     for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
         text.push_str(&format!("{:<28} {}\n", format!("Pose::{}", scene.name), functions.from_pose.counts()));

@@ -530,6 +530,9 @@ fn check_values(model: &Model, sink: &Sink) {
         values.insert(format!("travel_{}", joint.name), format!("is the travel of `{}`", joint.name));
         values.insert(format!("travel_{}_before", joint.name), format!("is a travel of `{}`", joint.name));
     }
+    for drive in model.drives.iter().filter(|_| !model.starts.is_empty()) {
+        values.insert(format!("{}_before", drive.name), format!("is where `{}` comes from", drive.name));
+    }
     let params = model.params.iter().map(|param| (&param.name, vec![param.name.text.clone()]));
     let drives = model.drives.iter().map(|drive| {
         let motion = drive.given_motion(&model.graph).filter(|_| model.moves());
