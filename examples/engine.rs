@@ -3,6 +3,7 @@
 //!
 //! `cargo run --example engine` prints a table and writes `engine.csv` and `engine.svg` into the folder that it names; another folder
 //! can be given behind `--`.
+#![allow(clippy::cast_precision_loss, reason = "small whole numbers are exact")]
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
@@ -146,6 +147,7 @@ fn size(x: &[f64], y: &[f64]) -> Vec<f64> {
     x.iter().zip(y).map(|(x, y)| x.hypot(*y)).collect()
 }
 
+#[allow(clippy::too_many_lines, reason = "one table, one file and one picture after the other")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // From the upper dead centre at which the fuel burns; the crank turns clockwise in the books' pictures, here counter-clockwise.
     let turned: Vec<f64> = (0..COUNT).map(|step| 2.0 * TAU * step as f64 / COUNT as f64).collect();

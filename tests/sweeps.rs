@@ -1,4 +1,6 @@
 //! Sweeps, resultants and powers as a user has them.
+#![allow(clippy::cast_precision_loss, reason = "small whole numbers are exact")]
+#![allow(clippy::float_cmp, reason = "the same operations give the same bits")]
 
 use core::f64::consts::TAU;
 

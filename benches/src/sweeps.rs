@@ -1,4 +1,5 @@
 //! Sweeps: the generated function over slices against a loop that calls the point function, in the same round.
+#![allow(clippy::cast_precision_loss, reason = "small whole numbers are exact")]
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};

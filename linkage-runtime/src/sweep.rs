@@ -21,7 +21,7 @@ pub enum Series<'a, T> {
     Each(&'a [T]),
 }
 
-impl<'a, T: Copy + Default> Series<'a, T> {
+impl<T: Copy + Default> Series<'_, T> {
     /// Whether it has a value at every position.
     ///
     /// # Errors

@@ -12,13 +12,16 @@ use crate::graph::Order;
 use crate::model::{Drive, LoadKind, Model, Sweep};
 use crate::plan::{Output, slice_name};
 
-/// What is given at each position.
-fn inputs(model: &Model, sweep: &Sweep, runtime: &TokenStream) -> TokenStream {
+/// What is given at each position. Of a refused declaration, what it says of drives and loads may lead nowhere: it is not told.
+fn inputs(model: &Model, sweep: &Sweep, runtime: &TokenStream, whole: bool) -> TokenStream {
     let scalar = scalar(model);
     let scene = &model.scenes[sweep.scene];
     let ty = ident(&sweep.types()[0]);
     let drives = model.drives.iter().map(|drive| {
-        let (name, doc) = (ident(&drive.name.text), format!(" {}", drive_doc(model, &drive.name.text)));
+        let (name, doc) = (
+            ident(&drive.name.text),
+            if whole { format!(" {}", drive_doc(model, &drive.name.text)) } else { String::new() },
+        );
         quote!(#[doc = #doc] pub #name: #runtime::Series<'a, #scalar>)
     });
     let motion = model.swept_motion(scene).into_iter().map(|(drive, order)| {
@@ -32,7 +35,8 @@ fn inputs(model: &Model, sweep: &Sweep, runtime: &TokenStream) -> TokenStream {
     });
     let loads = model.swept_loads(scene).into_iter().map(|load| {
         let load = model.load(load);
-        let (name, doc) = (ident(&load.name.text), format!(" {}", load_doc(model, load)));
+        let (name, doc) =
+            (ident(&load.name.text), if whole { format!(" {}", load_doc(model, load)) } else { String::new() });
         let value = match load.kind {
             LoadKind::Moment { .. } | LoadKind::Thrust { .. } | LoadKind::Inertia => quote!(#scalar),
             LoadKind::Force { .. } | LoadKind::Gravity { .. } => quote!(Vector2<#scalar>),
@@ -114,7 +118,7 @@ pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) 
     let model = &linkage.model;
     let scene = &model.scenes[sweep.scene];
     let output = &linkage.plan.scenes[sweep.scene];
-    let (inputs, results) = (inputs(model, sweep, runtime), results(model, sweep, output));
+    let (inputs, results) = (inputs(model, sweep, runtime, true), results(model, sweep, output));
     let name = ident(&sweep.name.text);
     let [inputs_ty, results_ty] = sweep.types().map(|ty| ident(&ty));
     let slices = slices(output);
@@ -195,7 +199,7 @@ pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) 
 
 /// The same without a body, for a declaration that has errors.
 pub(super) fn stand_in(model: &Model, sweep: &Sweep, output: &Output, runtime: &TokenStream) -> TokenStream {
-    let (inputs, results) = (inputs(model, sweep, runtime), results(model, sweep, output));
+    let (inputs, results) = (inputs(model, sweep, runtime, false), results(model, sweep, output));
     let name = ident(&sweep.name.text);
     let [inputs_ty, results_ty] = sweep.types().map(|ty| ident(&ty));
     let prepared = (!model.params.is_empty()).then(|| quote!(linkage: &Linkage,));
