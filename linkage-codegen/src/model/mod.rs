@@ -178,7 +178,7 @@ impl Joint {
     pub fn pivot_names(&self) -> Vec<String> {
         let sine = format!("sin_mu_{}", self.name);
         match self.kind {
-            JointKind::Prismatic { .. } => vec![sine, format!("reach_{}", self.name)],
+            JointKind::Prismatic { .. } | JointKind::Slot { .. } => vec![sine, format!("reach_{}", self.name)],
             _ => vec![sine],
         }
     }
@@ -621,9 +621,7 @@ impl Model {
                 let unknown = |end: &End| reached.iter().all(|(link, _)| *link != end.link);
                 let Some(other) = data.end_off(link).filter(unknown) else { continue };
                 let fixed = data.kind.turn().map(|(_, angle)| [zero, self.graph.expr(angle)]);
-                let turns = |drive: &DriveId| self.drive(*drive).turns;
-                let driven = self.drive_of(joint).filter(turns);
-                let driven = driven.map(|drive| [self.graph.symbol(Symbol::Drive(drive)), zero]);
+                let driven = self.drive_of(joint, true).map(|drive| [self.graph.symbol(Symbol::Drive(drive)), zero]);
                 let Some(turn) = fixed.or(driven) else { continue };
                 let sign = if data.to == other { 1 } else { -1 };
                 reached.push((other.link, [0, 1].map(|part| angle[part] + sign * turn[part])));
@@ -670,10 +668,24 @@ impl Model {
         (0..self.joints.len()).map(JointId::new)
     }
 
-    /// The drive of a joint.
+    /// The drive of a joint's angle, or of its travel.
     #[must_use]
-    pub fn drive_of(&self, joint: JointId) -> Option<DriveId> {
-        self.drives.iter().position(|d| d.joint == joint).map(DriveId::new)
+    pub fn drive_of(&self, joint: JointId, turns: bool) -> Option<DriveId> {
+        self.drives.iter().position(|d| d.joint == joint && d.turns == turns).map(DriveId::new)
+    }
+
+    /// All drives of a joint: a slot has two coordinates.
+    pub fn drives_of(&self, joint: JointId) -> impl Iterator<Item = DriveId> {
+        let own = self.drives.iter().enumerate().filter(move |(_, drive)| drive.joint == joint);
+        own.map(|(index, _)| DriveId::new(index))
+    }
+
+    /// The unknown that is the effort at the drive of a joint's angle, or of its travel.
+    #[must_use]
+    pub fn effort_of(&self, joint: JointId, turns: bool) -> Option<UnknownId> {
+        let drive = self.drive_of(joint, turns)?;
+        let effort = |unknown: &Unknown| matches!(unknown.kind, UnknownKind::Drive(own) if own == drive);
+        self.unknowns.iter().position(effort).map(UnknownId::new)
     }
 
     /// Names of links in a row: `coupler + rocker`.

@@ -34,7 +34,13 @@ pub(super) fn drives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
 /// Whether the coordinate of a drive is an angle.
 fn turns(model: &Model, given: &ast::Drive, joint: JointId, sink: &Sink) -> bool {
     let target = model.joint(joint);
-    if let Some(first) = model.drives.iter().find(|d| d.joint == joint) {
+    let asked = given.coordinate.as_ref().map(|coordinate| coordinate.text.as_str());
+    // Of a slot angle and travel are driven independently.
+    let same = |drive: &&Drive| {
+        let slot = matches!(target.kind, JointKind::Slot { .. });
+        drive.joint == joint && (!slot || asked.is_some_and(|asked| drive.turns == (asked == "angle")))
+    };
+    if let Some(first) = model.drives.iter().find(same) {
         let problem = format!("the joint `{}` is driven by `{}` already", target.name, first.name);
         sink.report(
             Diagnostic::new(given.joint.place(), problem)
@@ -43,7 +49,6 @@ fn turns(model: &Model, given: &ast::Drive, joint: JointId, sink: &Sink) -> bool
         );
     }
     let (coordinate, kind) = (given.coordinate.as_ref(), target.kind.word());
-    let asked = coordinate.map(|coordinate| coordinate.text.as_str());
     let place = coordinate.map_or(given.joint.place(), |coordinate| given.joint.place().to(coordinate.place()));
     let has = match target.kind {
         JointKind::Revolute => "angle",

@@ -8,8 +8,8 @@ use super::pivots::Pivots;
 use super::placement::Placement;
 use crate::equations::loads::Action;
 use crate::graph::{Expr, Graph, Vector};
-use crate::model::ids::{GROUND, LinkId, UnknownId};
-use crate::model::{End, Model};
+use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
+use crate::model::{End, JointKind, Model};
 
 /// The motion of a link: its rate of rotation, and the velocity of one of its places.
 #[derive(Clone, Copy, Debug)]
@@ -89,6 +89,38 @@ impl<'m, 'p> Motion<'m, 'p> {
         let turning = (at - twist.at).perp().scaled(twist.rate);
         let turning = Framed { components: turning, axes: direction };
         turning.plus(&twist.velocity, self.placement.direction(GROUND))
+    }
+
+    /// The velocity of a joint's place on one of its links as the other link has it there: with what a drive along a slot adds.
+    #[must_use]
+    pub fn across(&self, joint: JointId, from: LinkId) -> Framed<'m> {
+        let place = self.of_place(from, self.placement.slide_point(joint, from));
+        match self.model().joint(joint).kind {
+            JointKind::Slot { .. } => place.plus(&self.driven_sliding(joint, from), self.placement.direction(GROUND)),
+            _ => place,
+        }
+    }
+
+    /// The rate of rotation of the other link of a slide: that of this one, and what a drive in a slot adds.
+    #[must_use]
+    pub fn rate_across(&self, slide: JointId, from: LinkId) -> Expr<'m> {
+        self.rate(from) + self.driven_rate(slide, from)
+    }
+
+    /// The rate at which a drive turns the other link of a joint against this one.
+    #[must_use]
+    pub fn driven_rate(&self, joint: JointId, from: LinkId) -> Expr<'m> {
+        let rate = self.model().effort_of(joint, true).map_or(self.graph().zero(), |effort| self.rate_of(effort));
+        if self.model().joint(joint).from.link == from { rate } else { -rate }
+    }
+
+    /// The velocity at which a drive slides the other link of a joint along this one.
+    #[must_use]
+    pub fn driven_sliding(&self, joint: JointId, from: LinkId) -> Framed<'m> {
+        let graph = self.graph();
+        let rate = self.model().effort_of(joint, false).map_or(graph.zero(), |effort| self.rate_of(effort));
+        let rate = if self.model().joint(joint).from.link == from { rate } else { -rate };
+        Framed { components: Vector::new(rate, graph.zero()), axes: self.placement.slide_direction(joint) }
     }
 
     /// The difference of two velocities.

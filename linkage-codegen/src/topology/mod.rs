@@ -26,6 +26,21 @@ pub enum Input {
     Unknown(UnknownId),
 }
 
+/// What a joint leaves its links, the drives of its group counted in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Freedom {
+    /// Nothing: a weld, or a joint whose coordinates are all driven. Its links are one body.
+    None,
+    /// To turn: a pin, and one in a slot along which it is driven.
+    Turn,
+    /// To slide: a slide, and a slot in which the pin's link is turned by a drive.
+    Slide,
+    /// Both: a slot.
+    TurnAndSlide,
+    /// To roll: a gear pair.
+    Roll,
+}
+
 /// An Assur group, or a driven link.
 #[derive(Clone, Debug)]
 pub struct Group {
@@ -45,6 +60,39 @@ impl Group {
     pub fn own_link(&self, model: &Model, joint: JointId) -> LinkId {
         let joint = model.joint(joint);
         if self.links.contains(&joint.from.link) { joint.from.link } else { joint.to.link }
+    }
+
+    /// The drive that an input stands for: itself, or that whose effort is the unknown.
+    #[must_use]
+    pub fn drive_of(model: &Model, input: Input) -> Option<DriveId> {
+        match input {
+            Input::Drive(drive) => Some(drive),
+            Input::Unknown(unknown) => match model.unknown(unknown).kind {
+                UnknownKind::Drive(drive) => Some(drive),
+                UnknownKind::Torque(..) | UnknownKind::Force { .. } | UnknownKind::Thrust(_) => None,
+            },
+        }
+    }
+
+    /// What one of its joints leaves free.
+    #[must_use]
+    pub fn freedom(&self, model: &Model, joint: JointId) -> Freedom {
+        let drives = || self.inputs.iter().filter_map(|input| Self::drive_of(model, *input)).map(|d| model.drive(d));
+        let driven = |turns: bool| drives().any(|drive| drive.joint == joint && drive.turns == turns);
+        match model.joint(joint).kind {
+            JointKind::Revolute if driven(true) => Freedom::None,
+            JointKind::Revolute => Freedom::Turn,
+            JointKind::Prismatic { .. } if driven(false) => Freedom::None,
+            JointKind::Prismatic { .. } => Freedom::Slide,
+            JointKind::Weld { .. } => Freedom::None,
+            JointKind::Slot { .. } => match (driven(true), driven(false)) {
+                (true, true) => Freedom::None,
+                (false, true) => Freedom::Turn,
+                (true, false) => Freedom::Slide,
+                (false, false) => Freedom::TurnAndSlide,
+            },
+            JointKind::Gear(_) => Freedom::Roll,
+        }
     }
 
     /// Its kinds of joints in the order outer, inner, …: `RRP`.

@@ -112,6 +112,8 @@ struct Builder {
     pins: Vec<(String, usize, usize)>,
     /// Driven joints and their coordinates.
     drives: Vec<(String, f64)>,
+    /// Whether pins and slides may be slots with a drive.
+    driven_slots: bool,
 }
 
 /// A random linkage.
@@ -131,13 +133,16 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
         sines: 0.2,
         pins: Vec::new(),
         drives: Vec::new(),
+        driven_slots: false,
     };
     let drive = builder.driven_link(kind.sliders);
     builder.drives.push(drive);
     for _ in 0..kind.dyads {
+        builder.driven_slots = kind.joints && builder.random.chance(0.3);
         if kind.joints && builder.random.chance(0.7) {
-            match builder.random.below(5) {
+            match builder.random.below(6) {
                 0 => builder.weld(),
+                5 => builder.split(true),
                 1 => builder.lever(),
                 2 => builder.runner(),
                 3 => builder.yoke(),
@@ -150,7 +155,7 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
             Some(2) => builder.sliding_pair(),
             Some(3) => builder.pinned_sliders(),
             Some(4) => builder.slider_on_slider(),
-            Some(5) => builder.cylinder(),
+            Some(5) => builder.split(false),
             _ => builder.pinned_dyad(),
         }
     }
@@ -184,8 +189,18 @@ impl Builder {
         if self.random.chance(0.5) { (near, far) } else { (far, near) }
     }
 
+    /// A pin, or one in a slot along which it is driven.
     fn revolute(&mut self, name: &str, near: usize, far: usize) -> (usize, usize) {
         let (from, to) = self.arrow(near, far);
+        if self.driven_slots && self.random.chance(0.3) {
+            let (datum, angle) = (format!("{name}o"), self.random.range(-3.0, 3.0));
+            let at = self.bodies[to].points.iter().find(|(point, _)| point == name).expect("its point").1;
+            let travel = self.random.range(-2.0, 2.0);
+            self.bodies[from].points.push((datum.clone(), minus(at, direction(angle).map(|x| x * travel))));
+            let carrier_first = self.slot(name, (from, &datum), (to, name), angle);
+            self.drives.push((format!("{name}.travel"), if carrier_first { travel } else { -travel }));
+            return (from, to);
+        }
         let line = format!("revolute {name}: {} -> {};\n", self.bodies[from].name, self.bodies[to].name);
         self.items.push_str(&line);
         self.pins.push((name.to_owned(), from, to));
@@ -322,14 +337,7 @@ impl Builder {
         self.revolute(&b, rod, slider);
         let (from, to) = self.arrow(y, slider);
         let carrier = *self.random.pick(&[y, slider]);
-        let local = angle - self.bodies[carrier].angle;
-        // Along the axis the second point must lie on the line through the first, whichever link carries it.
-        let fixed = self.bodies[to].angle - self.bodies[from].angle;
-        let line = format!(
-            "prismatic {s}: {} -> {} along {local:?}rad of {}, angle {fixed:?}rad;\n",
-            self.bodies[from].name, self.bodies[to].name, self.bodies[carrier].name
-        );
-        self.items.push_str(&line);
+        self.guide(&s, (from, to), carrier, angle);
         let side = if dot(minus(at_b, at_p), e) > 0.0 { "ahead" } else { "behind" };
         let line = format!("assemble {b}: {side}({p});\n");
         self.items.push_str(&line);
@@ -351,8 +359,8 @@ impl Builder {
         self.places.push((w, at));
     }
 
-    /// The item of a slot; the first of the ends carries it.
-    fn slot(&mut self, name: &str, (carrier, datum): (usize, &str), (other, pin): (usize, &str), angle: f64) {
+    /// The item of a slot; the first of the ends carries it. Whether that is also the first one of the item.
+    fn slot(&mut self, name: &str, (carrier, datum): (usize, &str), (other, pin): (usize, &str), angle: f64) -> bool {
         let local = angle - self.bodies[carrier].angle;
         let ends = [(carrier, datum), (other, pin)].map(|(link, point)| format!("{}.{point}", self.bodies[link].name));
         let [first, second] = if self.random.chance(0.5) { [0, 1] } else { [1, 0] };
@@ -361,6 +369,24 @@ impl Builder {
             ends[first], ends[second], self.bodies[carrier].name
         );
         self.items.push_str(&line);
+        first == 0
+    }
+
+    /// A slide with its line on one of its links, or a slot whose links a drive turns.
+    fn guide(&mut self, name: &str, (from, to): (usize, usize), carrier: usize, angle: f64) {
+        // Along the axis the second point must lie on the line through the first, whichever link carries it.
+        let local = angle - self.bodies[carrier].angle;
+        let fixed = self.bodies[to].angle - self.bodies[from].angle;
+        let ends = format!(
+            "{name}: {} -> {} along {local:?}rad of {}",
+            self.bodies[from].name, self.bodies[to].name, self.bodies[carrier].name
+        );
+        if self.driven_slots && self.random.chance(0.5) {
+            let _ = writeln!(self.items, "slot {ends};");
+            self.drives.push((format!("{name}.angle"), fixed));
+        } else {
+            let _ = writeln!(self.items, "prismatic {ends}, angle {fixed:?}rad;");
+        }
     }
 
     /// A direction that is not across the way from a place to another.
@@ -449,13 +475,7 @@ impl Builder {
         let link = self.link((&g, runner), (own, own_at));
         let (from, to) = self.arrow(x, link);
         let carrier = *self.random.pick(&[x, link]);
-        let local = slide - self.bodies[carrier].angle;
-        let fixed = self.bodies[to].angle - self.bodies[from].angle;
-        let line_of_slide = format!(
-            "prismatic {g}: {} -> {} along {local:?}rad of {}, angle {fixed:?}rad;\n",
-            self.bodies[from].name, self.bodies[to].name, self.bodies[carrier].name
-        );
-        self.items.push_str(&line_of_slide);
+        self.guide(&g, (from, to), carrier, slide);
         if carries {
             self.slot(&s, (link, &line), (y, &pin), angle);
         } else {
@@ -469,6 +489,8 @@ impl Builder {
         if self.pins.is_empty() {
             return self.pinned_dyad();
         }
+        // Its own pin is one that may hold further wheels.
+        self.driven_slots = false;
         let (centre, a, b) = self.random.pick(&self.pins.clone()).clone();
         let (arm, wheel) = self.arrow(a, b);
         let points = &self.bodies[arm].points;
@@ -522,13 +544,7 @@ impl Builder {
         self.bodies[from].points.push((name.to_owned(), start));
         self.bodies[to].points.push((name.to_owned(), end));
         let carrier = *self.random.pick(&[from, to]);
-        let local = angle - self.bodies[carrier].angle;
-        let fixed = self.bodies[to].angle - self.bodies[from].angle;
-        let line = format!(
-            "prismatic {name}: {} -> {} along {local:?}rad of {}, angle {fixed:?}rad;\n",
-            self.bodies[from].name, self.bodies[to].name, self.bodies[carrier].name
-        );
-        self.items.push_str(&line);
+        self.guide(name, (from, to), carrier, angle);
         let runner = if carrier == from { end } else { start };
         self.places.push((name.to_owned(), runner));
     }
@@ -598,13 +614,20 @@ impl Builder {
         self.places.push((p, at));
     }
 
-    /// A dyad of three pins whose first link is a cylinder with its driven rod.
-    fn cylinder(&mut self) {
+    /// A dyad whose first link is two: welded, or a cylinder with its driven rod.
+    fn split(&mut self, welded: bool) {
         let before = self.bodies.len();
-        self.pinned_dyad();
-        // The second link becomes the tube, and a rod takes over its pin to the third one.
+        self.driven_slots = false;
+        if self.random.chance(0.3) {
+            self.slider_dyad()
+        } else {
+            self.pinned_dyad()
+        }
+        // The first link becomes the tube, and a rod takes over its pin to the second one.
         let (tube, other) = (before, before + 1);
-        let (pin, at) = self.bodies[other].points[1].clone();
+        let own = &self.bodies[other].points;
+        let shared = self.bodies[tube].points.iter().find(|(name, _)| own.iter().any(|(point, _)| point == name));
+        let (pin, at) = shared.expect("the inner pin").clone();
         let (s, rx) = (self.fresh('J'), self.place());
         let rod = self.link((&pin, at), (&format!("{s}x"), rx));
         let (old, new) = (self.bodies[tube].name.clone(), self.bodies[rod].name.clone());
@@ -620,6 +643,19 @@ impl Builder {
         self.items = lines.collect();
         // Its pin is no longer on the links that hold it for wheels.
         self.pins.retain(|(name, ..)| *name != pin);
+        if welded {
+            let at = self.place();
+            let (from, to) = self.arrow(tube, rod);
+            [tube, rod].into_iter().for_each(|link| self.bodies[link].points.push((s.clone(), at)));
+            let fixed = self.bodies[to].angle - self.bodies[from].angle;
+            let _ = writeln!(
+                self.items,
+                "weld {s}: {} -> {}, angle {fixed:?}rad;",
+                self.bodies[from].name, self.bodies[to].name
+            );
+            self.places.push((s, at));
+            return;
+        }
         let angle = self.random.range(-3.0, 3.0);
         self.slide(&s, tube, rod, angle);
         let ends = [tube, rod].map(|body| self.bodies[body].points.last().expect("its end").1);

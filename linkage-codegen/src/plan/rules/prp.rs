@@ -51,8 +51,7 @@ impl Rule for Prp {
         let Some(dyad) = sliders(assembly.model(), group) else { return Ok(()) };
         let [first, second] = &dyad.legs;
         for leg in &dyad.legs {
-            let orientation = assembly.placement.along_slide(leg.outer, leg.link());
-            assembly.placement.orient(leg.link(), orientation);
+            assembly.placement.orient_along(leg.outer, leg.link());
             dyad.place_rest(assembly, leg, leg.link())?;
             assembly.placement.connect(leg.outer);
         }
@@ -81,13 +80,13 @@ impl Rule for Prp {
         let [first, second] = &dyad.legs;
         let pin = dyad.joint_name(dyad.inner);
         let [one, two] = [first, second].map(|leg| balance.placement.slide_direction(leg.outer));
-        let loads = balance.total(first.link()).along(one);
+        let loads = dyad.total(balance, first).along(one);
         let along = |leg: &Leg| {
             format!("±ΣF of the loads on {} along the slide {}", dyad.link_name(leg), dyad.joint_name(leg.outer))
         };
         let own =
             (-loads.x).named(balance.name(&format!("{pin}_along_{}", dyad.joint_name(first.outer))), along(first));
-        let needed = balance.total(second.link()).along(two).x;
+        let needed = dyad.total(balance, second).along(two).x;
         let needed =
             needed.named(balance.name(&format!("{pin}_along_{}", dyad.joint_name(second.outer))), along(second));
         let across = if own.is_zero() && needed.is_zero() {
@@ -107,20 +106,26 @@ impl Rule for Prp {
         };
         let force = Framed { components: Vector::new(own, across), axes: one };
         // The pin puts its part on the second slider.
-        let force = balance.pin(dyad.inner, first.link(), force).along(one);
-        let at = |leg: &Leg| balance.placement.point(leg.tip);
-        let (first_at, second_at) = (at(first), at(second));
-        super::slide::guide(balance, first.outer, first.link(), loads.y + force.y, first_at);
-        let held = balance.total(second.link()).along(two).y;
-        super::slide::guide(balance, second.outer, second.link(), held, second_at);
-        Ok(())
+        let force = dyad.pin_inner(balance, first, force).along(one);
+        if first.is_single() {
+            let at = balance.placement.point(first.tip);
+            super::slide::guide(balance, first.outer, first.link(), loads.y + force.y, at);
+        } else {
+            dyad.balance_rest(balance, first)?;
+        }
+        dyad.balance_rest(balance, second)
     }
 
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let Some(dyad) = sliders(motion.model(), group) else { return Ok(()) };
         let [first, second] = &dyad.legs;
         let ground = motion.placement.direction(GROUND);
-        let carried = dyad.legs.each_ref().map(|leg| super::slide::carried(motion, leg.outer, leg.link(), leg.tip));
+        let rates = dyad.legs.each_ref().map(|leg| motion.rate_across(leg.outer, leg.far.end.link));
+        let carried = [0, 1].map(|index| {
+            let leg = &dyad.legs[index];
+            let carried = super::slide::carried(motion, leg.outer, leg.link());
+            dyad.velocity_of_tip(motion, leg, carried, rates[index])
+        });
         let gap = motion.difference(&carried[1], &carried[0]);
         let across = -motion.part(&gap, motion.placement.slide_direction(second.outer).perp());
         let speed = if across.is_zero() {
@@ -141,9 +146,14 @@ impl Rule for Prp {
         let axes = motion.placement.slide_direction(first.outer);
         let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes };
         let velocity = carried[0].plus(&sliding, ground);
-        for leg in &dyad.legs {
-            let at = motion.placement.point(leg.tip);
-            motion.found(leg.link(), Twist { rate: motion.rate(leg.far.link), at, velocity });
+        for (leg, rate) in dyad.legs.iter().zip(rates) {
+            let (at, velocity) = if leg.is_single() && leg.tip.slot.is_none() {
+                (motion.placement.point(leg.tip), velocity)
+            } else {
+                (motion.placement.point(leg.near), dyad.velocity_from_tip(motion, leg, velocity, rate))
+            };
+            motion.found(leg.link(), Twist { rate, at, velocity });
+            dyad.follow_rest(motion, leg)?;
         }
         Ok(())
     }

@@ -56,9 +56,8 @@ impl Rule for Rpp {
     fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
         let Some(dyad) = sliders(assembly.model(), group) else { return Ok(()) };
         let [pinned, slider] = &dyad.legs;
-        for (leg, slide, link) in [(slider, slider.outer, slider.link()), (pinned, dyad.inner, pinned.tip.link)] {
-            let orientation = assembly.placement.along_slide(slide, link);
-            assembly.placement.orient(link, orientation);
+        for (leg, slide, link) in [(slider, slider.outer, slider.link()), (pinned, dyad.inner, pinned.tip.end.link)] {
+            assembly.placement.orient_along(slide, link);
             dyad.place_rest(assembly, leg, link)?;
             assembly.placement.connect(slide);
         }
@@ -77,7 +76,7 @@ impl Rule for Rpp {
         let own = (-gap.y / sine).named(format!("t_{outer}"), format!("tₒ = (g × eᵢ)/{}", dyad.pivot_name()));
         let further = (gap.x - own * cosine).named(format!("t_{inner}"), "tᵢ = g·eᵢ − tₒ (eₒ·eᵢ)");
         dyad.set_travel(assembly, slider.outer, slider.link(), own);
-        dyad.set_travel(assembly, dyad.inner, pinned.tip.link, further);
+        dyad.set_travel(assembly, dyad.inner, pinned.tip.end.link, further);
         assembly.placement.connect(pinned.outer);
         Ok(())
     }
@@ -87,7 +86,7 @@ impl Rule for Rpp {
         let [pinned, slider] = &dyad.legs;
         let [outer, inner] = slides(&dyad).map(|slide| dyad.joint_name(slide));
         let e = balance.placement.slide_direction(slider.outer);
-        let load = balance.total(slider.link()).along(e);
+        let load = dyad.total(balance, slider).along(e);
         let name = dyad.link_name(slider);
         let along = load.x.named(
             balance.name(&format!("{outer}_along")),
@@ -105,15 +104,19 @@ impl Rule for Rpp {
             (-(along / sine))
                 .named(balance.name(&format!("{inner}_across")), format!("−{outer}_along/{}", dyad.pivot_name()))
         };
-        let pin = balance.placement.point(pinned.near);
-        super::slide::guide(balance, dyad.inner, pinned.link(), -across, pin);
-        let ground = balance.placement.direction(GROUND);
-        let guided = balance.reaction(dyad.inner).force;
-        let guided =
-            if balance.model().joint(dyad.inner).to.link == pinned.link() { guided } else { guided.opposite() };
-        let held = balance.total(pinned.link()).plus(&guided, ground);
-        balance.pin(pinned.outer, pinned.link(), held.opposite());
+        dyad.guide_inner(balance, pinned, -across);
+        if pinned.is_single() {
+            let ground = balance.placement.direction(GROUND);
+            let guided = dyad.guided(balance, pinned);
+            let held = balance.total(pinned.link()).plus(&guided, ground);
+            balance.pin(pinned.outer, pinned.link(), held.opposite());
+        } else {
+            dyad.balance_rest(balance, pinned)?;
+        }
         // The inner slide has put its part on the first slider.
+        if !slider.is_single() {
+            return dyad.balance_rest(balance, slider);
+        }
         let at = balance.placement.slide_point(dyad.inner, slider.link());
         let held = balance.total(slider.link()).along(e).y;
         super::slide::guide(balance, slider.outer, slider.link(), held, at);
@@ -124,16 +127,25 @@ impl Rule for Rpp {
         let Some(dyad) = sliders(motion.model(), group) else { return Ok(()) };
         let [pinned, slider] = &dyad.legs;
         let ground = motion.placement.direction(GROUND);
-        let rate = motion.rate(slider.far.link);
-        let pin = motion.of_point(pinned.far);
-        let at = motion.placement.slide_point(slider.outer, slider.link());
-        // All directions are the outer guide's: the way from its runner to the pin goes through the inner slide.
-        let way = motion.placement.slide_point(dyad.inner, slider.link()) - at + motion.placement.point(pinned.near)
-            - motion.placement.slide_point(dyad.inner, pinned.link());
-        let guide = slider.far.link;
-        let guided = motion.of_place(guide, motion.placement.slide_point(slider.outer, guide));
-        let turning = Framed { components: way.perp().scaled(rate), axes: motion.placement.direction(slider.link()) };
-        let gap = motion.difference(&pin, &guided.plus(&turning, ground));
+        let rate = motion.rate_across(slider.outer, slider.far.end.link);
+        let (at, guided) = super::slide::carried(motion, slider.outer, slider.link());
+        let pin = motion.across(pinned.outer, pinned.far.end.link);
+        // The place of the second slider's pin as if nothing slid: with the first slider to the inner slide, from there with its own link.
+        let tip = rate + dyad.driven_turning(motion, slider);
+        let own = tip + motion.driven_rate(dyad.inner, slider.tip.end.link) - dyad.driven_turning(motion, pinned);
+        let [first, second] = [slider, pinned].map(|leg| motion.placement.direction(leg.link()));
+        let carried = if slider.is_single() && pinned.is_single() && first == second {
+            // All directions are the outer guide's.
+            let way = motion.placement.slide_point(dyad.inner, slider.link()) - at
+                + motion.placement.point(pinned.near)
+                - motion.placement.slide_point(dyad.inner, pinned.link());
+            let axes = motion.placement.direction(slider.link());
+            guided.plus(&Framed { components: way.perp().scaled(rate), axes }, ground)
+        } else {
+            let inner = dyad.velocity_of_tip(motion, slider, (at, guided), rate);
+            dyad.velocity_from_tip(motion, pinned, inner, own)
+        };
+        let gap = motion.difference(&pin, &carried);
         let across = -motion.part(&gap, motion.placement.slide_direction(dyad.inner).perp());
         let speed = if across.is_zero() {
             across
@@ -153,7 +165,7 @@ impl Rule for Rpp {
         let axes = motion.placement.slide_direction(slider.outer);
         let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes };
         motion.found(slider.link(), Twist { rate, at, velocity: guided.plus(&sliding, ground) });
-        motion.found(pinned.link(), Twist { rate, at: motion.placement.point(pinned.near), velocity: pin });
-        Ok(())
+        motion.found(pinned.link(), Twist { rate: own, at: motion.placement.point(pinned.near), velocity: pin });
+        dyad.legs.iter().try_for_each(|leg| dyad.follow_rest(motion, leg))
     }
 }

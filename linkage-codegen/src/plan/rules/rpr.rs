@@ -25,8 +25,9 @@ use crate::model::ids::JointId;
 use crate::model::{Model, Side};
 use crate::plan::assembly::{Assembly, DyadPivot};
 use crate::plan::balance::Balance;
+use crate::plan::framed::Framed;
 use crate::plan::pivots::Pivots;
-use crate::plan::placement::{Orientation, Placement};
+use crate::plan::placement::Placement;
 use crate::plan::velocities::{Motion, Twist};
 use crate::topology::Group;
 
@@ -36,7 +37,7 @@ pub(super) struct Rpr;
 /// The group as an RPR dyad, the slide's first link first.
 fn sliding_pair<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
     let mut dyad = dyad(model, group).filter(|dyad| dyad.pins() == [true, false, true])?;
-    if dyad.legs[0].tip != model.joint(dyad.inner).from {
+    if dyad.legs[0].tip.end != model.joint(dyad.inner).from {
         dyad.legs.swap(0, 1);
     }
     Some(dyad)
@@ -74,7 +75,7 @@ impl Rule for Rpr {
         let one = balance.graph().one();
         let moments = dyad.legs.each_ref().map(|leg| {
             let (pin, link) = (dyad.joint_name(leg.outer), dyad.link_name(leg));
-            let moment = balance.moment(leg.link(), balance.placement.point(leg.near), one);
+            let moment = dyad.moment(balance, leg, one);
             moment.named(balance.name(&format!("moment_{link}")), format!("ΣM({pin}) of the loads on {link}"))
         });
         let moment = moments[0] + moments[1];
@@ -91,26 +92,44 @@ impl Rule for Rpr {
         let model = balance.model();
         let runner = model.joint(dyad.inner).place().link;
         let (leg, other, acting) =
-            if runner == second.link() { (second, first, -across) } else { (first, second, across) };
+            if runner == second.tip.end.link { (second, first, -across) } else { (first, second, across) };
         let loads = balance.total(leg.link());
-        let pin = balance.placement.point(leg.near);
-        super::slide::guide(balance, dyad.inner, leg.link(), acting, pin);
-        let guided = balance.reaction(dyad.inner).force;
-        let guided = if leg.link() == second.link() { guided } else { guided.opposite() };
-        let ground = balance.placement.direction(crate::model::ids::GROUND);
-        balance.pin(leg.outer, leg.link(), loads.plus(&guided, ground).opposite());
+        dyad.guide_inner(balance, leg, acting);
+        if leg.is_single() {
+            let ground = balance.placement.direction(crate::model::ids::GROUND);
+            let held = loads.plus(&dyad.guided(balance, leg), ground);
+            balance.pin(leg.outer, leg.link(), held.opposite());
+        } else {
+            dyad.balance_rest(balance, leg)?;
+        }
         // The guide has put its part on the other link.
-        let held = balance.total(other.link());
-        balance.pin(other.outer, other.link(), held.opposite());
-        Ok(())
+        dyad.balance_rest(balance, other)
     }
 
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let Some(dyad) = sliding_pair(motion.model(), group) else { return Ok(()) };
         let [first, second] = &dyad.legs;
         let e = motion.placement.slide_direction(dyad.inner);
-        let [p, q] = [first, second].map(|leg| motion.of_point(leg.far));
-        let gap = motion.difference(&q, &p);
+        let [p, q] = [first, second].map(|leg| motion.across(leg.outer, leg.far.end.link));
+        // The links of the slide turn together, but for what drives turn one of them against the other, and within the bodies.
+        let carrier = motion.model().joint(dyad.inner).kind.line().map(|(carrier, _)| carrier);
+        let further = [first, second].map(|leg| {
+            let within = dyad.driven_turning(motion, leg);
+            let other = if leg.link() == first.link() { second } else { first };
+            let in_slot = if carrier == Some(leg.tip.end.link) {
+                motion.graph().zero()
+            } else {
+                motion.driven_rate(dyad.inner, other.tip.end.link)
+            };
+            in_slot - within
+        });
+        let ground = motion.placement.direction(crate::model::ids::GROUND);
+        let still = Framed { components: motion.graph().zero_vector(), axes: ground };
+        let driven = [(first, further[0]), (second, further[1])].map(|(leg, further)| {
+            let near = motion.placement.point(leg.near);
+            dyad.velocity_of_tip(motion, leg, (near, still), further)
+        });
+        let gap = motion.difference(&q.plus(&driven[1], ground), &p.plus(&driven[0], ground));
         let across = motion.part(&gap, e.perp());
         let rate = if across.is_zero() { across } else { across / reach(&dyad, motion.placement, motion.pivots) };
         let [one, other] = [first, second].map(|leg| dyad.link_name(leg));
@@ -121,9 +140,10 @@ impl Rule for Rpr {
                 pivot_name(&dyad)
             ),
         );
-        for (leg, velocity) in [(first, p), (second, q)] {
+        for (leg, velocity, further) in [(first, p, further[0]), (second, q, further[1])] {
             let at = motion.placement.point(leg.near);
-            motion.found(leg.link(), Twist { rate, at, velocity });
+            motion.found(leg.link(), Twist { rate: rate + further, at, velocity });
+            dyad.follow_rest(motion, leg)?;
         }
         Ok(())
     }
@@ -137,7 +157,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let side = side(assembly, group, dyad)?;
     // From P to the slide and from the slide to Q, along and across it: the same for every pose, but for drives within the bodies.
     let [from_p, from_q] = [first, second].map(|leg| {
-        let link = leg.tip.link;
+        let link = leg.tip.end.link;
         dyad.way_within(leg, link, assembly.placement.slide_axis(dyad.inner, link))
     });
     let offset = from_p.vector() - from_q.vector();
@@ -145,7 +165,9 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let way = assembly.placement.way(first.far, second.far);
     let d = way.vector().named(&format!("d_{slide}"), &format!("d, from {p} to {q}"));
     let d2 = d.squared().named(format!("D2_{slide}"), "d·d");
-    let length = [first, second].into_iter().fold(way.length(), |sum, leg| sum + dyad.slack(leg));
+    let slack = [first, second].into_iter().fold(way.length(), |sum, leg| sum + dyad.slack(leg));
+    // A driven angle between the links makes h and what is fixed along the slide rounded too.
+    let length = if is_turned(dyad) { slack + from_p.length() + from_q.length() } else { slack };
     let rounding = |of: &str, value: Expr<'m>| {
         value.named(format!("rounding_{of}_{slide}"), format!("what rounding makes of {of}_{slide} = 0"))
     };
@@ -194,12 +216,17 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     Ok(())
 }
 
+/// Whether a drive turns the links of the slide against each other.
+fn is_turned(dyad: &Dyad<'_>) -> bool {
+    dyad.model.drive_of(dyad.inner, true).is_some()
+}
+
 /// Both links carry the slide's direction.
 fn place<'m>(assembly: &mut Assembly<'m>, dyad: &Dyad<'m>, direction: Vector<'m>) -> RuleResult {
     for leg in &dyad.legs {
-        let link = leg.tip.link;
-        let axis = assembly.placement.slide_axis(dyad.inner, link);
-        assembly.placement.orient(link, Orientation { direction, axis });
+        let link = leg.tip.end.link;
+        let orientation = assembly.placement.sliding(dyad.inner, link, direction);
+        assembly.placement.orient(link, orientation);
         dyad.place_rest(assembly, leg, link)?;
     }
     Ok(())

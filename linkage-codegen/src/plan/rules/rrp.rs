@@ -64,9 +64,8 @@ impl Rule for Rrp {
         let (outer, slider) = (dyad.joint_name(rod_leg.outer), dyad.link_name(slider_leg));
         let e = balance.placement.slide_direction(slide);
         let u = dyad.direction(balance.placement, rod_leg);
-        let load = balance.total(slider_leg.link()).along(e);
-        let about = balance.placement.point(rod_leg.near);
-        let across = (-balance.moment(rod_leg.link(), about, balance.graph().one() / dyad.length(rod_leg))).named(
+        let load = dyad.total(balance, slider_leg).along(e);
+        let across = (-dyad.moment_over_length(balance, rod_leg)).named(
             balance.name(&format!("{inner}_across_{rod}")),
             format!("−ΣM({outer})/|{outer} {inner}| of the loads on {rod}"),
         );
@@ -88,8 +87,15 @@ impl Rule for Rrp {
         let ground = balance.placement.direction(GROUND);
         let loads = balance.total(rod_leg.link());
         // The pin puts its part on the slider, whose moments give the couple of the guide.
-        let force = balance.pin(dyad.inner, rod_leg.link(), force);
-        balance.pin(rod_leg.outer, rod_leg.link(), loads.plus(&force, ground).opposite());
+        let force = dyad.pin_inner(balance, rod_leg, force);
+        if rod_leg.is_single() {
+            balance.pin(rod_leg.outer, rod_leg.link(), loads.plus(&force, ground).opposite());
+        } else {
+            dyad.balance_rest(balance, rod_leg)?;
+        }
+        if !slider_leg.is_single() {
+            return dyad.balance_rest(balance, slider_leg);
+        }
         let pin = balance.placement.point(slider_leg.tip);
         super::slide::guide(balance, slide, slider_leg.link(), load.y - side, pin);
         Ok(())
@@ -102,21 +108,14 @@ impl Rule for Rrp {
         let slide = slider_leg.outer;
         let e = motion.placement.slide_direction(slide);
         let u = dyad.direction(motion.placement, rod_leg);
-        let far = slider_leg.far.link;
         // The slider turns with the link that guides it, and B moves with that link but for the sliding:
         // v_A + ω r u⊥ = v_C + ṡ e, multiplied by n and by u.
-        let slider_rate = motion.rate(far);
-        let at = motion.placement.slide_point(slide, slider_leg.link());
-        let guided = motion.of_place(far, motion.placement.slide_point(slide, far));
-        let inner = motion.placement.point(slider_leg.tip);
+        let slider_rate = motion.rate_across(slide, slider_leg.far.end.link);
+        let (at, guided) = super::slide::carried(motion, slide, slider_leg.link());
         let ground = motion.placement.direction(GROUND);
-        let turning = Framed {
-            components: (inner - at).perp().scaled(slider_rate),
-            axes: motion.placement.direction(slider_leg.link()),
-        };
-        let carried = guided.plus(&turning, ground);
-        let outer = motion.of_point(rod_leg.far);
-        let gap = motion.difference(&carried, &outer);
+        let carried = dyad.velocity_of_tip(motion, slider_leg, (at, guided), slider_rate);
+        let outer = motion.across(rod_leg.outer, rod_leg.far.end.link);
+        let gap = motion.difference(&carried, &outer.plus(&dyad.driven_velocity(motion, rod_leg), ground));
         let cosine = motion.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
         let rod = dyad.link_name(rod_leg);
         let across = motion.part(&gap, e.perp());
@@ -138,7 +137,7 @@ impl Rule for Rrp {
         motion.found(rod_leg.link(), Twist { rate, at: rod_at, velocity: outer });
         let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes: e };
         motion.found(slider_leg.link(), Twist { rate: slider_rate, at, velocity: guided.plus(&sliding, ground) });
-        Ok(())
+        dyad.legs.iter().try_for_each(|leg| dyad.follow_rest(motion, leg))
     }
 }
 
@@ -151,8 +150,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     dyad.check_length(rod_leg)?;
     let lies = format!("along the slide `{}`, `{inner}` lies ahead of `{outer}` or behind it", dyad.joint_name(slide));
     let ahead = ahead(assembly, group, dyad.inner, rod_leg.outer, lies)?;
-    let orientation = assembly.placement.along_slide(slide, slider_leg.link());
-    assembly.placement.orient(slider_leg.link(), orientation);
+    assembly.placement.orient_along(slide, slider_leg.link());
     dyad.place_rest(assembly, slider_leg, slider_leg.link())?;
     let e = assembly.placement.slide_direction(slide);
     // With the travel still zero, the way goes from A over the guide to B.

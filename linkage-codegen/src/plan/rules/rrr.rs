@@ -14,7 +14,7 @@
 //! Forces, by the textbooks' resolution along and across the links: with `m₁`, `m₂` the moments of the loads about P and Q, the
 //! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`.
 
-use super::dyad::{Dyad, Leg, dyad_of_bodies, towards_unit};
+use super::dyad::{Dyad, Leg, dyad, towards_unit};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
@@ -24,7 +24,7 @@ use crate::plan::assembly::{Assembly, DyadPivot};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::half_angle::{HalfAngle, first_dyad_on};
-use crate::plan::placement::Way;
+use crate::plan::placement::{Spot, Way};
 use crate::plan::velocities::{Motion, Twist};
 use crate::topology::Group;
 
@@ -34,7 +34,7 @@ pub(super) struct Rrr;
 /// The group as an RRR dyad, if it is one. Its first leg is the one whose outer pin the closure names first.
 #[must_use]
 pub fn pinned_dyad<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
-    let mut dyad = dyad_of_bodies(model, group).filter(|dyad| dyad.pins() == [true; 3])?;
+    let mut dyad = dyad(model, group).filter(|dyad| dyad.pins() == [true; 3])?;
     let closure = model.closures.iter().find(|c| c.joint == dyad.inner);
     if closure.is_some_and(|c| c.of.first() == Some(&dyad.legs[1].outer)) {
         dyad.legs.swap(0, 1);
@@ -44,9 +44,15 @@ pub fn pinned_dyad<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
 
 impl<'a> Dyad<'a> {
     /// The outer pins, on the links outside the group.
-    #[must_use]
-    pub fn outer_ends(&self) -> [End; 2] {
+    fn outer_spots(&self) -> [Spot; 2] {
         self.legs.each_ref().map(|leg| leg.far)
+    }
+
+    /// The same, if they do not move along slots there.
+    #[must_use]
+    pub fn outer_ends(&self) -> Option<[End; 2]> {
+        let spots = self.outer_spots();
+        spots.iter().all(|spot| spot.slot.is_none()).then(|| spots.map(|spot| spot.end))
     }
 
     fn check_lengths(&self) -> RuleResult {
@@ -130,16 +136,13 @@ impl Rule for Rrr {
         let force = Framed { components: Vector::new(along, across), axes: u1 };
         let ground = balance.placement.direction(crate::model::ids::GROUND);
         let loads = [first, second].map(|leg| balance.total(leg.link()));
-        let force = balance.pin(dyad.inner, first.tip.link, force);
+        let force = dyad.pin_inner(balance, first, force);
         for (leg, loads, force) in [(first, loads[0], force), (second, loads[1], force.opposite())] {
             if leg.is_single() {
                 balance.pin(leg.outer, leg.link(), loads.plus(&force, ground).opposite());
-                continue;
+            } else {
+                dyad.balance_rest(balance, leg)?;
             }
-            if leg.tip == first.tip {
-                balance.push(leg.tip.link, balance.placement.point(leg.tip), force);
-            }
-            dyad.balance_rest(balance, leg)?;
         }
         Ok(())
     }
@@ -148,7 +151,7 @@ impl Rule for Rrr {
         let model = motion.model();
         let Some(dyad) = pinned_dyad(model, group) else { return Ok(()) };
         let [u1, u2] = dyad.legs.each_ref().map(|leg| dyad.direction(motion.placement, leg));
-        let [p, q] = dyad.outer_ends().map(|end| motion.of_point(end));
+        let [p, q] = dyad.legs.each_ref().map(|leg| motion.across(leg.outer, leg.far.end.link));
         // v_P + ω₁ r₁ u₁⊥ = v_Q + ω₂ r₂ u₂⊥, multiplied by u₂ and by u₁; what drives within the legs give their ends comes on top.
         let ground = motion.placement.direction(crate::model::ids::GROUND);
         let [first, second] = dyad.legs.each_ref().map(|leg| dyad.driven_velocity(motion, leg));
@@ -206,8 +209,8 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         return Err(assembly.missing_closure(group, dyad.inner, [Side::Left, Side::Right], &of));
     };
     check_closure(dyad, closure, &of)?;
-    let [p, q] = dyad.outer_ends();
-    let closing = match half_angle(assembly, dyad, [p, q]) {
+    let [p, q] = dyad.outer_spots();
+    let closing = match dyad.outer_ends().and_then(|ends| half_angle(assembly, dyad, ends)) {
         Some((arms, swapped)) => by_half_angle(dyad, closure, &arms, swapped)?,
         None => {
             if closure.smooth_at.is_some() {

@@ -5,21 +5,18 @@ linkage! {
 
     units { mm, N }
 
-    ground     { O: (0, 0), Q: (140mm, 0) }
-    link crank { O -> A: 80mm }
-    link first { A -> W: 50mm }
-    link second { W -> B: 50mm }
-    link rocker { Q -> B: 120mm }
+    ground     { O: (0, 0), Q: (0, -350mm) }
+    link crank { O -> A: 140mm }
+    link lever { Q -> B: 720mm }
 
     revolute O: ground -> crank;
-    revolute A: crank -> first;
-    weld W: first -> second;
-    revolute B: second -> rocker;
-    revolute Q: ground -> rocker;
+    revolute Q: ground -> lever;
+    slot S: lever.Q -> crank.A along 0deg of lever;
 
-    drive q: O;
+    drive q: S.angle;
+    assemble S: left(O -> Q);
 
-    load F: force(second.B);
+    load F: force(lever.B);
 
     scene statics: equilibrium;
 }
