@@ -244,7 +244,8 @@ fn side(assembly: &mut Assembly<'_>, group: &Group, dyad: &Dyad<'_>) -> Result<i
         (Side::Ahead, Some(index)) => index == 0,
         (Side::Behind, Some(index)) => index == 1,
         _ => {
-            let lies = format!("along the slide `{slide}`, `{q}` lies ahead of `{p}` or behind it");
+            let noun = dyad.model.joint(dyad.inner).kind.noun();
+            let lies = format!("along the {noun} `{slide}`, `{q}` lies ahead of `{p}` or behind it");
             let across = matches!(closure.side, Side::Left | Side::Right);
             let problem =
                 if across { format!("`{}` is for dyads of three pins: {lies}", closure.side.word()) } else { lies };
