@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::program::passes::PASSES;
-use linkage_codegen::program::{Extract, Form, Input, Program, Run};
+use linkage_codegen::program::{Extract, Form, Input, Program, Run, Step};
 use support::linkages::{Kind, sample};
 use support::numbers::{Double, Extended};
 use support::{Arguments, Number, compile, pose};
@@ -91,4 +91,49 @@ fn a_scene_from_a_pose_goes_on_where_the_pose_ends() {
             assert!(named <= 1, "{}", sample.text);
         }
     }
+}
+
+/// A result that is not finite is found out by the checks that are left, whatever comes in.
+#[test]
+fn fewer_checks_find_the_same() {
+    let (mut refused, mut checks) = (0, [0, 0]);
+    for seed in 0..20 {
+        let kind =
+            Kind { dyads: 2, sliders: true, joints: true, unknown_anywhere: false, params: false, scalar: "f64" };
+        let sample = sample(seed, kind);
+        let linkage = compile(&sample.text);
+        let graph = &linkage.model.graph;
+        for output in &linkage.plan.scenes {
+            let program = Extract { graph, form: Form::Direct }.program(&output.leaves(), &output.sums());
+            let (last, others) = PASSES.split_last().expect("passes");
+            assert_eq!(last.0, "finite");
+            let before = others.iter().fold(program, |program, (_, pass)| pass(program, graph));
+            let after = last.1(before.clone(), graph);
+            for (count, program) in checks.iter_mut().zip([&before, &after]) {
+                *count += program.steps.iter().map(checked).sum::<usize>();
+            }
+            for value in [f64::INFINITY, f64::NAN, 1.7e308, -1.7e308, 1e200] {
+                for at in 0..2 * sample.arguments.loads.len() {
+                    let mut arguments = sample.arguments.clone();
+                    arguments.loads[at / 2][at % 2] = value;
+                    let run = |program| {
+                        let result = Run { program, graph }.with(&|input| match input {
+                            Input::Symbol(symbol) => Double(arguments.of(symbol)),
+                            Input::Kept(_) | Input::Prepared(_) => Double(f64::NAN),
+                        });
+                        result.map(|values| values.iter().map(|x| x.0.to_bits()).collect::<Vec<_>>())
+                    };
+                    let (with_all, with_fewer) = (run(&before), run(&after));
+                    refused += usize::from(with_all.is_err());
+                    assert_eq!(with_all, with_fewer, "load {at} = {value}\n{}", sample.text);
+                }
+            }
+        }
+    }
+    assert!(refused > 100, "{refused} refused");
+    assert!(3 * checks[1] < 2 * checks[0], "{checks:?}");
+}
+
+fn checked(step: &Step) -> usize {
+    if let Step::FiniteResults(groups) = step { groups.len() } else { 0 }
 }

@@ -1,32 +1,51 @@
-//! Between which bounds a value lies whatever its symbols are: what fails at every pose is found before any is given.
+//! Between which bounds a value lies whatever its symbols are: what fails at every pose is found before any is given, and what cannot
+//! overflow needs no check.
 
 use std::collections::BTreeSet;
 
-use super::{Condition, Graph, Guard, Kernel, NodeId, Op, Symbol};
+use super::{Condition, Graph, Guard, Kernel, NodeId, Op, Scalar, Symbol};
 use crate::model::ids::ParamId;
 
-/// Bounds that hold in spite of the rounding with which they are worked out.
+/// Bounds that hold in spite of rounding: of the value as a function computes it, and of their own. Without bounds a value may also be
+/// no number.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
+pub(crate) struct Bounds {
     low: f64,
     high: f64,
 }
 
 impl Bounds {
-    const ANY: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
+    /// Of what may be anything.
+    pub(crate) const ANY: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
-    /// Takes the rounding of one operation into account; where nothing is known, anything goes.
-    fn rounded(low: f64, high: f64) -> Self {
-        let wider = |x: f64, by: f64| x + by * (x.abs() * 1e-15 + f64::MIN_POSITIVE);
-        if low.is_nan() || high.is_nan() { Self::ANY } else { Self { low: wider(low, -1.0), high: wider(high, 1.0) } }
+    /// Of any finite number of a scalar.
+    pub(crate) fn finite(scalar: Scalar) -> Self {
+        let largest = scalar.largest();
+        Self { low: -largest, high: largest }
     }
 
-    fn of_all(corners: &[f64]) -> Self {
-        if corners.iter().any(|x| x.is_nan()) {
+    /// Whether a value within them is finite in a scalar.
+    pub(crate) fn are_finite(self, scalar: Scalar) -> bool {
+        let largest = scalar.largest();
+        -largest <= self.low && self.high <= largest
+    }
+
+    /// Takes the rounding of an operation into account, which never passes over zero; where nothing is known, anything goes.
+    fn rounded(self, scalar: Scalar) -> Self {
+        if self.low.is_nan() || self.high.is_nan() {
             return Self::ANY;
         }
-        let least = corners.iter().copied().fold(f64::INFINITY, f64::min);
-        Self::rounded(least, corners.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+        let (epsilon, tiny) = match scalar {
+            Scalar::F64 => (f64::EPSILON, f64::MIN_POSITIVE),
+            Scalar::F32 => (f64::from(f32::EPSILON), f64::from(f32::MIN_POSITIVE)),
+        };
+        let wider = |x: f64| 4.0 * epsilon * x.abs() + tiny;
+        let down = |x: f64| if x < 0.0 { x - wider(x) } else { (x - wider(x)).max(0.0) };
+        Self { low: down(self.low), high: -down(-self.high) }
+    }
+
+    fn opposite(self) -> Self {
+        Self { low: -self.high, high: -self.low }
     }
 
     fn magnitude(self) -> Self {
@@ -34,16 +53,30 @@ impl Bounds {
         Self { low, high: self.high.max(-self.low) }
     }
 
+    /// Of a sum.
+    pub(crate) fn plus(self, other: Self) -> Self {
+        Self { low: self.low + other.low, high: self.high + other.high }
+    }
+
     fn times(self, other: Self) -> Self {
         let corners = [self.low * other.low, self.low * other.high, self.high * other.low, self.high * other.high];
-        Self::of_all(&corners)
+        if corners.iter().any(|x| x.is_nan()) {
+            return Self::ANY;
+        }
+        let least = corners.iter().copied().fold(f64::INFINITY, f64::min);
+        Self { low: least, high: corners.iter().copied().fold(f64::NEG_INFINITY, f64::max) }
     }
 
     fn over(self, other: Self) -> Self {
         if other.low <= 0.0 && other.high >= 0.0 {
             return Self::ANY;
         }
-        self.times(Self::rounded(1.0 / other.high, 1.0 / other.low))
+        self.times(Self { low: 1.0 / other.high, high: 1.0 / other.low })
+    }
+
+    /// Whether any of the values is negative.
+    pub(crate) fn has_negative(self) -> bool {
+        self.low < 0.0
     }
 }
 
@@ -100,25 +133,33 @@ impl Graph {
     }
 
     fn bounds_of(&self, id: NodeId, known: &[Bounds]) -> Bounds {
-        let of = |id: NodeId| known[id.index()];
-        match self.op(id) {
+        self.bounds_of_op(&self.op(id), |operand| known[operand.index()])
+    }
+
+    /// The bounds of what an operation makes of operands within theirs.
+    pub(crate) fn bounds_of_op<T: Copy + PartialEq>(&self, op: &Op<T>, of: impl Fn(T) -> Bounds) -> Bounds {
+        let computed = |bounds: Bounds| bounds.rounded(self.scalar());
+        match *op {
             Op::Constant(number) => {
                 let value = self.number(number).to_f64();
-                Bounds::rounded(value, value)
+                computed(Bounds { low: value, high: value })
             }
-            Op::Neg(a) => Bounds { low: -of(a).high, high: -of(a).low },
+            Op::Neg(a) => of(a).opposite(),
             Op::Abs(a) => of(a).magnitude(),
             Op::NonNegative(a) => Bounds { low: of(a).low.max(0.0), high: of(a).high.max(0.0) },
-            Op::Sqrt(a) => Bounds::rounded(of(a).low.max(0.0).sqrt(), of(a).high.max(0.0).sqrt()),
-            Op::Add(a, b) => Bounds::rounded(of(a).low + of(b).low, of(a).high + of(b).high),
-            Op::Sub(a, b) => Bounds::rounded(of(a).low - of(b).high, of(a).high - of(b).low),
-            Op::Mul(a, b) if a == b => of(a).magnitude().times(of(a).magnitude()),
-            Op::Mul(a, b) => of(a).times(of(b)),
-            Op::Div(a, b) => of(a).over(of(b)),
+            Op::Sqrt(a) => computed(Bounds { low: of(a).low.max(0.0).sqrt(), high: of(a).high.max(0.0).sqrt() }),
+            Op::Add(a, b) => computed(of(a).plus(of(b))),
+            Op::Sub(a, b) => computed(of(a).plus(of(b).opposite())),
+            Op::Mul(a, b) if a == b => computed(of(a).magnitude().times(of(a).magnitude())),
+            Op::Mul(a, b) => computed(of(a).times(of(b))),
+            Op::Div(a, b) => computed(of(a).over(of(b))),
             Op::Where { then, .. } => Bounds { low: of(then).low.min(0.0), high: of(then).high.max(0.0) },
             Op::Quantity(a) | Op::Held(a) | Op::Checked { value: a, .. } => of(a),
             Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_) | Kernel::Unit, .. } => {
-                Bounds::rounded(-1.0, 1.0)
+                computed(Bounds { low: -1.0, high: 1.0 })
+            }
+            Op::Kernel { kernel: Kernel::Atan2, .. } => {
+                computed(Bounds { low: -core::f64::consts::PI, high: core::f64::consts::PI })
             }
             Op::Symbol(_) | Op::Kernel { .. } => Bounds::ANY,
         }

@@ -4,7 +4,7 @@
 //! products with zero gone, signs pulled outwards. A node's number grows along its dependencies, so the order of numbers
 //! is an order of evaluation.
 
-mod bounds;
+pub(crate) mod bounds;
 mod calculus;
 mod expr;
 mod fold;
@@ -38,6 +38,15 @@ impl Scalar {
             Self::F64 => -52,
             Self::F32 => -23,
         })
+    }
+
+    /// Its largest finite number.
+    #[must_use]
+    pub fn largest(self) -> f64 {
+        match self {
+            Self::F64 => f64::MAX,
+            Self::F32 => f64::from(f32::MAX),
+        }
     }
 
     /// Its name in Rust.

@@ -52,12 +52,12 @@ fn bits_of_f64() {
         Hash::of(6, |random| double::polar(random.signed(), angle(random)), pair),
     ];
     let pinned = [
-        0xD6E0_3A74_FBEE_55DF,
-        0x51E8_C8EA_F84C_0AE1,
+        0x56BD_C596_FAE9_B91D,
+        0x2710_B675_B156_CE86,
         0x3049_C228_8AAC_E864,
         0x3EA2_5F75_3044_C477,
         0x23EA_CDDF_90C3_D9FB,
-        0xECBA_0188_2202_CB40,
+        0x8A6B_AC3C_5EA4_1A44,
     ];
     assert_eq!(hashes, pinned, "{hashes:#X?}");
 }

@@ -2,6 +2,7 @@
 //! program before and after each of them.
 
 mod constants;
+mod finite;
 mod pivots;
 mod reciprocals;
 mod signs;
@@ -13,13 +14,14 @@ use super::Program;
 pub type Pass = fn(Program, &crate::graph::Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 6] = [
+pub const PASSES: [(&str, Pass); 7] = [
     ("pivots", pivots::compare_directly),
     ("reciprocals", reciprocals::share),
     ("constants", constants::merge),
     ("unused", unused::remove),
     ("signs", signs::absorb),
     ("unused", unused::remove),
+    ("finite", finite::check_once),
 ];
 
 /// A program after all passes.

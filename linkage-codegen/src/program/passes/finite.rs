@@ -1,0 +1,92 @@
+//! A result is not checked to be finite where that is known already: because it lies within bounds whatever is given, or because
+//! another one that is checked would not be finite either.
+//!
+//! What is infinite or no number stays so in sums, differences, products, roots, as dividend, and as argument of a sine or an angle; only
+//! as divisor or in a comparison can it be lost. So one check stands for all from which the value is formed in these ways.
+
+use std::collections::BTreeSet;
+
+use crate::graph::bounds::Bounds;
+use crate::graph::{Graph, Kernel, Op, Symbol};
+use crate::program::{Definition, Input, Program, Step, ValueId};
+
+pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
+    let scalar = graph.scalar();
+    let bounds = bounds(&program, graph);
+    let unknown = |group: &[ValueId]| {
+        let sum = group.iter().map(|value| bounds[value.index()]).reduce(Bounds::plus);
+        !sum.is_some_and(|sum| sum.are_finite(scalar))
+    };
+    let mut steps = core::mem::take(&mut program.steps);
+    for step in &mut steps {
+        let Step::FiniteResults(groups) = step else { continue };
+        groups.retain(|group| unknown(group));
+        let shown: BTreeSet<ValueId> = groups.iter().flat_map(|group| shown_by(&program, group)).collect();
+        groups.retain(|group| !matches!(group[..], [value] if shown.contains(&value)));
+    }
+    steps.retain(|step| !matches!(step, Step::FiniteResults(groups) if groups.is_empty()));
+    program.steps = steps;
+    program
+}
+
+/// The values that are finite if the sum of a group is: those from which it is formed.
+fn shown_by(program: &Program, group: &[ValueId]) -> BTreeSet<ValueId> {
+    let inherited = |value: &ValueId| match program.op(*value) {
+        Some(Op::Neg(a) | Op::Abs(a) | Op::Sqrt(a) | Op::Div(a, _)) => vec![*a],
+        Some(Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b)) => vec![*a, *b],
+        Some(Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_) | Kernel::Atan2, args, .. }) => args.clone(),
+        _ => Vec::new(),
+    };
+    let mut shown = BTreeSet::new();
+    let mut open: Vec<ValueId> = match group {
+        // By itself it is what is checked.
+        [value] => inherited(value),
+        terms => terms.to_vec(),
+    };
+    while let Some(value) = open.pop() {
+        if shown.insert(value) {
+            open.extend(inherited(&value));
+        }
+    }
+    shown
+}
+
+/// The bounds of all values. Drives are checked, poses and prepared linkages hold finite numbers only; loads may be anything.
+fn bounds(program: &Program, graph: &Graph) -> Vec<Bounds> {
+    let mut known = vec![None; program.values.len()];
+    (0..known.len()).map(|index| bounds_of(program, graph, ValueId::new(index), &mut known)).collect()
+}
+
+fn bounds_of(program: &Program, graph: &Graph, value: ValueId, known: &mut Vec<Option<Bounds>>) -> Bounds {
+    if let Some(bounds) = known[value.index()] {
+        return bounds;
+    }
+    let scalar = graph.scalar();
+    let found = match &program.value(value).definition {
+        Definition::Input(Input::Symbol(Symbol::Drive(_)) | Input::Kept(_) | Input::Prepared(_)) => {
+            Bounds::finite(scalar)
+        }
+        Definition::Input(Input::Symbol(_)) => Bounds::ANY,
+        Definition::Computed(op) => {
+            for operand in op.operands() {
+                bounds_of(program, graph, operand, known);
+            }
+            let of = |operand: ValueId| known[operand.index()].unwrap_or(Bounds::ANY);
+            // Bounds of numbers; these give none.
+            let no_number = match op {
+                Op::Sqrt(a) => of(*a).has_negative(),
+                Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_) | Kernel::Atan2, args, .. } => {
+                    !args.iter().all(|arg| of(*arg).are_finite(scalar))
+                }
+                Op::Kernel { .. } => true,
+                // Of an operand that is no number nothing is known.
+                _ => false,
+            };
+            if no_number { Bounds::ANY } else { graph.bounds_of_op(op, of) }
+        }
+    };
+    // Beyond the largest number it is infinite, and what becomes of it may be no number.
+    let found = if found.are_finite(scalar) { found } else { Bounds::ANY };
+    known[value.index()] = Some(found);
+    found
+}
