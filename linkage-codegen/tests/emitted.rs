@@ -83,7 +83,7 @@ fn four_bar() {
     let loads = four_bar::Loads { F13: force };
     for theta in angles() {
         let arguments =
-            Arguments { drives: vec![theta], loads: vec![[force.x, force.y], [0.0; 2]], params: Vec::new() };
+            Arguments { drives: vec![theta], loads: vec![[force.x, force.y], [0.0; 2]], ..Arguments::default() };
         let pose = four_bar::Pose::at(theta);
         let from = |scene: fn(&four_bar::Pose, &four_bar::Loads) -> Result<four_bar::Statics, Error>| {
             pose.and_then(|pose| scene(&pose, &loads))
@@ -117,7 +117,8 @@ fn slider_crank() {
     let interpreted = Interpreted::of("slider_crank");
     let loads = engine::Loads { gas: Vector2::new(12.5, -4000.0) };
     for theta in angles() {
-        let arguments = Arguments { drives: vec![theta], loads: vec![[12.5, -4000.0], [0.0; 2]], params: Vec::new() };
+        let arguments =
+            Arguments { drives: vec![theta], loads: vec![[12.5, -4000.0], [0.0; 2]], ..Arguments::default() };
         let pose = engine::Pose::at(theta);
         interpreted.check(
             "hold",
@@ -141,7 +142,7 @@ fn six_bar() {
     let loads = six_bar::Loads { F: Vector2::new(-180.0, 60.0) };
     for theta in angles() {
         let given = vec![[0.0; 2], [-180.0, 60.0], [0.0; 2]];
-        let arguments = Arguments { drives: vec![theta], loads: given, params: Vec::new() };
+        let arguments = Arguments { drives: vec![theta], loads: given, ..Arguments::default() };
         let pose = six_bar::Pose::at(theta);
         interpreted.check(
             "statics",
@@ -177,7 +178,7 @@ fn three_loads() {
     let [f12, f13, f14] = given.map(Vector2::from);
     let loads = three_loads::Loads { F12: f12, F13: f13, F14: f14 };
     for theta in angles() {
-        let arguments = Arguments { drives: vec![theta], loads: given.to_vec(), params: Vec::new() };
+        let arguments = Arguments { drives: vec![theta], loads: given.to_vec(), ..Arguments::default() };
         let pose = three_loads::Pose::at(theta);
         interpreted.check(
             "parts",

@@ -552,7 +552,7 @@ fn every_rule_satisfies_the_equations_of_its_group() {
             let arguments = Arguments {
                 drives: drives.to_vec(),
                 loads: vec![[0.0; 2]; linkage.model.loads.len()],
-                params: Vec::new(),
+                ..Arguments::default()
             };
             check(&linkage, &arguments, &text);
         }

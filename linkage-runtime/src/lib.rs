@@ -45,6 +45,7 @@
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+mod closure;
 mod error;
 pub mod math;
 #[cfg(feature = "reference")]
@@ -52,6 +53,7 @@ pub mod reference;
 mod results;
 mod support;
 
+pub use closure::{Along, Side};
 pub use error::Error;
 pub use linkage_macros::linkage;
 /// The plane vector of the public functions; the version of nalgebra is part of this crate's version.

@@ -7,7 +7,7 @@ use quote::quote;
 use syn::ext::IdentExt;
 
 use super::literals::ident;
-use super::types::{loads, results, run_time_loads, scalar};
+use super::types::{closures, loads, results, run_time_loads, scalar};
 use crate::graph::NodeId;
 use crate::model::{LoadKind, Method, Model, OWN_TYPES, Scene, Wanted, type_name};
 use crate::plan::{Field, Meaning, Output, reaction_type};
@@ -40,6 +40,8 @@ pub fn module(mut model: Model) -> TokenStream {
         quote!(pub fn #name(#arguments) -> Result<#ty, Error> { loop {} })
     });
     let loads = loads(model, false);
+    let closures = closures(model, false);
+    let sides = (!closures.is_empty()).then(|| quote!(use #runtime::{Along, Side};));
     let own = names.iter().map(|name| name.unraw().to_string());
     let methods = distinct(own.zip(from_pose).chain(accessors));
     quote! {
@@ -51,7 +53,9 @@ pub fn module(mut model: Model) -> TokenStream {
                 pub const EQUATIONS: &str = "";
                 pub const OPERATIONS: &str = "";
                 pub const SOURCE: &str = "";
+                #sides
                 #loads
+                #closures
                 #params
                 #pose
                 impl #lifetime Pose #lifetime {
@@ -111,7 +115,8 @@ fn pose(model: &Model) -> TokenStream {
 /// The drives as arguments. What they are called is of no matter.
 fn drives(model: &Model) -> Vec<TokenStream> {
     let scalar = scalar(model);
-    model.drives.iter().map(|_| quote!(_: #scalar)).collect()
+    let closures = model.given_closures().next().map(|_| quote!(_: Closures));
+    model.drives.iter().map(|_| quote!(_: #scalar)).chain(closures).collect()
 }
 
 fn loads_argument(model: &Model, scene: &Scene) -> Option<TokenStream> {

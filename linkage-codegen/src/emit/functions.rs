@@ -17,7 +17,7 @@ use crate::plan::{Comparison, Output};
 use crate::program::{Input, Program, ValueId};
 
 /// Names that a function's own values cannot have.
-const TAKEN: [&str; 6] = ["loads", "linkage", "params", "EQUATIONS", "OPERATIONS", "SOURCE"];
+const TAKEN: [&str; 7] = ["loads", "linkage", "params", "closures", "EQUATIONS", "OPERATIONS", "SOURCE"];
 
 /// The name of an input.
 fn input_name(linkage: &Linkage, input: Input) -> String {
@@ -25,6 +25,7 @@ fn input_name(linkage: &Linkage, input: Input) -> String {
     match input {
         Input::Symbol(Symbol::Drive(drive)) => model.drive(drive).name.text.clone(),
         Input::Symbol(Symbol::Parameter(param)) => model.param(param).name.text.clone(),
+        Input::Symbol(Symbol::Side(closure)) => format!("side_{}", model.joint(model.closure(closure).joint).name),
         Input::Symbol(Symbol::Load(load, part)) => {
             let load = model.load(load);
             load.value_name(load.kind.values()[usize::from(part)].0)
@@ -68,6 +69,12 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
             Input::Kept(_) => kept.push(name),
             Input::Symbol(Symbol::Drive(_)) if drives == Drives::Pose => kept.push(name),
             Input::Symbol(Symbol::Load(load, part)) => loads.entry(load).or_default().push(part),
+            Input::Symbol(Symbol::Side(closure)) => {
+                let scalar = scalar(&linkage.model);
+                let joint = ident(&linkage.model.joint(linkage.model.closure(closure).joint).name.text);
+                let of = if drives == Drives::Pose { quote!(self.closures) } else { quote!(closures) };
+                statements.extend(quote!(let #name = #scalar::from(#of.#joint.sign());));
+            }
             Input::Symbol(_) => {}
         }
     }
@@ -184,14 +191,23 @@ fn outputs(body: &Body<'_>, program: &Program) -> Vec<TokenStream> {
     program.outputs.iter().map(|(_, value): &(String, ValueId)| body.value(*value)).collect()
 }
 
-/// The arguments that give the drives.
+/// Whether what is asked of a pose reads the sides on which it closes.
+pub(super) fn pose_keeps_closures(linkage: &Linkage) -> bool {
+    let functions = &linkage.functions;
+    let scenes = functions.scenes.iter().map(|scene| &scene.from_pose);
+    let mut inputs = functions.accessors.iter().chain(scenes).flat_map(Program::inputs);
+    inputs.any(|(_, input)| matches!(input, Input::Symbol(Symbol::Side(_))))
+}
+
+/// The arguments that give the drives, and the closures if they are chosen at run time.
 fn drive_arguments(linkage: &Linkage) -> Vec<TokenStream> {
     let scalar = scalar(&linkage.model);
     let arguments = linkage.model.drives.iter().map(|drive| {
         let name = ident(&drive.name.text);
         quote!(#name: #scalar)
     });
-    arguments.collect()
+    let closures = linkage.model.given_closures().next().map(|_| quote!(closures: Closures));
+    arguments.chain(closures).collect()
 }
 
 fn linkage_argument(linkage: &Linkage, lifetime: &TokenStream) -> TokenStream {
@@ -257,6 +273,9 @@ pub(super) fn pose_at(linkage: &Linkage) -> TokenStream {
     });
     let drive_docs =
         linkage.model.drives.iter().map(|d| format!("* `{}`: {}", d.name, drive_doc(&linkage.model, &d.name.text)));
+    let closures = linkage.model.given_closures().next();
+    let drive_docs = drive_docs.chain(closures.map(|_| "* `closures`: On which side each group closes.".to_owned()));
+    let keeps = pose_keeps_closures(linkage).then(|| quote!(closures,));
     let lines =
         docs::function("The pose at given coordinates of the drives.", &drive_docs.collect::<Vec<_>>(), program, &[]);
     quote! {
@@ -266,7 +285,7 @@ pub(super) fn pose_at(linkage: &Linkage) -> TokenStream {
             #(#unread)*
             #bindings
             #statements
-            Ok(Self { #own #(#drives,)* #(#kept),* })
+            Ok(Self { #own #(#drives,)* #keeps #(#kept),* })
         }
     }
 }

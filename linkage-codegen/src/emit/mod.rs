@@ -66,6 +66,8 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
             use #runtime::reference::Verification;
         }
     });
+    let closures = types::closures(model, true);
+    let sides = (!closures.is_empty()).then(|| quote!(use #runtime::{Along, Side};));
     let scenes = 0..model.scenes.len();
     let results: TokenStream = scenes.clone().map(|s| types::results(model, s, &linkage.plan.scenes[s])).collect();
     let from_pose: TokenStream = scenes.clone().map(|s| functions::from_pose(linkage, s)).collect();
@@ -90,6 +92,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
         Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
     };
                 #reference
+                #sides
 
                 /// The derivation: free bodies, equilibrium equations, reduction, closed forms.
                 pub const EQUATIONS: &str = #equations;
@@ -99,6 +102,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
                 #source
 
                 #loads
+                #closures
                 #params
                 #pose
                 impl #generics Pose #elided {

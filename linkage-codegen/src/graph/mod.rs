@@ -19,7 +19,7 @@ pub use expr::Expr;
 use number::Number;
 pub use vector::Vector;
 
-use crate::model::ids::{DriveId, LinkId, LoadId, ParamId};
+use crate::model::ids::{ClosureId, DriveId, LinkId, LoadId, ParamId};
 
 /// The number type of a linkage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,6 +97,8 @@ pub enum Symbol {
     Parameter(ParamId),
     /// The coordinate of a drive.
     Drive(DriveId),
+    /// The side of a closure that is chosen at run time: 1 or −1.
+    Side(ClosureId),
     /// A component of a load that is given at run time.
     Load(LoadId, u8),
     /// A coordinate of a link in the symbolic equations.

@@ -19,7 +19,7 @@ use proc_macro2::TokenStream;
 use crate::diagnostics::{Diagnostic, Place, Sink};
 use crate::graph::{Expr, Graph, NodeId, Scalar, Symbol, Vector};
 use crate::syntax::ast::{Ast, Name};
-use ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
+use ids::{ClosureId, DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
 use units::{Kind, Units};
 
 /// A pair of nodes: a point or a direction.
@@ -366,6 +366,20 @@ pub struct Closure {
     pub smooth_place: Place,
 }
 
+impl Closure {
+    /// Whether its side is an argument.
+    #[must_use]
+    pub fn is_given_at_run_time(&self) -> bool {
+        self.side == Side::Either
+    }
+
+    /// The type of that argument: a side of a line, or one along a slide.
+    #[must_use]
+    pub fn type_name(&self) -> &'static str {
+        if self.of.len() == 2 { "Side" } else { "Along" }
+    }
+}
+
 /// A side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
@@ -377,6 +391,8 @@ pub enum Side {
     Ahead,
     /// Less far along the slide.
     Behind,
+    /// As an argument says.
+    Either,
 }
 
 impl Side {
@@ -388,6 +404,7 @@ impl Side {
             Self::Right => "right",
             Self::Ahead => "ahead",
             Self::Behind => "behind",
+            Self::Either => "either",
         }
     }
 }
@@ -661,6 +678,18 @@ impl Model {
     /// All links but the ground.
     pub fn moving_links(&self) -> impl Iterator<Item = LinkId> + use<> {
         (1..self.links.len()).map(LinkId::new)
+    }
+
+    /// A closure.
+    #[must_use]
+    pub fn closure(&self, id: ClosureId) -> &Closure {
+        &self.closures[id.index()]
+    }
+
+    /// The closures whose sides are arguments, each with its place in the list.
+    pub fn given_closures(&self) -> impl Iterator<Item = (ClosureId, &Closure)> {
+        let all = self.closures.iter().enumerate().filter(|(_, closure)| closure.is_given_at_run_time());
+        all.map(|(index, closure)| (ClosureId::new(index), closure))
     }
 
     /// All joints.

@@ -198,18 +198,12 @@ fn closure(scope: Scope<'_>, given: &ast::Assemble) -> Result<Option<Closure>, D
         "right" => (Side::Right, 2),
         "ahead" => (Side::Ahead, 1),
         "behind" => (Side::Behind, 1),
-        "either" => {
-            return Err(Diagnostic::new(
-                given.side.place(),
-                "a closure that is chosen at run time is not supported yet",
-            )
-            .help("choose it here: `left(A -> B0)`, `right(A -> B0)`, or with a slider `ahead(A)`, `behind(A)`"));
-        }
+        // As the joints say: of a line, or along a slide.
+        "either" => (Side::Either, given.joints.len()),
         other => {
             let problem = format!("there is no side `{other}`");
-            return Err(
-                Diagnostic::new(given.side.place(), problem).suggest(other, ["left", "right", "ahead", "behind"])
-            );
+            return Err(Diagnostic::new(given.side.place(), problem)
+                .suggest(other, ["left", "right", "ahead", "behind", "either"]));
         }
     };
     if given.joints.len() != wanted {

@@ -421,14 +421,19 @@ pub(crate) const OWN_TYPES: [&str; 13] = [
     "GearReaction",
     "WorkTerm",
 ];
-/// The same, where there are parameters, and where there is something to verify.
-const FURTHER_TYPES: [&str; 2] = ["Default", "Verification"];
+/// The same, where there are parameters, where there is something to verify, and where closures are chosen at run time.
+const FURTHER_TYPES: [&str; 5] = ["Default", "Verification", "Closures", "Side", "Along"];
 
 /// What the generated functions read may not have two meanings under one name.
 fn check_values(model: &Model, sink: &Sink) {
     let mut values: BTreeMap<String, String> = BTreeMap::new();
     values.insert("loads".into(), "holds the loads".into());
     values.insert("linkage".into(), "holds what is prepared from the parameters".into());
+    for (_, closure) in model.given_closures() {
+        values.insert("closures".into(), "holds the closures that are chosen at run time".into());
+        let joint = &model.joint(closure.joint).name;
+        values.insert(format!("side_{joint}"), format!("is the side of `{joint}`"));
+    }
     for link in &model.links {
         for part in ["cos", "sin"] {
             values.insert(format!("{}_{part}", link.name), format!("is the direction of `{}`", link.name));
@@ -486,7 +491,9 @@ fn check_generated_names(model: &Model, sink: &Sink) {
             }
         }
     }
-    let further = [!model.params.is_empty(), model.scenes.iter().any(|scene| scene.method == Method::Verify)];
+    let verifies = model.scenes.iter().any(|scene| scene.method == Method::Verify);
+    let chooses = model.given_closures().next().is_some();
+    let further = [!model.params.is_empty(), verifies, chooses, chooses, chooses];
     let further = FURTHER_TYPES.iter().zip(further).filter(|(_, there)| *there).map(|(name, _)| name);
     let mut types: BTreeMap<String, String> = OWN_TYPES
         .iter()

@@ -114,6 +114,10 @@ struct Builder {
     drives: Vec<(String, f64)>,
     /// Whether pins and slides may be slots with a drive.
     driven_slots: bool,
+    /// Whether closures may be arguments.
+    either: bool,
+    /// On which side each group closes: 1 or −1.
+    sides: Vec<f64>,
 }
 
 /// A random linkage.
@@ -134,6 +138,8 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
         pins: Vec::new(),
         drives: Vec::new(),
         driven_slots: false,
+        either: kind.joints,
+        sides: Vec::new(),
     };
     let drive = builder.driven_link(kind.sliders);
     builder.drives.push(drive);
@@ -310,8 +316,7 @@ impl Builder {
         self.places.extend([(p.to_owned(), at_p), (q.to_owned(), at_q), (b.to_owned(), at_b)]);
         let left = cross(minus(at_q, at_p), minus(at_b, at_p)) > 0.0;
         let (start, end, left) = if self.random.chance(0.5) { (p, q, left) } else { (q, p, !left) };
-        let line = format!("assemble {b}: {}({start} -> {end});\n", if left { "left" } else { "right" });
-        self.items.push_str(&line);
+        self.assemble(b, if left { "left" } else { "right" }, &format!("{start} -> {end}"), left);
     }
 
     fn slider_dyad(&mut self) {
@@ -338,9 +343,7 @@ impl Builder {
         let (from, to) = self.arrow(y, slider);
         let carrier = *self.random.pick(&[y, slider]);
         self.guide(&s, (from, to), carrier, angle);
-        let side = if dot(minus(at_b, at_p), e) > 0.0 { "ahead" } else { "behind" };
-        let line = format!("assemble {b}: {side}({p});\n");
-        self.items.push_str(&line);
+        self.side(&b, &p, dot(minus(at_b, at_p), e));
         let on_line = if carrier == y { runner } else { guide };
         self.places.extend([(p, at_p), (b, at_b), (s, on_line)]);
     }
@@ -401,7 +404,14 @@ impl Builder {
 
     fn side(&mut self, inner: &str, outer: &str, along: f64) {
         let side = if along > 0.0 { "ahead" } else { "behind" };
-        self.items.push_str(&format!("assemble {inner}: {side}({outer});\n"));
+        self.assemble(inner, side, outer, along > 0.0);
+    }
+
+    /// A closure, now and then as an argument.
+    fn assemble(&mut self, inner: &str, side: &str, of: &str, plus: bool) {
+        let side = if self.either && self.random.chance(0.3) { "either" } else { side };
+        let _ = writeln!(self.items, "assemble {inner}: {side}({of});");
+        self.sides.push(if plus { 1.0 } else { -1.0 });
     }
 
     /// A lever on a pin, whose slot holds a pin of another link.
@@ -570,8 +580,7 @@ impl Builder {
         self.slide(&s, first, second, angle);
         let ahead = dot(minus(at_q, at_p), e) > 0.0;
         let (of, ahead) = if self.random.chance(0.5) { (&p, ahead) } else { (&q, !ahead) };
-        let line = format!("assemble {s}: {}({of});\n", if ahead { "ahead" } else { "behind" });
-        self.items.push_str(&line);
+        self.assemble(&s, if ahead { "ahead" } else { "behind" }, of, ahead);
         self.places.extend([(p, at_p), (q, at_q)]);
     }
 
@@ -853,7 +862,8 @@ impl Builder {
         text.push_str(
             "scene all: equilibrium;\nscene parts: superposition;\nscene work: virtual_work;\nscene whole: position;\n",
         );
-        let arguments = Arguments { drives: self.drives.iter().map(|(_, at)| *at).collect(), loads, params };
+        let drives = self.drives.iter().map(|(_, at)| *at).collect();
+        let arguments = Arguments { drives, loads, params, sides: self.sides };
         Sample { text, arguments, places: self.places }
     }
 }

@@ -43,6 +43,8 @@ pub struct Arguments {
     /// The components of each load, zeros where it is constant.
     pub loads: Vec<[f64; 2]>,
     pub params: Vec<f64>,
+    /// 1 or −1 for each closure that is chosen at run time, in the order of all closures.
+    pub sides: Vec<f64>,
 }
 
 impl Arguments {
@@ -50,6 +52,7 @@ impl Arguments {
         match symbol {
             Symbol::Drive(drive) => self.drives[drive.index()],
             Symbol::Load(load, part) => self.loads[load.index()][usize::from(part)],
+            Symbol::Side(closure) => self.sides[closure.index()],
             Symbol::Parameter(param) => self.params[param.index()],
             Symbol::Coordinate(..) | Symbol::Dimension(_) => f64::NAN,
         }

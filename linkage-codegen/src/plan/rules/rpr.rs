@@ -23,7 +23,7 @@ use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::JointId;
 use crate::model::{Model, Side};
-use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::assembly::{Assembly, DyadPivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::pivots::Pivots;
@@ -181,7 +181,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         d2.require_above(d2, close, failure).known_positive()
     };
     let (s, reach) = if h.is_zero() {
-        let s = side * d2.sqrt();
+        let s = side.of(d2.sqrt());
         (s, s)
     } else {
         let s2 = (d2 - h.squared()).named(format!("s2_{slide}"), format!("s² = D2_{slide} − h²"));
@@ -192,7 +192,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
             gap: (-s2 / (d2.sqrt() + h.abs())).id(),
         };
         let s2 = s2.require_at_least(s2, -limit, failure);
-        let s = side * s2.non_negative().sqrt();
+        let s = side.of(s2.non_negative().sqrt());
         (s, s.where_above(s2, limit))
     };
     let s = s.named(format!("s_{slide}"), format!("s = ±√(D2_{slide} − h²), + where {q} is ahead of {p}"));
@@ -233,16 +233,16 @@ fn place<'m>(assembly: &mut Assembly<'m>, dyad: &Dyad<'m>, direction: Vector<'m>
 }
 
 /// The sign of s, by the closure.
-fn side(assembly: &mut Assembly<'_>, group: &Group, dyad: &Dyad<'_>) -> Result<i64, Diagnostic> {
+fn side<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'_>) -> Result<Sign<'m>, Diagnostic> {
     let slide = dyad.joint_name(dyad.inner);
     let outer: [JointId; 2] = dyad.legs.each_ref().map(|leg| leg.outer);
     let [p, q] = outer.map(|joint| dyad.joint_name(joint));
     let Some(closure) = assembly.closure(dyad.inner) else {
         return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], p));
     };
-    let ahead = match (closure.side, outer.iter().position(|joint| closure.of == [*joint])) {
-        (Side::Ahead, Some(index)) => index == 0,
-        (Side::Behind, Some(index)) => index == 1,
+    let sign = match (closure.side, outer.iter().position(|joint| closure.of == [*joint])) {
+        (Side::Ahead | Side::Behind | Side::Either, Some(0)) => assembly.sign(closure, Side::Ahead),
+        (Side::Ahead | Side::Behind | Side::Either, Some(_)) => assembly.sign(closure, Side::Ahead).opposite(),
         _ => {
             let noun = dyad.model.joint(dyad.inner).kind.noun();
             let lies = format!("along the {noun} `{slide}`, `{q}` lies ahead of `{p}` or behind it");
@@ -257,5 +257,5 @@ fn side(assembly: &mut Assembly<'_>, group: &Group, dyad: &Dyad<'_>) -> Result<i
         return Err(Diagnostic::new(closure.smooth_place, "a dyad with a slide does not fold")
             .help("`smooth` is for dyads of three pins: leave it out"));
     }
-    Ok(if ahead { 1 } else { -1 })
+    Ok(sign)
 }

@@ -19,7 +19,7 @@ use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::{GROUND, JointId};
 use crate::model::{Model, Side};
-use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::assembly::{Assembly, DyadPivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::placement::Way;
@@ -178,20 +178,20 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     Ok(())
 }
 
-/// Whether the inner joint is declared to lie ahead of the outer pin along a line; `lies` says what there is to choose.
-pub(super) fn ahead(
-    assembly: &mut Assembly<'_>,
+/// The sign of how far the inner joint is declared to lie ahead of the outer pin along a line; `lies` says what there is to choose.
+pub(super) fn ahead<'m>(
+    assembly: &mut Assembly<'m>,
     group: &Group,
     inner: JointId,
     outer: JointId,
     lies: String,
-) -> Result<bool, Diagnostic> {
+) -> Result<Sign<'m>, Diagnostic> {
     let model = assembly.model();
     let [name, of] = [inner, outer].map(|joint| &model.joint(joint).name.text);
     let Some(closure) = assembly.closure(inner) else {
         return Err(assembly.missing_closure(group, inner, [Side::Ahead, Side::Behind], of));
     };
-    if !matches!(closure.side, Side::Ahead | Side::Behind) || closure.of != [outer] {
+    if !matches!(closure.side, Side::Ahead | Side::Behind | Side::Either) || closure.of != [outer] {
         let across = matches!(closure.side, Side::Left | Side::Right);
         let problem =
             if across { format!("`{}` is for dyads of three pins: {lies}", closure.side.word()) } else { lies };
@@ -202,7 +202,7 @@ pub(super) fn ahead(
         return Err(Diagnostic::new(closure.smooth_place, "a group with a slider or a slot does not fold")
             .help("`smooth` is for dyads of three pins: leave it out"));
     }
-    Ok(closure.side == Side::Ahead)
+    Ok(assembly.sign(closure, Side::Ahead))
 }
 
 /// Where a link of length r on a pin meets a line.
@@ -225,7 +225,7 @@ pub(super) fn meet<'m>(
     (r, slack): (Expr<'m>, Expr<'m>),
     way: &Way<'m>,
     e: Vector<'m>,
-    ahead: bool,
+    ahead: Sign<'m>,
     [inner, outer]: [&str; 2],
     group: String,
 ) -> Meeting<'m> {
@@ -243,8 +243,13 @@ pub(super) fn meet<'m>(
     };
     let failure = Failure::CannotAssemble { group, joint: inner.into(), gap: (g.abs() - r).id() };
     let h2 = h2.require_at_least(h2, -rounding, failure);
-    let h = if ahead { 1 } else { -1 } * h2.non_negative().sqrt();
-    let h = h.named(format!("h_{inner}"), if ahead { "h = √(h²), ahead" } else { "h = −√(h²), behind" });
+    let h = ahead.of(h2.non_negative().sqrt());
+    let equation = match ahead {
+        Sign::Plus => "h = √(h²), ahead".to_owned(),
+        Sign::Minus => "h = −√(h²), behind".to_owned(),
+        Sign::Given(..) => format!("h = side_{inner} √(h²)"),
+    };
+    let h = h.named(format!("h_{inner}"), equation);
     let (cosine, sine) = (
         (h / r).named(pivot_name.clone(), "sin μ = u·e = h/r"),
         (g / r).named(format!("g_over_r_{inner}"), "u·n = g/r"),

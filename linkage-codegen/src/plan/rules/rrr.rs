@@ -20,7 +20,7 @@ use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Scalar, Vector};
 use crate::model::{Closure, End, Model, Side};
-use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::assembly::{Assembly, DyadPivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::half_angle::{HalfAngle, first_dyad_on};
@@ -187,16 +187,16 @@ struct Closing<'m> {
     d2: Expr<'m>,
     /// `K = ±√(p q)`.
     k: Expr<'m>,
-    /// Whether that is the negative root.
-    negative: bool,
+    /// The sign of that root.
+    sign: Sign<'m>,
     /// What must exceed what for `sin μ` to be more than rounding.
     significant: Vec<(Expr<'m>, Expr<'m>)>,
 }
 
 impl Closing<'_> {
     /// The sign before `K`.
-    fn sign(&self) -> &'static str {
-        if self.negative { "−" } else { "" }
+    fn sign(&self) -> String {
+        self.sign.text()
     }
 }
 
@@ -210,8 +210,9 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     };
     check_closure(dyad, closure, &of)?;
     let [p, q] = dyad.outer_spots();
+    let side = assembly.sign(closure, Side::Left);
     let closing = match dyad.outer_ends().and_then(|ends| half_angle(assembly, dyad, ends)) {
-        Some((arms, swapped)) => by_half_angle(dyad, closure, &arms, swapped)?,
+        Some((arms, swapped)) => by_half_angle(dyad, (closure, side), &arms, swapped)?,
         None => {
             if closure.smooth_at.is_some() {
                 return Err(not_folding(
@@ -220,7 +221,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
                     "its outer joints do not hang on the two links of one driven pin",
                 ));
             }
-            by_distance(dyad, closure, &assembly.placement.way(p, q))
+            by_distance(dyad, side, &assembly.placement.way(p, q))
         }
     };
     let (r1, r2) = (dyad.length(first), dyad.length(second));
@@ -278,7 +279,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {
     let outer = dyad.legs.each_ref().map(|leg| leg.outer);
-    let fits = matches!(closure.side, Side::Left | Side::Right) && closure.of == outer;
+    let fits = matches!(closure.side, Side::Left | Side::Right | Side::Either) && closure.of == outer;
     if fits {
         return Ok(());
     }
@@ -361,7 +362,7 @@ impl<'m> Margin<'m> {
 
 fn by_half_angle<'m>(
     dyad: &Dyad<'m>,
-    closure: &Closure,
+    (closure, side): (&Closure, Sign<'m>),
     arms: &HalfAngle<'m>,
     swapped: bool,
 ) -> Result<Closing<'m>, Diagnostic> {
@@ -430,8 +431,8 @@ fn by_half_angle<'m>(
     };
     let factor = (p_factor * q_factor).sqrt();
     let root = root.named(format!("root_{joint}"), format!("√(p_{joint} q_{joint}) but for constant factors"));
-    let sign = side_sign(dyad, closure, arms, [p.folds, q.folds])?;
-    let k = sign * (factor * root).named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
+    let sign = side_sign(dyad, (closure, side), arms, [p.folds, q.folds])?;
+    let k = sign.of((factor * root).named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})")));
     let significant = [(p, c), (q, s)].map(|(margin, half)| {
         if margin.folds {
             (half.abs().named(format!("fold_{joint}"), "distance from the fold"), angle_rounding)
@@ -439,7 +440,7 @@ fn by_half_angle<'m>(
             (margin.value, margin.rounding)
         }
     });
-    Ok(Closing { d, d2, k, negative: sign < 0, significant: significant.to_vec() })
+    Ok(Closing { d, d2, k, sign, significant: significant.to_vec() })
 }
 
 /// The failure to assemble, with the gap: how much too far apart (`p < 0`) or too close together (`q < 0`) the outer pins are.
@@ -451,8 +452,12 @@ fn gap<'m>(dyad: &Dyad<'m>, value: Expr<'m>, far: bool, d2: Expr<'m>) -> Failure
 }
 
 /// The sign of K: of the side, and in a smooth motion of the fold factor at the stated angle.
-fn side_sign(dyad: &Dyad<'_>, closure: &Closure, arms: &HalfAngle<'_>, folds: [bool; 2]) -> Result<i64, Diagnostic> {
-    let side = if closure.side == Side::Left { 1 } else { -1 };
+fn side_sign<'m>(
+    dyad: &Dyad<'_>,
+    (closure, side): (&Closure, Sign<'m>),
+    arms: &HalfAngle<'_>,
+    folds: [bool; 2],
+) -> Result<Sign<'m>, Diagnostic> {
     let Some(at) = closure.smooth_at else { return Ok(side) };
     let Some(at) = dyad.model.graph.constant_value(at) else {
         return Err(Diagnostic::new(
@@ -468,12 +473,12 @@ fn side_sign(dyad: &Dyad<'_>, closure: &Closure, arms: &HalfAngle<'_>, folds: [b
             format!("at this angle the dyad is folded: `{}` is on neither side", dyad.joint_name(dyad.inner)),
         )
         .help("state the side at an angle away from the folds")),
-        sign => Ok(side * sign),
+        sign => Ok(if sign > 0 { side } else { side.opposite() }),
     }
 }
 
 /// The general form: from the vector between the outer pins.
-fn by_distance<'m>(dyad: &Dyad<'m>, closure: &Closure, way: &Way<'m>) -> Closing<'m> {
+fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m> {
     let joint = dyad.joint_name(dyad.inner);
     let [r1, r2] = dyad.lengths();
     let graph = r1.graph();
@@ -510,11 +515,9 @@ fn by_distance<'m>(dyad: &Dyad<'m>, closure: &Closure, way: &Way<'m>) -> Closing
         let failure = Failure::CoincidentPivots { group: dyad.group_name(), joint: joint.into() };
         d2.require_above(d2, close, failure)
     };
-    let side = if closure.side == Side::Left { 1 } else { -1 };
     let root =
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
-    let k = side * root;
-    Closing { d, d2, k, negative: side < 0, significant: vec![(p, p_rounding), (q, q_rounding)] }
+    Closing { d, d2, k: sign.of(root), sign, significant: vec![(p, p_rounding), (q, q_rounding)] }
 }
 
 /// The least and the largest distance that constant parts of a way can make up.

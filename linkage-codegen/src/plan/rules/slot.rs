@@ -21,7 +21,7 @@ use super::{Rule, RuleResult};
 use crate::graph::{Expr, Failure, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model};
-use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::assembly::{Assembly, DyadPivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::pivots::{Pivots, divisor};
@@ -200,7 +200,7 @@ impl Rule for SlotAndPin {
 }
 
 /// A lever with its own slot.
-fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool) {
+fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<'m>) {
     let Parts { model, link, slot, held, .. } = *parts;
     let graph = assembly.graph();
     let pin = model.joint(slot);
@@ -221,7 +221,7 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool) 
         let rounding = graph.epsilons(2) * way.length();
         let failure = Failure::CoincidentPivots { group: name.into(), joint: at.into() };
         let size = size.require_above(size, rounding, failure).known_positive();
-        let s = if ahead { size } else { -size };
+        let s = ahead.of(size);
         (s, Vector::new(d.x / s, d.y / s))
     } else {
         let square = (d2 - h.squared()).named(format!("s2_{at}"), "s² = d·d − h²");
@@ -230,8 +230,13 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool) 
         let gap = (h.abs() - size).id();
         let failure = Failure::CannotAssemble { group: name.into(), joint: at.into(), gap };
         let square = square.require_at_least(square, -rounding, failure);
-        let s = if ahead { 1 } else { -1 } * square.non_negative().sqrt();
-        let s = s.named(format!("s_{at}"), if ahead { "s = √(s²), ahead" } else { "s = −√(s²), behind" });
+        let s = ahead.of(square.non_negative().sqrt());
+        let equation = match ahead {
+            Sign::Plus => "s = √(s²), ahead".to_owned(),
+            Sign::Minus => "s = −√(s²), behind".to_owned(),
+            Sign::Given(..) => format!("s = side_{at} √(s²)"),
+        };
+        let s = s.named(format!("s_{at}"), equation);
         let rough = Vector::new(s / d2, -(h / d2)).turned_by(d);
         let rough = rough.named_direction(&format!("rough_{name}"), "d (s − i h)/(d·d)");
         let correction =
@@ -256,7 +261,7 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool) 
 }
 
 /// A link whose end runs in a placed slot.
-fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool) -> RuleResult {
+fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<'m>) -> RuleResult {
     let Parts { model, link, slot, held, .. } = *parts;
     let data = model.joint(slot);
     let (Some(own), Some(to)) = (data.end_on(link), data.end_off(link)) else { return Ok(()) };
