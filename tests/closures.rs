@@ -15,7 +15,7 @@ macro_rules! machines {
             link tube     { P: (0.1m, 0.2m) }
             link piston   { K: (0, 0) }
             link lever    { R: (0.1m, 0), L: (0.5m, 0.2m) }
-            link shoe     { U -> V: 3m }
+            link shoe     { U -> V: 6m }
             revolute O: ground -> crank;
             revolute A: crank -> coupler;
             revolute B: coupler -> rocker;
@@ -60,12 +60,12 @@ macro_rules! same {
             let q = f64::from(step) * 0.3;
             let loads = Vector2::new(5.0, -7.0);
             let chosen = chosen::Pose::at(q, $closures).and_then(|pose| {
-                let loads = chosen::Loads { F: loads };
-                assert_eq!(pose.statics(&loads), chosen::statics_at(q, $closures, &loads));
-                Ok(format!("{:?} {:?}", pose.statics(&loads)?, chosen::places_at(q, $closures)?))
+                let (loads, at) = (chosen::Loads { F: loads }, chosen::places_at(q, $closures)?);
+                Ok(format!("{:?} {:?} {at:?}", pose.statics(&loads)?, chosen::statics_at(q, $closures, &loads)?))
             });
             let fixed = $other::Pose::at(q).and_then(|pose| {
-                Ok(format!("{:?} {:?}", pose.statics(&$other::Loads { F: loads })?, $other::places_at(q)?))
+                let (loads, at) = ($other::Loads { F: loads }, $other::places_at(q)?);
+                Ok(format!("{:?} {:?} {at:?}", pose.statics(&loads)?, $other::statics_at(q, &loads)?))
             });
             assert_eq!(chosen, fixed);
             assert!(chosen.is_ok(), "{chosen:?}");

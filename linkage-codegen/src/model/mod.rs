@@ -10,6 +10,7 @@ mod motion;
 mod names;
 mod options;
 mod scenes;
+mod turns;
 pub(crate) use scenes::OWN_TYPES;
 pub use scenes::type_name;
 pub mod units;
@@ -620,31 +621,6 @@ impl Model {
             Wanted::Along(id, along) => format!("{}_along_{}", joint(id)?, link(along)?),
             Wanted::About(id, end) => format!("{}_about_{}", joint(id)?, point(end)?),
         })
-    }
-
-    /// The angle of a link from another one, if driven pins, slides and welds lead there: what the drives turn it by, and the rest.
-    #[must_use]
-    pub fn driven_angle(&self, from: LinkId, on: LinkId) -> Option<[Expr<'_>; 2]> {
-        let zero = self.graph.zero();
-        let mut reached = vec![(from, [zero, zero])];
-        let mut next = 0;
-        while let Some((link, angle)) = reached.get(next).copied() {
-            if link == on {
-                return Some(angle);
-            }
-            next += 1;
-            for joint in self.joint_ids() {
-                let data = self.joint(joint);
-                let unknown = |end: &End| reached.iter().all(|(link, _)| *link != end.link);
-                let Some(other) = data.end_off(link).filter(unknown) else { continue };
-                let fixed = data.kind.turn().map(|(_, angle)| [zero, self.graph.expr(angle)]);
-                let driven = self.drive_of(joint, true).map(|drive| [self.graph.symbol(Symbol::Drive(drive)), zero]);
-                let Some(turn) = fixed.or(driven) else { continue };
-                let sign = if data.to == other { 1 } else { -1 };
-                reached.push((other.link, [0, 1].map(|part| angle[part] + sign * turn[part])));
-            }
-        }
-        None
     }
 
     /// Coordinates of a point in its link's frame.

@@ -538,6 +538,14 @@ impl<'m> Posture<'m> for Placement<'m> {
     fn frame(&self, link: LinkId) -> Vector<'m> {
         self.frame(link)
     }
+
+    fn angle(&self, link: LinkId) -> Expr<'m> {
+        self.angle(link)
+    }
+
+    fn is_geared(&self, link: LinkId) -> bool {
+        self.unwrapped_angle(link).is_some() && self.model.driven_angle(GROUND, link).is_none()
+    }
 }
 
 /// Adds a segment; what turns together is added up in its own axes.

@@ -95,6 +95,21 @@ impl Group {
         }
     }
 
+    /// Whether it is a gear train: wheels and arms on a pin each, with a gear pair or a drive for each.
+    #[must_use]
+    pub fn is_train(&self, model: &Model) -> bool {
+        let joints = || self.outer.iter().chain(&self.inner);
+        let count = |kind: fn(&JointKind) -> bool| joints().filter(|joint| kind(&model.joint(**joint).kind)).count();
+        let gears = count(|kind| matches!(kind, JointKind::Gear(_)));
+        let pins = count(|kind| matches!(kind, JointKind::Revolute));
+        let turned = self.inputs.iter().all(|input| match input {
+            Input::Drive(drive) => model.drive(*drive).turns,
+            Input::Unknown(_) => true,
+        });
+        let size = self.links.len();
+        gears > 0 && turned && pins == size && gears + self.inputs.len() == size && gears + pins == joints().count()
+    }
+
     /// Its kinds of joints in the order outer, inner, …: `RRP`.
     #[must_use]
     pub fn letters(&self, model: &Model) -> String {
@@ -132,6 +147,27 @@ enum Origin {
 }
 
 impl Topology {
+    /// The links of which gears tell the angle, though drives alone do not: wheels that other links turn, and what a fixed or driven angle
+    /// joins to one.
+    #[must_use]
+    pub fn geared(&self, model: &Model) -> BTreeSet<LinkId> {
+        let trains = self.motion.iter().filter(|group| group.is_train(model));
+        let mut found: BTreeSet<LinkId> = trains.flat_map(|group| group.links.iter().copied()).collect();
+        let turns =
+            |joint: &JointId| model.joint(*joint).kind.turn().is_some() || model.drive_of(*joint, true).is_some();
+        let joined: Vec<[LinkId; 2]> =
+            model.joint_ids().filter(turns).map(|joint| model.joint(joint).ends().map(|end| end.link)).collect();
+        while let Some(next) = joined.iter().find_map(|ends| match ends.map(|link| found.contains(&link)) {
+            [true, false] => Some(ends[1]),
+            [false, true] => Some(ends[0]),
+            _ => None,
+        }) {
+            found.insert(next);
+        }
+        found.retain(|link| model.driven_angle(GROUND, *link).is_none());
+        found
+    }
+
     /// Splits a linkage into groups. `None` if that is not possible; why is reported.
     pub fn of(model: &Model, sink: &Sink) -> Option<Self> {
         let drives: Vec<Input> = (0..model.drives.len()).map(|d| Input::Drive(DriveId::new(d))).collect();

@@ -118,6 +118,8 @@ struct Builder {
     either: bool,
     /// On which side each group closes: 1 or −1.
     sides: Vec<f64>,
+    /// Radii, if dimensions are parameters.
+    radii: Option<Vec<f64>>,
 }
 
 /// A random linkage.
@@ -140,6 +142,7 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
         driven_slots: false,
         either: kind.joints,
         sides: Vec::new(),
+        radii: kind.params.then(Vec::new),
     };
     let drive = builder.driven_link(kind.sliders);
     builder.drives.push(drive);
@@ -537,9 +540,20 @@ impl Builder {
             let (angle, flank) = (self.random.range(0.1, 0.5), *self.random.pick(&["left", "right"]));
             let _ = write!(options, ", pressure_angle {angle:?}rad, flank {flank}");
         }
+        let written = radii.map(|radius| match &mut self.radii {
+            Some(radii) => {
+                radii.push(radius);
+                format!("r{}", radii.len() - 1)
+            }
+            None => format!("{radius:?}m"),
+        });
         let line = format!(
-            "gear {g}: {}.{} -> {}.{}, radii ({:?}m, {:?}m), phase {phase:?}m{options};\n",
-            self.bodies[first.0].name, first.1, self.bodies[second.0].name, second.1, radii[0], radii[1]
+            "gear {g}: {}.{} -> {}.{}, radii ({}), phase {phase:?}m{options};\n",
+            self.bodies[first.0].name,
+            first.1,
+            self.bodies[second.0].name,
+            second.1,
+            written.join(", ")
         );
         self.items.push_str(&line);
         let touch = plus(first.2, way.map(|x| x * signed[0] / (signed[0] + signed[1])));
@@ -823,7 +837,10 @@ impl Builder {
 
     fn finish(self, loads: Vec<[f64; 2]>, kind: Kind) -> Sample {
         let mut text = format!("pub mod sample;\nscalar {};\n", kind.scalar);
-        let mut params = Vec::new();
+        let mut params = self.radii.clone().unwrap_or_default();
+        for index in 0..params.len() {
+            let _ = writeln!(text, "param r{index}: length;");
+        }
         let mut length = |value: f64, text: &mut String| {
             if kind.params {
                 let _ = writeln!(text, "param k{}: length;", params.len());

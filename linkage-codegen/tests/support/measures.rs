@@ -255,7 +255,8 @@ fn free_body(
         sums.iter_mut().zip(&part).for_each(|(sum, part)| *sum = sum.add(part));
         column = columns.end;
     }
-    for ((case, exerted), (_, actions)) in general.cases.iter().zip(loads::cases(&loads::Symbolic(&linkage.model))) {
+    let symbolic = loads::Symbolic { model: &linkage.model, topology: &linkage.topology };
+    for ((case, exerted), (_, actions)) in general.cases.iter().zip(loads::cases(&symbolic)) {
         let LoadKind::Force { at, .. } = linkage.model.load(case.load).kind else { continue };
         if at.link != link {
             continue;
