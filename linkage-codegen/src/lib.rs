@@ -85,6 +85,7 @@ fn solve(model: &Model, sink: &Sink) -> Option<(Topology, System, Plan, Function
     let plan = Plan::of(model, &topology, &system, sink)?;
     let functions = Functions::of(&model.graph, &plan);
     program::check_range(model, &functions, sink);
+    program::check_start(model, &functions, sink);
     Some((topology, system, plan, functions))
 }
 

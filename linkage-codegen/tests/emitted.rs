@@ -21,6 +21,9 @@ mod six_bar_example;
 #[path = "../../examples/slider_crank.rs"]
 #[allow(dead_code, unused_imports, missing_docs, reason = "only its declaration is used here")]
 mod slider_crank_example;
+#[path = "../../examples/stephenson.rs"]
+#[allow(dead_code, unused_imports, missing_docs, reason = "only its declaration is used here")]
+mod stephenson_example;
 #[path = "../../examples/three_loads.rs"]
 #[allow(dead_code, unused_imports, missing_docs, reason = "only its declaration is used here")]
 mod three_loads_example;
@@ -28,6 +31,7 @@ mod three_loads_example;
 use four_bar_example::four_bar;
 use six_bar_example::six_bar;
 use slider_crank_example::engine;
+use stephenson_example::stephenson;
 use three_loads_example::three_loads;
 
 /// All numbers of a result, in the order of its fields.
@@ -198,5 +202,51 @@ fn three_loads() {
             &three_loads::torque_at(theta, &loads),
             &pose.and_then(|pose| pose.torque(&loads)),
         );
+    }
+}
+
+#[test]
+fn stephenson() {
+    let interpreted = Interpreted::of("stephenson");
+    let loads = stephenson::Loads { F: Vector2::new(-180.0, 60.0) };
+    for theta in angles() {
+        let arguments =
+            Arguments { drives: vec![theta], loads: vec![[-180.0, 60.0], [0.0; 2]], ..Arguments::default() };
+        let pose = stephenson::Pose::at(theta);
+        interpreted.check(
+            "statics",
+            &arguments,
+            &stephenson::statics_at(theta, &loads),
+            &pose.and_then(|pose| pose.statics(&loads)),
+        );
+        interpreted.check(
+            "parts",
+            &arguments,
+            &stephenson::parts_at(theta, &loads),
+            &pose.and_then(|p| p.parts(&loads)),
+        );
+        interpreted.check(
+            "torque",
+            &arguments,
+            &stephenson::torque_at(theta, &loads),
+            &pose.and_then(|pose| pose.torque(&loads)),
+        );
+        interpreted.check("place", &arguments, &stephenson::place_at(theta), &pose.and_then(|pose| pose.place()));
+    }
+}
+
+/// A pose from the one before, over a whole turn.
+#[test]
+fn stephenson_moved() {
+    let linkage = Interpreted::of("stephenson").linkage;
+    let at = |theta: f64| Arguments { drives: vec![theta], loads: vec![[0.0; 2]; 2], ..Arguments::default() };
+    let mut kept = pose::<Double>(&linkage, &at(0.5)).expect("a pose");
+    let mut emitted = stephenson::Pose::at(0.5).expect("a pose");
+    for step in 0..630 {
+        let theta = 0.5 + f64::from(step) * 0.01;
+        kept = support::moved(&linkage, &kept, &at(theta)).expect("a pose");
+        emitted = emitted.moved_to(theta).expect("a pose");
+        let expected = values_from_kept(&linkage, "place", &kept, &at(theta)).map(|all| all.1);
+        assert_eq!(numbers(&emitted.place()), Interpreted::bits(expected), "at {theta}");
     }
 }

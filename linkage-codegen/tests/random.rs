@@ -9,7 +9,7 @@ use linkage_codegen::graph::Failure;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::program::Fault;
 use support::general::{equations, solve_extended, solve_nalgebra};
-use support::linkages::{Kind, Sample, sample};
+use support::linkages::{Kind, Sample, sample, sample_with_search};
 use support::numbers::{Double, Extended};
 use support::{Arguments, Number, compile, scene};
 
@@ -163,6 +163,36 @@ fn unknowns_anywhere_agree_with_the_general_solution() {
     }
     assert!(solved > 100, "{solved}");
     println!("{solved} of 200");
+}
+
+/// Groups without a closed form, placed by iteration from a start that is somewhat off.
+fn check_searches(seeds: core::ops::Range<u64>) -> usize {
+    let mut solved = 0;
+    for seed in seeds {
+        let kind = Kind { dyads: usize::try_from(seed % 3).expect("small"), ..kind(seed, seed % 2 == 1) };
+        let sample = sample_with_search(seed, kind);
+        if let Some(linkage) = supported(&sample) {
+            solved += 1;
+            check_in_doubles(&sample, &linkage);
+            if seed % 5 == 0 {
+                check_exactly(&sample, &linkage);
+            }
+        }
+    }
+    solved
+}
+
+#[test]
+fn groups_without_a_closed_form_agree_with_the_general_solution() {
+    let solved = check_searches(2000..2100);
+    assert!(solved > 85, "{solved}");
+    println!("{solved} of 100");
+}
+
+#[test]
+#[ignore = "long"]
+fn a_thousand_groups_without_a_closed_form_agree_with_the_general_solution() {
+    println!("{} of 1000", check_searches(20_000..21_000));
 }
 
 #[test]

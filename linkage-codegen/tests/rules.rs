@@ -9,7 +9,7 @@ use support::numbers::Extended;
 use support::{Arguments, Number, compile, scene};
 
 /// A linkage for each class of groups, with the class named, drives at which it closes, and how the rule is used.
-const CASES: [(&str, &[&[f64]], &str); 63] = [
+const CASES: [(&str, &[&[f64]], &str); 68] = [
     // Motion and forces of a crank, its arrow either way, with an inclined dyad.
     (
         "link on a pin",
@@ -162,6 +162,62 @@ const CASES: [(&str, &[&[f64]], &str); 63] = [
         "ground { O: (0, 0), Q: (3m, 0.5m) } link crank { O -> A: 1m, P: (0.5m, 0.5m) } link b { A -> B: 3m, P: (1m, -1m) } link c { Q -> B: 2.5m }
          revolute O: ground -> crank; revolute A: crank -> b; revolute B: b -> c; revolute Q: ground -> c; drive q: O;
          unknown E: torque(ground -> b); assemble B: left(A -> Q); load F: force(b.P) = (3N, -2N); load H: force(crank.P) = (1N, 4N);",
+    ),
+    // A triad: Stephenson III. The unknown at the crank leaves a core of three, one at the ternary link a larger one.
+    (
+        "block",
+        &[&[0.4], &[0.9], &[-0.2]],
+        "ground { O: (0, 0), Q: (5m, 1m), P: (4m, -1m) } link crank { O -> A: 1m } link b { A -> E: 1.95m, G: (1m, 1m) }
+         link t { E: (0, 0), C: (1m, 0.7m), D: (0.7m, -0.9m), G: (0.3m, 0.3m) } link c { Q -> C: 1.92m } link d { D: (0.2m, 0.1m), P: (1.8m, 0.6m) }
+         revolute O: ground -> crank; revolute A: crank -> b; revolute E: t -> b; revolute C: t -> c; revolute D: d -> t;
+         revolute Q: ground -> c; revolute P: d -> ground; drive q: O;
+         start q: 0.4rad; start b: (1m, 0.4m), angle 36deg; start t: (2.5m, 1.5m), angle 0; start c: (5m, 1m), angle 140deg;
+         start d: (3m, 0.6m), angle -80deg; load F: force(t.G) = (3N, -2N); load H: force(b.G) in c = (1N, 4N); load M: moment(d) = 2N*m;",
+    ),
+    (
+        "block",
+        &[&[0.4], &[0.7]],
+        "ground { O: (0, 0), Q: (5m, 1m), P: (4m, -1m) } link crank { O -> A: 1m } link b { A -> E: 1.95m, G: (1m, 1m) }
+         link t { E: (0, 0), C: (1m, 0.7m), D: (0.7m, -0.9m), G: (0.3m, 0.3m) } link c { Q -> C: 1.92m } link d { D: (0.2m, 0.1m), P: (1.8m, 0.6m) }
+         revolute O: ground -> crank; revolute A: crank -> b; revolute E: t -> b; revolute C: t -> c; revolute D: d -> t;
+         revolute Q: ground -> c; revolute P: d -> ground; drive q: O; unknown T: torque(b -> t);
+         start q: 0.4rad; start b: (1m, 0.4m), angle 36deg; start t: (2.5m, 1.5m), angle 0; start c: (5m, 1m), angle 140deg;
+         start d: (3m, 0.6m), angle -80deg; load F: force(t.G) = (3N, -2N); load H: force(b.G) in c = (1N, 4N); load M: moment(d) = 2N*m;",
+    ),
+    // A group of class IV: two ternary links, joined by two links; one of these is guided by a slide instead.
+    (
+        "block",
+        &[&[0.4, 0.4], &[0.8, 0.4]],
+        "ground { O: (0, 0), B: (6m, 0.5m) } link crank { O -> A: 1m } link a { A: (0, 0), C: (1.5m, 1m), D: (1.6m, -0.6m), G: (1m, 1m) }
+         link b { B: (0, 0), E: (-1.4m, 1.2m), F: (-1m, -1.2m) } link up { C -> E: 2.3m } link down { D: (0.1m, 0.2m), S: (1.95m, 0.3m), G: (0, 1m) }
+         link runner { S: (0.1m, 0), F: (0.6m, 0.2m) }
+         revolute O: ground -> crank; revolute A: crank -> a; revolute B: ground -> b; revolute C: a -> up; revolute E: up -> b;
+         revolute D: a -> down; prismatic S: down -> runner along 10deg of down, angle 20deg; drive r: S; revolute F: runner -> b; drive q: O;
+         start q: 0.4rad; start r: 0.3m; start a: (1m, 0.4m), angle 0; start b: (6m, 0.5m), angle 0; start up: (2.5m, 1.4m), angle 10deg;
+         start down: (2.5m, -0.4m), angle -20deg; start runner: (4.5m, -0.8m), angle 0;
+         load F1: force(a.G) = (3N, -2N); load H: force(down.G) = (1N, 4N); load M: moment(b) = 2N*m;",
+    ),
+    // A triad with a slider on a moving guide that is placed before.
+    (
+        "block",
+        &[&[0.4, 0.3], &[0.8, 0.3]],
+        "ground { O: (0, 0), Q: (5m, 1m), P: (4m, -1m) } link crank { O -> A: 1m } link guide { Q: (0, 0), S: (-0.5m, 0.5m) }
+         link b { A -> E: 1.95m, G: (1m, 1m) } link t { E: (0, 0), C: (1m, 0.7m), D: (0.7m, -0.9m), G: (0.3m, 0.3m) }
+         link c { S: (0.1m, 0.3m), C: (0.4m, 0) } link d { D -> P: 1.7m }
+         revolute O: ground -> crank; revolute Q: ground -> guide; revolute A: crank -> b; revolute E: t -> b; revolute C: t -> c;
+         prismatic S: guide -> c along 120deg of c, angle 15deg; revolute D: d -> t; revolute P: d -> ground; drive q: O; drive r: Q;
+         start q: 0.4rad; start r: 0.3rad; start b: (1m, 0.4m), angle 36deg; start t: (2.5m, 1.5m), angle 0; start c: (3.5m, 2m), angle 30deg;
+         start d: (3.2m, 0.6m), angle -60deg; load F: force(t.G) = (3N, -2N); load H: force(b.G) in c = (1N, 4N); load M: moment(d) = 2N*m;",
+    ),
+    // Two slots between two links: both travels are sought.
+    (
+        "block",
+        &[&[0.6], &[0.8]],
+        "ground { O: (0, 0), Q: (3m, 0.5m) } link crank { O -> A: 1m } link b { A -> B: 2m, S: (0.2m, 0.1m), T: (0.5m, 1m), G: (1m, 1m) }
+         link c { Q: (0, 0), S: (-1.2m, 0.3m), T: (-1m, 1.4m), G: (0.3m, 0.4m) } revolute O: ground -> crank; revolute A: crank -> b;
+         revolute Q: ground -> c; slot S: b -> c along 10deg of b; slot T: c -> b along 80deg of c; drive q: O;
+         start q: 0.6rad; start b: (0.8m, 0.6m), angle 10deg; start c: (3m, 0.5m), angle 0;
+         load F: force(b.G) = (3N, -2N); load H: force(c.G) in b = (1N, 4N);",
     ),
     // A force on the rod of a slider-crank: a core of three.
     (

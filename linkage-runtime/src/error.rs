@@ -42,6 +42,14 @@ pub enum Error {
         /// By how much, in the linkage's unit of length; a diagnostic in single precision.
         gap: f32,
     },
+    /// The search for the places of a group's links, from its starting pose or from the pose before, does not arrive: on its branch
+    /// the group cannot be closed, or the way there is too far.
+    NoConvergence {
+        /// The group, by its links.
+        group: &'static str,
+        /// How much stays open, in the linkage's unit of length: the sum over all loops; a diagnostic in single precision.
+        gap: f32,
+    },
     /// The outer joints of a group coincide, so that the place of its inner joint is undetermined.
     CoincidentPivots {
         /// The group, by its links.
@@ -78,6 +86,9 @@ impl fmt::Display for Error {
         match self {
             Self::CannotAssemble { group, joint, gap } => {
                 write!(f, "{group} cannot be assembled: {joint} stays open by {gap}")
+            }
+            Self::NoConvergence { group, gap } => {
+                write!(f, "{group} cannot be closed from where the search starts: {gap} stays open")
             }
             Self::CoincidentPivots { group, joint } => {
                 write!(f, "the outer joints of {group} coincide: the place of {joint} is undetermined")

@@ -47,6 +47,7 @@ extern crate std;
 
 mod closure;
 mod error;
+mod linear;
 pub mod math;
 #[cfg(feature = "reference")]
 pub mod reference;
@@ -68,10 +69,12 @@ pub mod __private {
 
     pub mod f32 {
         pub use crate::math::f32::*;
+        crate::linear::linear!(f32);
         crate::support::support!(f32, x => x);
     }
     pub mod f64 {
         pub use crate::math::f64::*;
+        crate::linear::linear!(f64);
         crate::support::support!(f64, x => x as f32);
     }
 }

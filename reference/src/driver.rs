@@ -127,11 +127,20 @@ fn module(index: usize, case: &Case<'_>) -> String {
     }
     let arguments: Vec<String> = (0..drives).map(|drive| format!("at[{drive}]")).collect();
     let arguments = arguments.join(", ");
+    // Where groups are placed by iteration, a sweep goes from pose to pose.
+    let moves = closed.linkage.functions.near.is_some();
+    if moves {
+        let _ = writeln!(text, "    let mut before: Option<mechanism::Pose> = None;");
+    }
     let _ = writeln!(text, "    for (position, at) in positions.iter().enumerate() {{");
     if !declaration.run_time_loads.is_empty() {
         let _ = writeln!(text, "        let loads = loads[position];");
     }
     let _ = writeln!(text, "        let pose = mechanism::Pose::at({arguments});");
+    if moves {
+        let _ = writeln!(text, "        let pose = before.map_or(pose, |before| before.moved_to({arguments}));");
+        let _ = writeln!(text, "        before = pose.ok().or(before);");
+    }
     for scene in SCENES {
         let Some(function) = scenes.iter().position(|s| s.name.text == scene).and_then(|s| functions.get(s)) else {
             continue;

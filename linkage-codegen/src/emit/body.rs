@@ -121,7 +121,8 @@ impl<'a> Body<'a> {
                 (Kernel::Unit, part) => {
                     format!("unit_{}_{}", of.trim_end_matches("_x"), if *part == 0 { "x" } else { "y" })
                 }
-                (Kernel::Solve2 | Kernel::Solve3, part) => format!("solved_{}", part + 1),
+                (Kernel::Search { .. }, part) => format!("found_{part}"),
+                (Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_), part) => format!("solved_{}", part + 1),
             };
         }
         let mut reader = value;
@@ -258,6 +259,18 @@ impl<'a> Body<'a> {
                 let function = if unknowns == 2 { quote!(solve_2) } else { quote!(solve_3) };
                 quote!(math::#function([#(#rows),*], [#(#right),*]))
             }
+            Kernel::Solve(unknowns) => {
+                let unknowns = usize::from(unknowns);
+                let (coefficients, rest) = args.split_at(unknowns * unknowns);
+                let (sizes, right) = rest.split_at(unknowns * unknowns);
+                let rows = coefficients.chunks(unknowns).map(|row| quote!([#(#row),*]));
+                let sizes = sizes.chunks(unknowns).map(|row| quote!([#(#row),*]));
+                quote!(math::solve([#(#rows),*], [#(#sizes),*], [#(#right),*]))
+            }
+            Kernel::Search { search, .. } => {
+                let name = ident(&self.graph.search(search).name);
+                quote!(#name(#(#args),*))
+            }
         }
     }
 
@@ -305,6 +318,9 @@ impl<'a> Body<'a> {
                     .map_or_else(|| quote!(_), |name| quote!(#name))
             };
             let parts: Vec<TokenStream> = (0..kernel.parts()).map(part).collect();
+            if let (Kernel::Solve(_), Some((distance, unknowns))) = (kernel, parts.split_last()) {
+                return quote!(#docs let ([#(#unknowns),*], #distance) = #call;);
+            }
             return quote!(#docs let (#(#parts),*) = #call;);
         }
         let code = self.written_out(value).tokens;
@@ -347,6 +363,10 @@ impl<'a> Body<'a> {
             }
             Failure::CoincidentPivots { group, joint } => {
                 quote!(Error::CoincidentPivots { group: #group, joint: #joint })
+            }
+            Failure::NoConvergence { group, gap } => {
+                let gap = self.value(*gap);
+                quote!(Error::NoConvergence { group: #group, gap: math::gap(#gap) })
             }
             Failure::DeadCentre { group, pivot } => quote!(Error::DeadCentre { group: #group, pivot: #pivot }),
             Failure::CoincidentEnds { of } => quote!(Error::CoincidentEnds { of: #of }),

@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::Linkage;
+use crate::graph::Search;
 use crate::model::Method;
 use crate::program::{Program, Step};
 use crate::topology::Group;
@@ -117,6 +118,18 @@ pub(super) fn function(summary: &str, points: &[String], program: &Program, equa
     lines(&text)
 }
 
+/// Documentation of a search: what it does, and what a step costs.
+pub(super) fn search(search: &Search, program: &Program) -> TokenStream {
+    lines(&format!(
+        "Places {} by Newton's method, from the given start: what stays open, and the places.\n\n\
+         A step turns each direction `u` by `δ`, to the direction of `u + δ u⊥`; the steps solve `J δ = −gap`, with the exact Jacobian `J`.\n\n\
+         Operations of a step, beside the solution of its {} equations: {}.",
+        search.group,
+        search.residuals.len(),
+        program.counts()
+    ))
+}
+
 fn errors(program: &Program) -> Vec<String> {
     use crate::graph::Failure;
     let mut all: Vec<String> = Vec::new();
@@ -135,6 +148,9 @@ fn errors(program: &Program) -> Vec<String> {
                     add(format!(
                         "* [`Error::CoincidentPivots`]: the outer joints of {group} coincide, the place of `{joint}` is open."
                     ));
+                }
+                Failure::NoConvergence { group, .. } => {
+                    add(format!("* [`Error::NoConvergence`]: the search for the places of {group} does not arrive."));
                 }
                 Failure::DeadCentre { group, pivot } => {
                     add(format!("* [`Error::DeadCentre`]: {group} is at a dead centre, `{pivot}` vanishes."));

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::body::Body;
 use super::docs::blocks;
 use super::formula::{Formula, Nodes};
 use super::functions::{body, prepare_program};
@@ -211,19 +212,27 @@ fn term(formula: &Formula<'_, Nodes<'_>>, node: NodeId, unknown: Option<&str>) -
 
 fn closed_forms(linkage: &Linkage) -> String {
     let mut text = String::from("Closed forms\n------------\n");
-    let mut add = |heading: String, program: &Program| {
+    let mut add = |heading: String, program: &Program, body: &Body<'_>| {
         text.push_str(&format!("\n{heading}: {}\n", program.counts()));
-        for line in body(linkage, program).equations(&linkage.model) {
+        for line in body.equations(&linkage.model) {
             text.push_str(&format!("  {line}\n"));
         }
     };
     if !linkage.model.params.is_empty() {
-        add("prepared, from the parameters".into(), &prepare_program(linkage));
+        let program = prepare_program(linkage);
+        add("prepared, from the parameters".into(), &program, &body(linkage, &program));
     }
-    add("pose, from the drives".into(), &linkage.functions.pose);
+    let pose = &linkage.functions.pose;
+    add("pose, from the drives".into(), pose, &body(linkage, pose));
+    let searches = linkage.model.graph.searches();
+    for ((_, search), program) in searches.iter().zip(&linkage.functions.searches) {
+        let heading = format!("{}, each step until nothing but rounding is open", search.name);
+        add(heading, program, &super::search::step(linkage, search, program));
+    }
     for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
         if scene.method != Method::Verify {
-            add(format!("scene {}, from a pose", scene.name), &functions.from_pose);
+            let program = &functions.from_pose;
+            add(format!("scene {}, from a pose", scene.name), program, &body(linkage, program));
         }
     }
     text

@@ -43,6 +43,10 @@ pub fn module(mut model: Model) -> TokenStream {
     let closures = closures(model, false);
     let sides = (!closures.is_empty()).then(|| quote!(use #runtime::{Along, Side};));
     let own = names.iter().map(|name| name.unraw().to_string());
+    // Whether there is a search is not known; a pose can be moved unless something else has that name.
+    let coordinates = &drives[..model.drives.len()];
+    let moved = quote!(pub fn moved_to(&self, #(#coordinates),*) -> Result<Self, Error> { loop {} });
+    let moved = (!own.clone().any(|name| name == "moved_to")).then_some(moved);
     let methods = distinct(own.zip(from_pose).chain(accessors));
     quote! {
             #[allow(warnings, clippy::all, clippy::pedantic, reason = "stands in for a declaration that has errors")]
@@ -60,6 +64,7 @@ pub fn module(mut model: Model) -> TokenStream {
                 #pose
                 impl #lifetime Pose #lifetime {
                     pub fn at(#at) -> Result<Self, Error> { loop {} }
+                    #moved
                     #methods
                 }
                 #records

@@ -168,6 +168,23 @@ impl<S> Formula<'_, S> {
                 let rows: Vec<String> = rows.map(|(row, right)| format!("[{} | {right}]", row.join(", "))).collect();
                 format!("unknown {} of {}", part + 1, rows.join(" "))
             }
+            (Kernel::Solve(unknowns), part) => {
+                let unknowns = usize::from(unknowns);
+                let (coefficients, rest) = args.split_at(unknowns * unknowns);
+                let rows = coefficients.chunks(unknowns).zip(&rest[unknowns * unknowns..]);
+                let rows: Vec<String> = rows.map(|(row, right)| format!("[{} | {right}]", row.join(", "))).collect();
+                if usize::from(part) < unknowns {
+                    format!("unknown {} of {}", part + 1, rows.join(" "))
+                } else {
+                    format!("smallest pivot, over the size of its terms, of {}", rows.join(" "))
+                }
+            }
+            (Kernel::Search { search, .. }, part) => {
+                let search = self.model.graph.search(search);
+                let names: Vec<String> = search.sought.iter().flat_map(crate::graph::Sought::names).collect();
+                let what = usize::from(part).checked_sub(1).and_then(|index| names.get(index));
+                format!("{} by {}", what.map_or("what stays open", String::as_str), search.name)
+            }
             (Kernel::Unit, part) => format!("{}/|({}, {})|", args[usize::from(part)], args[0], args[1]),
         }
     }
@@ -191,6 +208,9 @@ impl<S> Formula<'_, S> {
                     Coordinate::Cos => format!("cos({link})"),
                     Coordinate::Sin => format!("sin({link})"),
                 }
+            }
+            Symbol::Sought(search, number) | Symbol::Start(search, number) => {
+                super::search::kept_name(&self.model.graph.search(search), number)
             }
             Symbol::Dimension(_) => String::new(),
         }

@@ -30,7 +30,14 @@ fn input_name(linkage: &Linkage, input: Input) -> String {
             let load = model.load(load);
             load.value_name(load.kind.values()[usize::from(part)].0)
         }
-        Input::Symbol(Symbol::Coordinate(..) | Symbol::Dimension(_)) => String::new(),
+        // A number of an unknown, at the pose from which its search starts.
+        Input::Symbol(Symbol::Start(search, number)) => {
+            format!("{}_before", super::search::kept_name(&model.graph.search(search), number))
+        }
+        // Only in the functions of searches, and nowhere.
+        Input::Symbol(Symbol::Sought(..) | Symbol::Coordinate(..) | Symbol::Dimension(_)) | Input::Known(_) => {
+            String::new()
+        }
         Input::Kept(node) => {
             let kept = linkage.plan.pose.iter().find(|kept| kept.node == node);
             kept.map_or_else(String::new, |kept| kept.name.clone())
@@ -54,6 +61,8 @@ pub(super) fn body<'a>(linkage: &'a Linkage, program: &'a Program) -> Body<'a> {
 enum Drives {
     Arguments,
     Pose,
+    /// Arguments, and the rest from a pose that is moved.
+    Moved,
 }
 
 /// Statements that take a function's inputs out of where they are kept.
@@ -66,16 +75,20 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
         let name = ident(&input_name(linkage, input));
         match input {
             Input::Prepared(_) => prepared.push(name),
-            Input::Kept(_) => kept.push(name),
-            Input::Symbol(Symbol::Drive(_)) if drives == Drives::Pose => kept.push(name),
+            Input::Kept(_) => kept.push(quote!(#name)),
+            Input::Symbol(Symbol::Drive(_)) if drives == Drives::Pose => kept.push(quote!(#name)),
+            Input::Symbol(Symbol::Start(search, number)) => {
+                let own = ident(&super::search::kept_name(&linkage.model.graph.search(search), number));
+                kept.push(quote!(#own: #name));
+            }
             Input::Symbol(Symbol::Load(load, part)) => loads.entry(load).or_default().push(part),
             Input::Symbol(Symbol::Side(closure)) => {
                 let scalar = scalar(&linkage.model);
                 let joint = ident(&linkage.model.joint(linkage.model.closure(closure).joint).name.text);
-                let of = if drives == Drives::Pose { quote!(self.closures) } else { quote!(closures) };
+                let of = if drives == Drives::Arguments { quote!(closures) } else { quote!(self.closures) };
                 statements.extend(quote!(let #name = #scalar::from(#of.#joint.sign());));
             }
-            Input::Symbol(_) => {}
+            Input::Symbol(_) | Input::Known(_) => {}
         }
     }
     if !kept.is_empty() {
@@ -195,19 +208,27 @@ fn outputs(body: &Body<'_>, program: &Program) -> Vec<TokenStream> {
 pub(super) fn pose_keeps_closures(linkage: &Linkage) -> bool {
     let functions = &linkage.functions;
     let scenes = functions.scenes.iter().map(|scene| &scene.from_pose);
+    if functions.near.is_some() && linkage.model.given_closures().next().is_some() {
+        return true;
+    }
     let mut inputs = functions.accessors.iter().chain(scenes).flat_map(Program::inputs);
     inputs.any(|(_, input)| matches!(input, Input::Symbol(Symbol::Side(_))))
 }
 
 /// The arguments that give the drives, and the closures if they are chosen at run time.
 fn drive_arguments(linkage: &Linkage) -> Vec<TokenStream> {
+    let closures = linkage.model.given_closures().next().map(|_| quote!(closures: Closures));
+    coordinates(linkage).into_iter().chain(closures).collect()
+}
+
+/// The arguments that give the drives.
+fn coordinates(linkage: &Linkage) -> Vec<TokenStream> {
     let scalar = scalar(&linkage.model);
     let arguments = linkage.model.drives.iter().map(|drive| {
         let name = ident(&drive.name.text);
         quote!(#name: #scalar)
     });
-    let closures = linkage.model.given_closures().next().map(|_| quote!(closures: Closures));
-    arguments.chain(closures).collect()
+    arguments.collect()
 }
 
 fn linkage_argument(linkage: &Linkage, lifetime: &TokenStream) -> TokenStream {
@@ -251,17 +272,43 @@ pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
     }
 }
 
-/// `Pose::at`.
-pub(super) fn pose_at(linkage: &Linkage) -> TokenStream {
-    let program = &linkage.functions.pose;
-    let bindings = bindings(linkage, program, Drives::Arguments);
+/// `Pose::at`, and with searches `Pose::moved_to`.
+pub(super) fn poses(linkage: &Linkage) -> TokenStream {
+    let summary = "The pose at given coordinates of the drives.";
+    let start = "Groups that are placed by Newton's method are searched from their declared start.";
+    let points: &[&str] = if linkage.functions.near.is_some() { &[start] } else { &[] };
+    let receiver = linkage_argument(linkage, &quote!('l));
+    let own = if has_params(linkage) { quote!(linkage,) } else { TokenStream::new() };
+    let mut all = pose_function(linkage, &linkage.functions.pose, &quote!(at), &receiver, &own, summary, points);
+    if let Some(near) = &linkage.functions.near {
+        let summary = "The pose at other coordinates of the drives, from this one.";
+        let points = [
+            "Groups that are placed by Newton's method are searched from where they are, and stay on their branch: a search that would \
+             have to go through a singular pose does not arrive. Take steps that are small against the motion between such poses.",
+        ];
+        let own = if has_params(linkage) { quote!(linkage: self.linkage,) } else { TokenStream::new() };
+        all.extend(pose_function(linkage, near, &quote!(moved_to), &quote!(&self,), &own, summary, &points));
+    }
+    all
+}
+
+fn pose_function(
+    linkage: &Linkage,
+    program: &Program,
+    name: &TokenStream,
+    receiver: &TokenStream,
+    own: &TokenStream,
+    summary: &str,
+    points: &[&str],
+) -> TokenStream {
+    let from_self = receiver.to_string().contains("self");
+    let prepared = if from_self { prepared_of_pose(linkage, program) } else { TokenStream::new() };
+    let bindings = bindings(linkage, program, if from_self { Drives::Moved } else { Drives::Arguments });
     let (statements, body) = body(linkage, program).statements();
     let values = outputs(&body, program);
     let kept = linkage.plan.pose.iter().zip(values).map(|(kept, value)| member(&kept.name, &value));
     let drives = linkage.model.drives.iter().map(|drive| ident(&drive.name.text));
-    let arguments = drive_arguments(linkage);
-    let prepared = linkage_argument(linkage, &quote!('l));
-    let own = if has_params(linkage) { quote!(linkage,) } else { TokenStream::new() };
+    let arguments = if from_self { coordinates(linkage) } else { drive_arguments(linkage) };
     // A drive that no direction depends on is checked all the same.
     let read: Vec<Input> = program.inputs().map(|(_, input)| input).collect();
     let unread =
@@ -273,16 +320,19 @@ pub(super) fn pose_at(linkage: &Linkage) -> TokenStream {
     });
     let drive_docs =
         linkage.model.drives.iter().map(|d| format!("* `{}`: {}", d.name, drive_doc(&linkage.model, &d.name.text)));
-    let closures = linkage.model.given_closures().next();
-    let drive_docs = drive_docs.chain(closures.map(|_| "* `closures`: On which side each group closes.".to_owned()));
-    let keeps = pose_keeps_closures(linkage).then(|| quote!(closures,));
-    let lines =
-        docs::function("The pose at given coordinates of the drives.", &drive_docs.collect::<Vec<_>>(), program, &[]);
+    let closures = linkage.model.given_closures().next().filter(|_| !from_self);
+    let closure_doc = closures.map(|_| "* `closures`: On which side each group closes.".to_owned());
+    let keeps = pose_keeps_closures(linkage)
+        .then(|| if from_self { quote!(closures: self.closures,) } else { quote!(closures,) });
+    let mut points: Vec<String> = points.iter().map(|point| format!("{point}\n")).collect();
+    points.extend(drive_docs.chain(closure_doc));
+    let lines = docs::function(summary, &points, program, &[]);
     quote! {
         #lines
         #[inline]
-        pub fn at(#prepared #(#arguments),*) -> Result<Self, Error> {
+        pub fn #name(#receiver #(#arguments),*) -> Result<Self, Error> {
             #(#unread)*
+            #prepared
             #bindings
             #statements
             Ok(Self { #own #(#drives,)* #keeps #(#kept),* })

@@ -7,6 +7,7 @@ mod fallback;
 mod formula;
 mod functions;
 mod literals;
+mod search;
 mod types;
 
 use proc_macro2::TokenStream;
@@ -57,7 +58,8 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     let prepare = if types::has_params(linkage) { functions::prepare(linkage) } else { TokenStream::new() };
     let params = types::params(linkage, &prepare);
     let pose = types::pose(linkage);
-    let pose_at = functions::pose_at(linkage);
+    let poses = functions::poses(linkage);
+    let searches = search::functions(linkage);
     let accessors = functions::accessors(linkage);
     let verifies = model.scenes.iter().any(|scene| scene.method == Method::Verify);
     let reference = verifies.then(|| {
@@ -106,12 +108,13 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
                 #params
                 #pose
                 impl #generics Pose #elided {
-                    #pose_at
+                    #poses
                     #accessors
                     #from_pose
                 }
                 #results
                 #direct
+                #searches
             }
         }
 }
@@ -120,6 +123,13 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
 #[must_use]
 pub fn operations(linkage: &Linkage) -> String {
     let mut text = format!("{:<28} {}\n", "Pose::at", linkage.functions.pose.counts());
+    if let Some(near) = &linkage.functions.near {
+        text.push_str(&format!("{:<28} {}\n", "Pose::moved_to", near.counts()));
+    }
+    for ((_, search), step) in linkage.model.graph.searches().iter().zip(&linkage.functions.searches) {
+        let name = format!("{}, each step", search.name);
+        text.push_str(&format!("{name:<28} {}, 1 solve\n", step.counts()));
+    }
     for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
         text.push_str(&format!("{:<28} {}\n", format!("Pose::{}", scene.name), functions.from_pose.counts()));
         text.push_str(&format!("{:<28} {}\n", format!("{}_at", scene.name), functions.direct.counts()));

@@ -10,18 +10,28 @@ impl Graph {
     /// Partial derivative by a coordinate of a link: its place or its angle. Cosine and sine of a link are functions of its angle.
     #[must_use]
     pub fn derivative<'g>(&'g self, of: Expr<'g>, link: LinkId, by: Coordinate) -> Expr<'g> {
-        // Dimensions do not move. They may be worked out in many steps that use each other often; these are not gone into.
-        if of.stage() < Stage::Posed {
-            return self.zero();
-        }
-        let d = |id: NodeId| self.derivative(self.expr(id), link, by);
-        match of.op() {
-            Op::Symbol(Symbol::Coordinate(owner, coordinate)) if owner == link => match (coordinate, by) {
+        let symbol = |symbol: Symbol| match symbol {
+            Symbol::Coordinate(owner, coordinate) if owner == link => match (coordinate, by) {
                 (a, b) if a == b => self.one(),
                 (Coordinate::Cos, Coordinate::Angle) => -self.symbol(Symbol::Coordinate(link, Coordinate::Sin)),
                 (Coordinate::Sin, Coordinate::Angle) => self.symbol(Symbol::Coordinate(link, Coordinate::Cos)),
                 _ => self.zero(),
             },
+            _ => self.zero(),
+        };
+        // Dimensions do not move.
+        self.change(of, Stage::Posed, &symbol)
+    }
+
+    /// The change of an expression with the changes of its symbols, which are of a stage, or later. What is known earlier may be worked
+    /// out in many steps that use each other often; these are not gone into.
+    pub(crate) fn change<'g>(&'g self, of: Expr<'g>, stage: Stage, symbol: &dyn Fn(Symbol) -> Expr<'g>) -> Expr<'g> {
+        if of.stage() < stage {
+            return self.zero();
+        }
+        let d = |id: NodeId| self.change(self.expr(id), stage, symbol);
+        match of.op() {
+            Op::Symbol(which) => symbol(which),
             Op::Neg(a) => -d(a),
             Op::Add(a, b) => d(a) + d(b),
             Op::Sub(a, b) => d(a) - d(b),
@@ -40,12 +50,15 @@ impl Graph {
                 let (y, x) = (self.expr(args[0]), self.expr(args[1]));
                 (x * d(args[0]) - y * d(args[1])) / (x * x + y * y)
             }
-            Op::Constant(_) | Op::Symbol(_)
+            Op::Constant(_)
             // Constraints are smooth: they hold none of these.
             | Op::Abs(_)
             | Op::NonNegative(_)
             | Op::Where { .. }
-            | Op::Kernel { kernel: Kernel::Unit | Kernel::Solve2 | Kernel::Solve3, .. } => self.zero(),
+            | Op::Kernel {
+                kernel: Kernel::Unit | Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_) | Kernel::Search { .. },
+                ..
+            } => self.zero(),
         }
     }
 
@@ -124,6 +137,8 @@ impl Graph {
         let zero = || T::from_number(&super::number::Number::zero());
         let value = match self.op(id) {
             Op::Constant(n) => T::from_number(&self.number(n)),
+            // A search starts where it is declared to.
+            Op::Symbol(Symbol::Start(search, number)) => of(self.start_of(search, number)),
             Op::Symbol(symbol) => known(symbol),
             Op::Neg(a) => of(a).neg(),
             Op::Abs(a) => {
@@ -166,6 +181,16 @@ impl Graph {
             Kernel::Unit => pair(args[0].unit(&args[1])),
             Kernel::Solve2 => pair(args[0].solve_2(&args[1], &args[2], &args[3], [&args[4], &args[5]])),
             Kernel::Solve3 => Real::solve_3(&args[..9], &args[9..]),
+            Kernel::Solve(unknowns) => {
+                let n = usize::from(unknowns);
+                let rows = |from: usize| args[from..from + n * n].chunks(n).map(<[T]>::to_vec).collect::<Vec<_>>();
+                let zero = || T::from_number(&super::number::Number::zero());
+                let solved = super::search::solve(&rows(0), &rows(n * n), &args[2 * n * n..]);
+                // Singular equations are refused by their distance, before anything else is read of them.
+                let (solution, distance) = solved.unwrap_or_else(|| (vec![zero(); n], zero()));
+                solution.into_iter().chain([distance]).collect()
+            }
+            Kernel::Search { search, .. } => self.searched(search, args),
         }
     }
 }

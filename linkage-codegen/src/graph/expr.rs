@@ -1,6 +1,7 @@
 //! Expressions written with operators.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
+use std::collections::BTreeMap;
 
 use super::number::Number;
 use super::{Condition, Failure, Graph, Guard, Kernel, Label, NodeId, Op, Stage, Vector};
@@ -118,14 +119,24 @@ impl<'g> Expr<'g> {
     /// The sum of the magnitudes of the terms that make up the value: how large its rounding may be, in epsilons.
     #[must_use]
     pub fn magnitude(self) -> Self {
-        let of = |id| self.graph.expr(id).magnitude();
-        match self.op() {
+        self.magnitude_with(&mut BTreeMap::new())
+    }
+
+    /// Values may use each other often: each is gone into once.
+    fn magnitude_with(self, done: &mut BTreeMap<NodeId, Self>) -> Self {
+        if let Some(found) = done.get(&self.id) {
+            return *found;
+        }
+        let mut of = |id| self.graph.expr(id).magnitude_with(done);
+        let found = match self.op() {
             Op::Neg(a) | Op::Quantity(a) => of(a),
             Op::Add(a, b) | Op::Sub(a, b) => of(a) + of(b),
             Op::Mul(a, b) => of(a) * of(b),
             Op::Div(a, b) => of(a) / self.graph.expr(b).abs(),
             _ => self.abs(),
-        }
+        };
+        done.insert(self.id, found);
+        found
     }
 
     /// The value, or zero if it is negative.

@@ -10,6 +10,7 @@ mod expr;
 mod fold;
 pub mod number;
 pub mod real;
+mod search;
 mod vector;
 
 use core::cell::RefCell;
@@ -17,6 +18,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 pub use expr::Expr;
 use number::Number;
+pub use search::{Search, SearchId, Sought, sought_direction};
 pub use vector::Vector;
 
 use crate::model::ids::{ClosureId, DriveId, LinkId, LoadId, ParamId};
@@ -105,6 +107,10 @@ pub enum Symbol {
     Coordinate(LinkId, Coordinate),
     /// A place in the symbolic equations that stands for any dimension.
     Dimension(u32),
+    /// A number of the unknowns of a search, where it stands.
+    Sought(SearchId, u8),
+    /// The same where it starts: as declared, or at another pose.
+    Start(SearchId, u8),
 }
 
 /// When a value becomes known.
@@ -118,6 +124,8 @@ pub enum Stage {
     Posed,
     /// When the loads are given.
     Loaded,
+    /// In each step of a search.
+    Iterated,
 }
 
 /// A function of the run-time crate.
@@ -135,6 +143,16 @@ pub enum Kernel {
     Solve2,
     /// Solution of three linear equations likewise.
     Solve3,
+    /// Solution of any number of linear equations: coefficients row by row, their sizes likewise, then the right sides. Behind the
+    /// unknowns, how far from singular they are.
+    Solve(u8),
+    /// The places of a group by Newton's method: where it starts, then what is known. How much stays open, then the unknowns.
+    Search {
+        /// Which one.
+        search: SearchId,
+        /// How many results it gives.
+        parts: u8,
+    },
 }
 
 impl Kernel {
@@ -145,6 +163,8 @@ impl Kernel {
             Self::Atan2 => 1,
             Self::SinCos | Self::SinCosSum(_) | Self::Unit | Self::Solve2 => 2,
             Self::Solve3 => 3,
+            Self::Solve(unknowns) => unknowns.saturating_add(1),
+            Self::Search { parts, .. } => parts,
         }
     }
 }
@@ -298,6 +318,13 @@ pub enum Failure<T = NodeId> {
         /// By how much it stays open.
         gap: T,
     },
+    /// The search for the places of a group does not arrive.
+    NoConvergence {
+        /// The group, by its links.
+        group: String,
+        /// How much stays open.
+        gap: T,
+    },
     /// Two pivots meet where the group needs them apart.
     CoincidentPivots {
         /// The group, by its links.
@@ -328,7 +355,10 @@ impl<T: Copy> Failure<T> {
     /// What is reported with it.
     #[must_use]
     pub fn operand(&self) -> Option<T> {
-        if let Self::CannotAssemble { gap, .. } = self { Some(*gap) } else { None }
+        match self {
+            Self::CannotAssemble { gap, .. } | Self::NoConvergence { gap, .. } => Some(*gap),
+            _ => None,
+        }
     }
 
     /// The same with another operand.
@@ -338,6 +368,7 @@ impl<T: Copy> Failure<T> {
             Self::CannotAssemble { group, joint, gap } => {
                 Failure::CannotAssemble { group: group.clone(), joint: joint.clone(), gap: with(*gap) }
             }
+            Self::NoConvergence { group, gap } => Failure::NoConvergence { group: group.clone(), gap: with(*gap) },
             Self::CoincidentPivots { group, joint } => {
                 Failure::CoincidentPivots { group: group.clone(), joint: joint.clone() }
             }
@@ -379,6 +410,7 @@ struct Arena {
     labels: BTreeMap<NodeId, Label>,
     positive: BTreeSet<NodeId>,
     sections: Vec<String>,
+    searches: Vec<Search>,
 }
 
 /// The graph. Nodes are added through a shared reference, so that expressions can be written with operators.
@@ -568,6 +600,7 @@ impl Arena {
         let own = match op {
             Op::Symbol(Symbol::Parameter(_)) => Stage::Prepared,
             Op::Symbol(Symbol::Load(..)) => Stage::Loaded,
+            Op::Symbol(Symbol::Sought(..)) => Stage::Iterated,
             Op::Symbol(_) => Stage::Posed,
             _ => Stage::Constant,
         };

@@ -75,6 +75,8 @@ pub struct Model {
     pub unknowns: Vec<Unknown>,
     /// Chosen closures.
     pub closures: Vec<Closure>,
+    /// Where links start that are placed by iteration.
+    pub starts: Vec<Start>,
     /// The loads.
     pub loads: Vec<Load>,
     /// What is wanted.
@@ -315,6 +317,21 @@ pub struct Drive {
     pub joint: JointId,
     /// Whether that is the angle between its links; otherwise it is the travel along its line.
     pub turns: bool,
+    /// Its value where links start that are placed by iteration, and where that was declared.
+    pub start: Option<(NodeId, Place)>,
+}
+
+/// Where a link starts that is placed by iteration.
+#[derive(Debug)]
+pub struct Start {
+    /// The link.
+    pub link: LinkId,
+    /// The origin of its frame, ground axes.
+    pub origin: Pair,
+    /// The direction of its frame's x axis.
+    pub direction: Pair,
+    /// Where it was declared.
+    pub place: Place,
 }
 
 /// What balances the loads.
@@ -719,6 +736,7 @@ pub fn resolve(ast: &Ast, sink: &Sink) -> Model {
         drives: Vec::new(),
         unknowns: Vec::new(),
         closures: Vec::new(),
+        starts: Vec::new(),
         loads: Vec::new(),
         scenes: Vec::new(),
     };
@@ -729,6 +747,7 @@ pub fn resolve(ast: &Ast, sink: &Sink) -> Model {
     motion::drives(&mut model, ast, &names, sink);
     motion::unknowns(&mut model, ast, &names, sink);
     motion::closures(&mut model, ast, &names, sink);
+    motion::starts(&mut model, ast, &names, sink);
     loads::loads(&mut model, ast, &names, sink);
     scenes::scenes(&mut model, ast, &names, sink);
     if sink.is_clean() {

@@ -6,15 +6,16 @@ use super::joints::end;
 use super::loads::two_points;
 use super::names::{Names, Role, unread};
 use super::units::Kind;
-use super::{Closure, Drive, JointKind, Model, Side, Unknown, UnknownKind};
+use super::{Closure, Drive, JointKind, Model, Side, Start, Unknown, UnknownKind};
 use crate::diagnostics::{Diagnostic, Sink};
-use crate::syntax::ast::{self, Ast, Effort, Item, Name};
+use crate::syntax::ast::{self, Ast, Effort, Item, Name, StartFrom};
 
 /// Drives: each at a joint of its own.
 pub(super) fn drives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
     for item in &ast.items {
         if let Some((_, name)) = unread(item, Role::Drive) {
-            model.drives.push(Drive { name: name.clone(), joint: JointId::new(model.joints.len()), turns: true });
+            let joint = JointId::new(model.joints.len());
+            model.drives.push(Drive { name: name.clone(), joint, turns: true, start: None });
         }
         let Item::Drive(given) = item else { continue };
         let joint = sink.absorb(names.find(Role::Joint, &given.joint)).flatten().map(JointId::new);
@@ -27,7 +28,7 @@ pub(super) fn drives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         }
         // No joint, if none could be found: no other drive is on the same one.
         let joint = joint.unwrap_or(JointId::new(model.joints.len()));
-        model.drives.push(Drive { name: given.name.clone(), joint, turns });
+        model.drives.push(Drive { name: given.name.clone(), joint, turns, start: None });
     }
 }
 
@@ -189,6 +190,61 @@ pub(super) fn closures(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink)
         }
         model.closures.push(closure);
     }
+}
+
+/// Where links and drives start.
+pub(super) fn starts(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
+    for item in &ast.items {
+        let Item::Start(given) = item else { continue };
+        let result = match names.entry(&given.name.text).map(|entry| entry.role) {
+            Some(Role::Drive) => drive_start(model, names, given),
+            _ => link_start(model, names, given),
+        };
+        sink.absorb(result);
+    }
+}
+
+fn twice(given: &ast::Start) -> Diagnostic {
+    Diagnostic::new(given.place, format!("where `{}` starts is said already", given.name)).help("keep one of the two")
+}
+
+fn drive_start(model: &mut Model, names: &Names, given: &ast::Start) -> Result<(), Diagnostic> {
+    let Some(index) = names.find(Role::Drive, &given.name)? else { return Ok(()) };
+    let slides = !model.drives[index].turns;
+    let StartFrom::Coordinate(value) = &given.from else {
+        let example = if slides { "50mm" } else { "60deg" };
+        return Err(Diagnostic::new(given.place, format!("`{}` is a drive: it starts at a value", given.name))
+            .help(format!("as in `start {}: {example};`", given.name)));
+    };
+    let kind = if slides { Kind::Length } else { Kind::Angle };
+    let value = Scope { model, names }.scalar(value, kind)?.id();
+    if model.drives[index].start.replace((value, given.place)).is_some() {
+        return Err(twice(given));
+    }
+    Ok(())
+}
+
+fn link_start(model: &mut Model, names: &Names, given: &ast::Start) -> Result<(), Diagnostic> {
+    let Some(index) = names.find(Role::Link, &given.name)? else { return Ok(()) };
+    let link = LinkId::new(index);
+    if link == GROUND {
+        return Err(Diagnostic::new(given.place, "the ground does not move: it starts nowhere").help("leave it out"));
+    }
+    let StartFrom::Pose(at, angle) = &given.from else {
+        return Err(Diagnostic::new(
+            given.place,
+            format!("`{}` is a link: it starts at a place and an angle", given.name),
+        )
+        .help(format!("as in `start {}: (0, 0), angle 30deg;`", given.name)));
+    };
+    let scope = Scope { model, names };
+    let origin = scope.vector(at, Kind::Length)?.into();
+    let direction = scope.scalar(angle, Kind::Angle)?.direction().into();
+    if model.starts.iter().any(|start| start.link == link) {
+        return Err(twice(given));
+    }
+    model.starts.push(Start { link, origin, direction, place: given.place });
+    Ok(())
 }
 
 fn closure(scope: Scope<'_>, given: &ast::Assemble) -> Result<Option<Closure>, Diagnostic> {

@@ -40,10 +40,6 @@ pub(super) fn options(ast: &Ast, sink: &Sink) -> Options {
                 ),
                 _ => sink.report(Diagnostic::new(name.place(), "what can be emitted besides the solvers is `source`")),
             },
-            Item::Start(place) => sink.report(
-                Diagnostic::new(*place, "a starting pose is not supported yet")
-                    .note("only groups that are solved by iteration need one, and these are not supported yet"),
-            ),
             _ => {}
         }
     }

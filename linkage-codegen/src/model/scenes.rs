@@ -437,10 +437,12 @@ fn check_values(model: &Model, sink: &Sink) {
     for link in &model.links {
         for part in ["cos", "sin"] {
             values.insert(format!("{}_{part}", link.name), format!("is the direction of `{}`", link.name));
+            values.insert(format!("{}_{part}_before", link.name), format!("is a direction of `{}`", link.name));
         }
     }
     for joint in &model.joints {
         values.insert(format!("travel_{}", joint.name), format!("is the travel of `{}`", joint.name));
+        values.insert(format!("travel_{}_before", joint.name), format!("is a travel of `{}`", joint.name));
     }
     let params = model.params.iter().map(|param| (&param.name, vec![param.name.text.clone()]));
     let drives = model.drives.iter().map(|drive| (&drive.name, vec![drive.name.text.clone()]));
@@ -463,14 +465,17 @@ fn check_generated_names(model: &Model, sink: &Sink) {
     check_values(model, sink);
     let mut methods: BTreeMap<String, String> = BTreeMap::new();
     methods.insert("at".into(), "makes a pose".into());
+    if !model.starts.is_empty() {
+        methods.insert("moved_to".into(), "makes a pose from another one".into());
+    }
     let clash =
         |name: &Name, problem: String| sink.report(Diagnostic::new(name.place(), problem).help("choose another name"));
     let method = |name: &Name, made: &str, other: &str| {
         clash(name, format!("a pose would have two methods `{made}`: the other one {other}"));
     };
     for drive in &model.drives {
-        if drive.name.text == "at" {
-            method(&drive.name, "at", &methods["at"]);
+        if let Some(other) = methods.get(&drive.name.text).filter(|_| ["at", "moved_to"].contains(&&*drive.name.text)) {
+            method(&drive.name, &drive.name.text, other);
         }
         methods.insert(drive.name.text.clone(), format!("gives the drive `{}`", drive.name));
     }

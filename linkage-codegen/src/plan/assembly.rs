@@ -7,7 +7,7 @@ use super::pivots::Pivots;
 use super::placement::Placement;
 use crate::diagnostics::{Diagnostic, list};
 use crate::graph::{Expr, Graph, Op, Symbol};
-use crate::model::ids::{ClosureId, DriveId, JointId};
+use crate::model::ids::{ClosureId, DriveId, JointId, LinkId};
 use crate::model::units::Kind;
 use crate::model::{Closure, Model, Side};
 use crate::topology::{Group, Topology};
@@ -99,6 +99,8 @@ pub struct Assembly<'m> {
     pub dyads: Vec<DyadPivot<'m>>,
     /// The groups of motion.
     pub topology: &'m Topology,
+    /// The links that are placed by iteration, from a start.
+    pub started: BTreeSet<LinkId>,
     used: BTreeSet<JointId>,
 }
 
@@ -111,6 +113,7 @@ impl<'m> Assembly<'m> {
             pivots: Pivots::default(),
             dyads: Vec::new(),
             topology,
+            started: BTreeSet::new(),
             used: BTreeSet::new(),
         }
     }

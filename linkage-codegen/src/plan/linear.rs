@@ -1,5 +1,5 @@
-//! Small linear systems of expressions: constants are eliminated while the code is made, and what is left is a core of at most three
-//! equations that is solved at run time with pivoting.
+//! Linear systems of expressions: constants are eliminated while the code is made, and what is left is a core that is solved at run time
+//! with pivoting.
 
 use crate::graph::{Expr, Failure, Graph};
 
@@ -12,8 +12,10 @@ pub(super) struct Equation<'m> {
     pub right: Expr<'m>,
 }
 
-/// The largest core.
-pub(super) const CORE: usize = 3;
+/// The largest core: its unknowns are numbered in a byte.
+pub(super) const CORE: usize = 250;
+/// The largest core whose determinant is written out.
+const WRITTEN_OUT: usize = 3;
 
 /// What a vanishing core is called.
 #[derive(Clone, Copy, Debug)]
@@ -97,12 +99,19 @@ fn solve_core<'m>(
     if rows.iter().all(|(_, right)| right.is_zero()) {
         return Ok(vec![graph.zero(); rows.len()]);
     }
+    let failure = || Failure::DeadCentre { group: core.group.into(), pivot: core.name.into() };
+    if rows.len() > WRITTEN_OUT {
+        // A pivot is refused where it is no larger than the rounding of its terms.
+        let (values, distance) = graph.solved_any(&rows);
+        let distance = distance.named(core.name, "smallest pivot of the core, over the size of its terms");
+        let checked = |value: Expr<'m>| value.require_above(distance.abs(), graph.epsilons(8), failure());
+        return Ok(values.into_iter().map(checked).collect());
+    }
     // The determinant is refused where it is no larger than the rounding of its terms.
     let terms = determinant_terms(&matrix);
     let determinant =
         terms.iter().fold(graph.zero(), |sum, term| sum + *term).named(core.name, "determinant of the core");
     let size = terms.iter().fold(graph.zero(), |sum, term| sum + term.magnitude());
-    let failure = || Failure::DeadCentre { group: core.group.into(), pivot: core.name.into() };
     let rounding = graph.epsilons(8) * size * core.spread;
     let checked = |value: Expr<'m>| value.require_above(determinant.abs(), rounding, failure());
     if let [(row, right)] = rows.as_slice() {

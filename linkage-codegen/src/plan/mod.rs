@@ -103,8 +103,8 @@ impl Plan {
     /// Solves a linkage. `None` if that is not possible; why is reported.
     #[must_use]
     pub fn of(model: &Model, topology: &Topology, system: &System, sink: &Sink) -> Option<Self> {
-        let motion_rules = rules_of(model, &topology.motion, "place", rules::placing_rule, sink)?;
-        let force_rules = rules_of(model, &topology.forces, "find the forces of", rules::force_rule, sink)?;
+        let motion_rules = rules_of(model, &topology.motion, "place", sink)?;
+        let force_rules = rules_of(model, &topology.forces, "find the forces of", sink)?;
         let mut assembly = Assembly::new(model, topology);
         for (index, (group, rule)) in topology.motion.iter().zip(&motion_rules).enumerate() {
             model.graph.begin_section(heading(model, index, group, rule.class(), "position"));
@@ -124,6 +124,7 @@ impl Plan {
                     .help("leave it out"),
             );
         }
+        check_starts_used(model, &assembly, sink);
         if !sink.is_clean() {
             return None;
         }
@@ -142,14 +143,31 @@ impl Plan {
     }
 }
 
+/// Only what is placed by iteration starts anywhere.
+fn check_starts_used(model: &Model, assembly: &Assembly<'_>, sink: &Sink) {
+    let unused = |place, name: &str| {
+        sink.report(
+            Diagnostic::new(place, format!("`{name}` needs no start"))
+                .note("a start is for links that are placed by iteration, and for the drives of a linkage that has such links")
+                .help("leave it out"),
+        );
+    };
+    for start in model.starts.iter().filter(|start| !assembly.started.contains(&start.link)) {
+        unused(start.place, &model.link(start.link).name.text);
+    }
+    for drive in model.drives.iter().filter(|_| assembly.started.is_empty()) {
+        if let Some((_, place)) = drive.start {
+            unused(place, &drive.name.text);
+        }
+    }
+}
+
 type Rules = Vec<&'static dyn rules::Rule>;
 
-type Choice = fn(&Model, &Group) -> Option<&'static dyn rules::Rule>;
-
-fn rules_of(model: &Model, groups: &[Group], what: &str, choose: Choice, sink: &Sink) -> Option<Rules> {
+fn rules_of(model: &Model, groups: &[Group], what: &str, sink: &Sink) -> Option<Rules> {
     let mut found = Vec::new();
     for group in groups {
-        match choose(model, group) {
+        match rules::rule_of(model, group) {
             Some(rule) => found.push(rule),
             None => sink.report(unsupported(model, group, what)),
         }
@@ -171,7 +189,7 @@ fn unsupported(model: &Model, group: &Group, what: &str) -> Diagnostic {
     let class = "its class is not supported yet";
     Diagnostic::new(place, format!("there is no rule to {what} the group of {}: {class}", list(&links)))
         .note(format!("its joints are {} ({letters})", list(&joints)))
-        .help("supported are links on one pin or one slide, welded links, levers and sliders with a slot, gear trains on pins, and RRR, RRP, RPR, PRP and RPP dyads: another drive or unknown may split the linkage so")
+        .help("supported are gear trains on pins, and groups of pins, slides, slots and welds of every class: another drive or unknown may split the linkage so")
 }
 
 /// The heading of a group's steps.
@@ -285,6 +303,8 @@ fn check_possible(model: &Model, sink: &Sink) {
             )
             .note("whatever the drives are, its links are too short or too long to meet there")
             .help("check their lengths, and where the joints are on which they hang"),
+            // Nothing is known of what a search leaves open.
+            Failure::NoConvergence { .. } => continue,
             Failure::CoincidentPivots { group, joint } => Diagnostic::new(
                 joint_place(model, joint),
                 format!(

@@ -88,7 +88,7 @@ impl<'m> Way<'m> {
 }
 
 /// What is placed so far.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Placement<'m> {
     /// The linkage.
     pub model: &'m Model,
@@ -473,6 +473,18 @@ impl<'m> Placement<'m> {
         to_slot.into_iter().for_each(|segment| push_segment(&mut segments, segment));
         segments.retain(|s| !s.along.is_zero());
         Way { segments, graph: self.graph() }
+    }
+
+    /// The way from the first point of a joint to its second that does not go through it; less its travel, if it is a slide: nothing
+    /// stays of it where the joint is closed.
+    #[must_use]
+    pub fn round(&self, joint: JointId, travel: Option<Expr<'m>>) -> Way<'m> {
+        let data = self.model.joint(joint);
+        let mut way = self.way(data.from, data.to);
+        if let Some(travel) = travel {
+            push_segment(&mut way.segments, self.slid(joint, -travel));
+        }
+        way
     }
 
     /// From a point to another of the same link.

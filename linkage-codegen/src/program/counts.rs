@@ -22,8 +22,10 @@ pub struct Counts {
     pub atan2: usize,
     /// Vectors brought to unit size.
     pub unit: usize,
-    /// Pairs and triples of linear equations.
+    /// Sets of linear equations.
     pub solve: usize,
+    /// Searches for the places of groups.
+    pub search: usize,
     /// Changes of sign and magnitudes.
     pub sign: usize,
     /// Comparisons: checks, clamps and selections.
@@ -53,7 +55,8 @@ impl Program {
                                 Kernel::SinCos | Kernel::SinCosSum(_) => counts.sin_cos += 1,
                                 Kernel::Atan2 => counts.atan2 += 1,
                                 Kernel::Unit => counts.unit += 1,
-                                Kernel::Solve2 | Kernel::Solve3 => counts.solve += 1,
+                                Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_) => counts.solve += 1,
+                                Kernel::Search { .. } => counts.search += 1,
                             }
                             pairs.push(call);
                         }
@@ -79,6 +82,7 @@ impl fmt::Display for Counts {
             (self.atan2, "atan2"),
             (self.unit, "unit"),
             (self.solve, "solve"),
+            (self.search, "search"),
             (self.sign, "sign"),
             (self.compare, "compare"),
         ];

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::{Definition, Input, Program, Step, Value, ValueId};
-use crate::graph::{Graph, Guard, NodeId, Op, Stage, Symbol};
+use crate::graph::{Graph, Guard, NodeId, Op, SearchId, Stage, Symbol};
 
 /// What a function starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +14,10 @@ pub enum Form {
     Direct,
     /// A pose.
     FromPose,
+    /// The drives, and a pose from which searches start.
+    Near,
+    /// The unknowns of a search, and what is known to it.
+    Search(SearchId),
 }
 
 /// Takes programs out of a graph.
@@ -37,7 +41,9 @@ impl Extract<'_> {
             computed: HashMap::new(),
         };
         for node in &needed {
-            if let Op::Symbol(Symbol::Drive(_)) = self.graph.op(*node) {
+            // What a search is given was checked before.
+            let is_given = matches!(self.input(*node), Some(Input::Known(_)));
+            if let (Op::Symbol(Symbol::Drive(_)), false) = (self.graph.op(*node), is_given) {
                 let value = building.value(*node);
                 building.program.steps.push(Step::FiniteInput(value));
             }
@@ -73,6 +79,9 @@ impl Extract<'_> {
             if needed.insert(node) && self.input(node).is_none() {
                 let op = self.graph.op(node);
                 open.extend(op.operands());
+                if let Op::Symbol(Symbol::Start(search, number)) = op {
+                    open.push(self.graph.start_of(search, number));
+                }
                 if let Op::Checked { guard, .. } = op {
                     open.extend(self.graph.guard(guard).condition.operands());
                 }
@@ -84,10 +93,21 @@ impl Extract<'_> {
     /// The input that a node is for this function, if it is one.
     fn input(self, node: NodeId) -> Option<Input> {
         let op = self.graph.op(node);
-        if let Op::Symbol(symbol) = op
-            && (!matches!(symbol, Symbol::Parameter(_)) || self.form == Form::Prepare)
+        if let Form::Search(search) = self.form
+            && self.graph.is_known_to(search, node)
         {
-            return Some(Input::Symbol(symbol));
+            return Some(Input::Known(node));
+        }
+        if let Op::Symbol(symbol) = op {
+            let read = match symbol {
+                Symbol::Parameter(_) => self.form == Form::Prepare,
+                // Elsewhere a search starts where it is declared to.
+                Symbol::Start(..) => self.form == Form::Near,
+                _ => true,
+            };
+            if read {
+                return Some(Input::Symbol(symbol));
+            }
         }
         if matches!(op, Op::Held(_)) && self.form == Form::FromPose {
             return Some(Input::Kept(node));
@@ -138,6 +158,11 @@ impl Building<'_> {
                         }
                         value
                     }
+                    Op::Symbol(Symbol::Start(search, number)) => {
+                        let value = self.value(self.extract.graph.start_of(search, number));
+                        self.placed.insert(node, value);
+                        value
+                    }
                     op => {
                         let op = op.map(|operand| self.value(operand));
                         if let Some(same) = self.computed.get(&op) {
@@ -162,7 +187,7 @@ impl Building<'_> {
             return;
         }
         match graph.op(node) {
-            Op::Constant(_) | Op::Quantity(_) | Op::Held(_) => {}
+            Op::Constant(_) | Op::Quantity(_) | Op::Held(_) | Op::Symbol(Symbol::Start(..)) => {}
             Op::Checked { guard, .. } => self.check(&graph.guard(guard)),
             _ => self.program.steps.push(Step::Let(value)),
         }

@@ -13,6 +13,10 @@ pub struct Functions {
     pub prepare: Program,
     /// From the drives: what a pose keeps.
     pub pose: Program,
+    /// From the drives and another pose, from which searches start: what a pose keeps. Only if there are searches.
+    pub near: Option<Program>,
+    /// For each search its residuals, its Jacobian row by row, what rounding may leave open, and the scales of travels.
+    pub searches: Vec<Program>,
     /// From a pose: places, directions, transmission angles; in the order of the plan's accessors.
     pub accessors: Vec<Program>,
     /// In the order of the plan's scenes.
@@ -40,6 +44,15 @@ impl Functions {
         let single = |results: &[(String, NodeId)]| results.iter().map(|(_, node)| vec![*node]).collect::<Vec<_>>();
         let kept: Vec<(String, NodeId)> = plan.pose.iter().map(|kept| (kept.name.clone(), kept.node)).collect();
         let pose = program(Form::Direct, &kept, &single(&kept));
+        let searches = graph.searches();
+        let near = (!searches.is_empty()).then(|| program(Form::Near, &kept, &single(&kept)));
+        let searches: Vec<Program> = searches
+            .into_iter()
+            .map(|(id, search)| {
+                let extract = Extract { graph, form: Form::Search(id) };
+                passes::exact(extract.program(&search.named_results(graph), &[]), graph)
+            })
+            .collect();
         let accessors: Vec<Program> =
             plan.accessors.iter().map(|accessor| program(Form::FromPose, &accessor.output.leaves(), &[])).collect();
         let scenes: Vec<SceneFunctions> = plan
@@ -54,12 +67,12 @@ impl Functions {
             })
             .collect();
         let both = scenes.iter().flat_map(|scene| [&scene.from_pose, &scene.direct]);
-        let all = core::iter::once(&pose).chain(&accessors).chain(both);
+        let all = core::iter::once(&pose).chain(&near).chain(&accessors).chain(both);
         let prepared: BTreeSet<NodeId> = all.flat_map(prepared_inputs).collect();
         let prepared: Vec<NodeId> = prepared.into_iter().collect();
         let results: Vec<(String, NodeId)> = prepared.iter().map(|node| (String::new(), *node)).collect();
         let prepare = program(Form::Prepare, &results, &single(&results));
-        Self { prepare, pose, accessors, scenes, prepared }
+        Self { prepare, pose, near, searches, accessors, scenes, prepared }
     }
 }
 

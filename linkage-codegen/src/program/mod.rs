@@ -9,12 +9,14 @@ mod functions;
 mod interpret;
 pub mod passes;
 mod range;
+mod start;
 
 pub use counts::Counts;
 pub use extract::{Extract, Form};
 pub use functions::{Functions, SceneFunctions};
 pub use interpret::{Fault, Run};
 pub use range::check_range;
+pub use start::check_start;
 
 use crate::graph::{Guard, Label, NodeId, Op, Symbol};
 
@@ -43,6 +45,8 @@ pub enum Input {
     Kept(NodeId),
     /// Prepared from the parameters.
     Prepared(NodeId),
+    /// Known to a search before it begins.
+    Known(NodeId),
 }
 
 /// How a value comes about.

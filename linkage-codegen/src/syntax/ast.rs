@@ -78,7 +78,7 @@ pub enum Item {
     /// `assemble B: …;`
     Assemble(Assemble),
     /// `start coupler: …;`
-    Start(Place),
+    Start(Start),
     /// `unknown T12: …;`
     Unknown(Unknown),
     /// `load F13: …;`
@@ -409,6 +409,26 @@ pub struct Assemble {
     pub chosen: Place,
     /// The whole.
     pub place: Place,
+}
+
+/// `start LINK: vector, angle value;` or `start DRIVE: value;`
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// The link or the drive.
+    pub name: Name,
+    /// Where it starts.
+    pub from: StartFrom,
+    /// The whole.
+    pub place: Place,
+}
+
+/// Where a search starts.
+#[derive(Clone, Debug)]
+pub enum StartFrom {
+    /// Of a link, the place of its frame and the angle of its x axis.
+    Pose(VectorValue, Value),
+    /// The coordinate of a drive.
+    Coordinate(Value),
 }
 
 /// `smooth at value`

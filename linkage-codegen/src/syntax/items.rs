@@ -5,11 +5,12 @@ use syn::parse::discouraged::Speculative;
 use syn::token::{Brace, Paren};
 use syn::{Error, Result, Token};
 
+use super::ast::Magnitude;
 use super::ast::{
     Assemble, Distances, Drive, Effort, End, Gear, Item, Joint, Link, Mass, Name, Param, PointPlace, PointRef, Smooth,
-    Unknown, words,
+    Start, StartFrom, Unknown, words,
 };
-use super::quantity::{at_pair, direction, value, vector};
+use super::quantity::{at_pair, direction, magnitude, value, vector};
 use super::tokens::{at_word, between, comma_list, eat_word, expect_word, name, peek_word, place_of, take};
 use super::{ITEMS, header, loads, scenes};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
@@ -48,10 +49,7 @@ pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         "revolute" | "prismatic" | "slot" | "weld" | "gear" => joint(input, keyword),
         "drive" => drive(input),
         "assemble" => assemble(input, &keyword),
-        "start" => {
-            rest(input);
-            Ok(Item::Start(keyword.place()))
-        }
+        "start" => start(input, &keyword),
         "unknown" => unknown(input, slips),
         "load" => loads::load(input, slips),
         _ => scenes::scene(input, slips),
@@ -313,6 +311,29 @@ fn assemble(input: ParseStream<'_>, keyword: &Name) -> Result<Item> {
         None
     };
     Ok(Item::Assemble(Assemble { joint, side, joints, smooth, chosen, place }))
+}
+
+fn start(input: ParseStream<'_>, keyword: &Name) -> Result<Item> {
+    let name = colon_name(input)?;
+    let (from, end) = match magnitude(input)? {
+        Magnitude::Vector(at) => {
+            if !input.peek(Token![,]) {
+                return Err(input.error(format!(
+                    "expected `,` and the angle\nhelp: a link starts with a place and an angle, as in `start {name}: (0, 0), angle 30deg;`"
+                )));
+            }
+            input.parse::<Token![,]>()?;
+            expect_word(input, "angle")?;
+            let angle = value(input)?;
+            let end = angle.place;
+            (StartFrom::Pose(at, angle), end)
+        }
+        Magnitude::Scalar(value) => {
+            let end = value.place;
+            (StartFrom::Coordinate(value), end)
+        }
+    };
+    Ok(Item::Start(Start { name, from, place: keyword.place().to(end) }))
 }
 
 fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {

@@ -5,7 +5,7 @@ use std::path::Path;
 use proc_macro2::{TokenStream, TokenTree};
 
 /// All examples by the names of their files.
-pub const EXAMPLES: [&str; 4] = ["four_bar", "slider_crank", "six_bar", "three_loads"];
+pub const EXAMPLES: [&str; 5] = ["four_bar", "slider_crank", "six_bar", "three_loads", "stephenson"];
 
 /// The tokens between the braces of an example's `linkage!`.
 pub fn declaration(example: &str) -> TokenStream {

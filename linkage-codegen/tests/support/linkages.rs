@@ -80,6 +80,8 @@ pub struct Sample {
     pub text: String,
     pub arguments: Arguments,
     pub places: Vec<(String, Place)>,
+    /// The longest distance between two points of a link that are joints.
+    pub longest: f64,
 }
 
 /// What a random linkage may have.
@@ -173,7 +175,165 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
     builder.finish(loads, kind)
 }
 
+/// The same with a group that has no closed form at its end, its start somewhat off: a triad, of which a leg may be a slider, or a
+/// group of class IV.
+pub fn sample_with_search(seed: u64, kind: Kind) -> Sample {
+    let mut random = Random(seed);
+    let base = [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
+    let ground =
+        Body { name: "ground".into(), origin: [0.0; 2], angle: 0.0, points: Vec::new(), framed: false, mass: None };
+    let mut builder = Builder {
+        random,
+        base,
+        bodies: vec![ground],
+        items: String::new(),
+        places: Vec::new(),
+        names: 0,
+        sines: 0.2,
+        pins: Vec::new(),
+        drives: Vec::new(),
+        driven_slots: false,
+        either: false,
+        sides: Vec::new(),
+        radii: None,
+    };
+    let drive = builder.driven_link(kind.sliders);
+    builder.drives.push(drive);
+    for _ in 0..kind.dyads {
+        builder.pinned_dyad();
+    }
+    if builder.random.chance(0.6) {
+        builder.triad(kind.sliders);
+    } else {
+        builder.ring();
+    }
+    builder.masses();
+    let loads = builder.loads(kind.unknown_anywhere);
+    let (joint, at) = &builder.drives[0];
+    let unit = if builder.items.contains(&format!("prismatic {joint}:")) { "m" } else { "rad" };
+    let start = format!("start q0: {at:?}{unit};\n");
+    let mut sample = builder.finish(loads, kind);
+    sample.text.push_str(&start);
+    sample
+}
+
+/// How far a force along a line through `at` is from one that the first two lines hold: the determinant of three unit forces.
+fn independence(lines: [(Place, Place); 3]) -> f64 {
+    let row = |(at, along): (Place, Place)| {
+        let u = along.map(|x| x / size(along));
+        [u[0], u[1], cross(minus(at, lines[0].0), u)]
+    };
+    let [a, b, c] = lines.map(row);
+    (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])).abs()
+}
+
 impl Builder {
+    /// A link with points of its own.
+    fn plate(&mut self, points: &[(&str, Place)]) -> usize {
+        let link = self.link(points[0], points[1]);
+        let others = points[2..].iter().map(|(name, at)| ((*name).to_owned(), *at));
+        self.bodies[link].points.extend(others);
+        link
+    }
+
+    /// Where a link starts: near where it is.
+    fn start(&mut self, link: usize) {
+        let mut off = || self.random.range(-0.04, 0.04);
+        let (dx, dy, turn) = (off(), off(), off());
+        let Body { name, origin: [x, y], angle, .. } = &self.bodies[link];
+        let line = format!("start {name}: ({:?}m, {:?}m), angle {:?}rad;\n", x + dx, y + dy, angle + turn);
+        self.items.push_str(&line);
+    }
+
+    /// A ternary link on three legs.
+    fn triad(&mut self, sliders: bool) {
+        let n = self.bodies.len();
+        let outer = [n - 1, self.random.below(n), self.random.below(n)];
+        let names: Vec<String> = (0..6).map(|_| self.fresh('J')).collect();
+        let (feet, tips, slides) = loop {
+            let feet = [self.place(), self.place(), self.place()];
+            let tips = [self.place(), self.place(), self.place()];
+            let slides = sliders && self.random.chance(0.4);
+            let lines = [0, 1, 2].map(|i| {
+                let leg = minus(tips[i], feet[i]);
+                // A slider holds its pin across the line on which it goes.
+                (tips[i], if slides && i == 2 { [-leg[1], leg[0]] } else { leg })
+            });
+            let apart = |a: Place, b: Place| size(minus(a, b)) > 0.4;
+            if (0..3).all(|i| apart(feet[i], tips[i]) && apart(tips[i], tips[(i + 1) % 3])) && independence(lines) > 0.4
+            {
+                break (feet, tips, slides);
+            }
+        };
+        let plate = self.plate(&[(&names[3], tips[0]), (&names[4], tips[1]), (&names[5], tips[2])]);
+        for i in 0..3 {
+            let (foot, tip) = (names[i].clone(), names[i + 3].clone());
+            self.bodies[outer[i]].points.push((foot.clone(), feet[i]));
+            if slides && i == 2 {
+                let along = minus(tips[i], feet[i]);
+                let slider = self.link((&tip, tips[i]), (&foot, plus(feet[i], along.map(|x| 0.3 * x))));
+                self.revolute(&tip, plate, slider);
+                let (from, to) = self.arrow(outer[i], slider);
+                let carrier = *self.random.pick(&[outer[i], slider]);
+                let local = along[1].atan2(along[0]) - self.bodies[carrier].angle;
+                let fixed = self.bodies[to].angle - self.bodies[from].angle;
+                let line = format!(
+                    "prismatic {foot}: {} -> {} along {local:?}rad of {}, angle {fixed:?}rad;\n",
+                    self.bodies[from].name, self.bodies[to].name, self.bodies[carrier].name
+                );
+                self.items.push_str(&line);
+                self.start(slider);
+                self.places.push((tip, tips[i]));
+            } else {
+                let leg = self.link((&foot, feet[i]), (&tip, tips[i]));
+                self.revolute(&foot, outer[i], leg);
+                self.revolute(&tip, leg, plate);
+                self.start(leg);
+                self.places.extend([(foot, feet[i]), (tip, tips[i])]);
+            }
+        }
+        self.start(plate);
+    }
+
+    /// Two ternary links joined by two others: class IV.
+    fn ring(&mut self) {
+        let n = self.bodies.len();
+        let outer = [n - 1, self.random.below(n)];
+        let names: Vec<String> = (0..6).map(|_| self.fresh('J')).collect();
+        // Feet a and b; c, d on the first plate, e, f on the second; legs c-e and d-f.
+        let [a, b, c, d, e, f] = loop {
+            let [a, b, c, d, e, f] = [(); 6].map(|()| self.place());
+            let apart = |a: Place, b: Place| size(minus(a, b)) > 0.4;
+            let unit = |v: Place| v.map(|x| x / size(v));
+            let far = [(a, c), (a, d), (c, d), (b, e), (b, f), (e, f), (c, e), (d, f), (a, b)];
+            if !far.into_iter().all(|(p, q)| apart(p, q)) {
+                continue;
+            }
+            // The rates at which the plates' turns stretch the legs.
+            let (u, v) = (unit(minus(e, c)), unit(minus(f, d)));
+            let rates = [cross(minus(c, a), u), cross(minus(e, b), u), cross(minus(d, a), v), cross(minus(f, b), v)];
+            if (rates[0] * rates[3] - rates[1] * rates[2]).abs() > 0.6 {
+                break [a, b, c, d, e, f];
+            }
+        };
+        self.bodies[outer[0]].points.push((names[0].clone(), a));
+        self.bodies[outer[1]].points.push((names[1].clone(), b));
+        let first = self.plate(&[(&names[0], a), (&names[2], c), (&names[3], d)]);
+        let second = self.plate(&[(&names[1], b), (&names[4], e), (&names[5], f)]);
+        let upper = self.link((&names[2], c), (&names[4], e));
+        let lower = self.link((&names[3], d), (&names[5], f));
+        self.revolute(&names[0], outer[0], first);
+        self.revolute(&names[1], outer[1], second);
+        self.revolute(&names[2], first, upper);
+        self.revolute(&names[4], second, upper);
+        self.revolute(&names[3], lower, first);
+        self.revolute(&names[5], lower, second);
+        for link in [first, second, upper, lower] {
+            self.start(link);
+        }
+        self.places.extend(names.into_iter().zip([a, b, c, d, e, f]));
+    }
+
     fn fresh(&mut self, letter: char) -> String {
         self.names += 1;
         format!("{letter}{}", self.names)
@@ -879,8 +1039,12 @@ impl Builder {
         text.push_str(
             "scene all: equilibrium;\nscene parts: superposition;\nscene work: virtual_work;\nscene whole: position;\n",
         );
+        let moving = self.bodies[1..].iter();
+        let distances =
+            moving.flat_map(|b| b.points.iter().flat_map(|p| b.points.iter().map(move |q| minus(p.1, q.1))));
+        let longest = distances.map(size).fold(0.0, f64::max);
         let drives = self.drives.iter().map(|(_, at)| *at).collect();
         let arguments = Arguments { drives, loads, params, sides: self.sides };
-        Sample { text, arguments, places: self.places }
+        Sample { text, arguments, places: self.places, longest }
     }
 }

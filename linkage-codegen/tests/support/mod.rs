@@ -13,7 +13,7 @@ use std::collections::HashMap;
 
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{NodeId, Symbol};
+use linkage_codegen::graph::{NodeId, Sought, Symbol};
 use linkage_codegen::program::{Fault, Input, Program, Run};
 
 /// A declaration's linkage; its errors make the test fail.
@@ -54,7 +54,7 @@ impl Arguments {
             Symbol::Load(load, part) => self.loads[load.index()][usize::from(part)],
             Symbol::Side(closure) => self.sides[closure.index()],
             Symbol::Parameter(param) => self.params[param.index()],
-            Symbol::Coordinate(..) | Symbol::Dimension(_) => f64::NAN,
+            Symbol::Coordinate(..) | Symbol::Dimension(_) | Symbol::Sought(..) | Symbol::Start(..) => f64::NAN,
         }
     }
 }
@@ -70,7 +70,7 @@ pub fn prepared<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<H
     let program = &linkage.functions.prepare;
     let values = Run { program, graph: &linkage.model.graph }.with(&|input| match input {
         Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
-        Input::Kept(_) | Input::Prepared(_) => T::exactly(f64::NAN),
+        Input::Kept(_) | Input::Prepared(_) | Input::Known(_) => T::exactly(f64::NAN),
     })?;
     Ok(linkage.functions.prepared.iter().copied().zip(values).collect())
 }
@@ -81,13 +81,34 @@ pub fn pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<HashM
     Ok(linkage.plan.pose.iter().map(|kept| kept.node).zip(values).collect())
 }
 
+/// A pose near another one: `moved_to`.
+pub fn moved<T: Number>(
+    linkage: &Linkage,
+    from: &HashMap<NodeId, T>,
+    arguments: &Arguments,
+) -> Result<HashMap<NodeId, T>, Fault> {
+    let program = linkage.functions.near.as_ref().expect("a search");
+    let prepared = prepared::<T>(linkage, arguments)?;
+    let values = Run { program, graph: &linkage.model.graph }.with(&|input| match input {
+        Input::Symbol(Symbol::Start(search, number)) => {
+            let names: Vec<String> = linkage.model.graph.search(search).sought.iter().flat_map(Sought::names).collect();
+            let kept = linkage.plan.pose.iter().find(|kept| kept.name == names[usize::from(number)]);
+            from[&kept.expect("a kept number").node].clone()
+        }
+        Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
+        Input::Prepared(node) => prepared[&node].clone(),
+        Input::Kept(_) | Input::Known(_) => T::exactly(f64::NAN),
+    })?;
+    Ok(linkage.plan.pose.iter().map(|kept| kept.node).zip(values).collect())
+}
+
 /// The results of a program that starts from the drives.
 pub fn direct<T: Number>(linkage: &Linkage, program: &Program, arguments: &Arguments) -> Result<Vec<T>, Fault> {
     let prepared = prepared::<T>(linkage, arguments)?;
     Run { program, graph: &linkage.model.graph }.with(&|input| match input {
         Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
         Input::Prepared(node) => prepared[&node].clone(),
-        Input::Kept(_) => T::exactly(f64::NAN),
+        Input::Kept(_) | Input::Known(_) => T::exactly(f64::NAN),
     })
 }
 
@@ -103,6 +124,7 @@ pub fn from_pose<T: Number>(
         Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
         Input::Prepared(node) => prepared[&node].clone(),
         Input::Kept(node) => pose[&node].clone(),
+        Input::Known(_) => T::exactly(f64::NAN),
     })
 }
 

@@ -25,8 +25,6 @@ linkage! {
 
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
-
-    start coupler: (0, 0), angle 30deg;
 }
 
 fn main() {

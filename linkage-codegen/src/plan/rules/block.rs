@@ -1,9 +1,11 @@
-//! Any other group of forces: block elimination of its equilibrium equations.
+//! Any other group: its links are placed by iteration, its forces found by block elimination of its equilibrium equations.
 //!
 //! A link that is held by two pins alone, or by a pin and a slide, and on which no unknown acts, is a *member*: the moment about one
 //! pin, or the force along the slide, gives one part of the force at its end, and a single number `N` is left, the force along the
 //! member or across its slide. The other links are *carriers* with three equations each, and a pin between two members adds the two
-//! of its own balance. The remaining unknowns are eliminated by constants down to a core, which is solved with pivoting.
+//! of its own balance. The remaining unknowns are eliminated by constants down to a core, which is solved with pivoting. A carrier that
+//! hangs on members alone is resolved along and across one of them, with moments about its pin, so that its number is one of those: a
+//! ternary link on three members leaves two equations.
 //!
 //! The virtual velocities of the carriers and the pins are the solution of the transposed equations.
 
@@ -16,7 +18,7 @@ use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
 use crate::plan::efforts::{self, Unit};
 use crate::plan::framed::Framed;
-use crate::plan::linear::{Core, Equation, solve};
+use crate::plan::linear::{CORE, Core, Equation, solve};
 use crate::plan::placement::Placement;
 use crate::plan::reactions;
 use crate::plan::velocities::{Motion, Twist};
@@ -220,8 +222,39 @@ impl<'p, 'm> Parts<'p, 'm> {
         })
     }
 
-    /// The place about which a carrier's moments are taken: its first joint, but for a tooth or a slot, which holds no point.
+    /// Of a carrier that hangs on members alone, the pin of one of them and the direction of its number.
+    fn resolved_at(&self, carrier: LinkId) -> Option<(JointId, Vector<'m>)> {
+        let holds = |unknown: &Unknown| match unknown {
+            Unknown::Joint(joint, _) => self.model.joint(*joint).end_on(carrier).is_some(),
+            Unknown::Member(_) | Unknown::Effort(_) => false,
+        };
+        if self.unknowns.iter().any(holds) {
+            return None;
+        }
+        let on = |joint: JointId| self.model.joint(joint).end_on(carrier).is_some();
+        self.members.iter().find_map(|member| match (on(member.near), on(member.far)) {
+            (true, _) if self.is_slide(member.far) => Some((member.near, self.placement.slide_direction(member.far))),
+            (true, _) => Some((member.near, self.rod(member).1)),
+            (_, true) if !self.is_slide(member.far) => Some((member.far, self.rod(member).1)),
+            _ => None,
+        })
+    }
+
+    /// The axes in which the forces on a carrier or a pin are resolved.
+    fn axes(&self, free: Free) -> Vector<'m> {
+        let along = match free {
+            Free::Carrier(carrier) => self.resolved_at(carrier).map(|(_, along)| along),
+            Free::Pin(_) => None,
+        };
+        along.unwrap_or_else(|| self.ground())
+    }
+
+    /// The place about which a carrier's moments are taken: the pin at which its forces are resolved, or else its first joint, but for
+    /// a tooth or a slot, which holds no point.
     fn centre(&self, carrier: LinkId) -> Vector<'m> {
+        if let Some((pin, _)) = self.resolved_at(carrier) {
+            return self.place(pin, carrier);
+        }
         let on = |joint: &JointId| self.model.joint(*joint).end_on(carrier).is_some();
         let holds =
             |joint: &JointId| !matches!(self.model.joint(*joint).kind, JointKind::Slot { .. } | JointKind::Gear(_));
@@ -234,10 +267,10 @@ impl<'p, 'm> Parts<'p, 'm> {
     fn parts_of(&self, act: &Act<'m>, free: Free) -> Option<Vec<Expr<'m>>> {
         match (act, free) {
             (Act::Force(link, at, force), Free::Carrier(carrier)) if *link == carrier => {
-                let ground = force.ground();
+                let resolved = force.along(self.axes(free));
                 let arm = *at - self.centre(carrier);
                 let moment = arm.cross(force.along(self.placement.direction(carrier)));
-                Some(vec![ground.x, ground.y, moment])
+                Some(vec![resolved.x, resolved.y, moment])
             }
             (Act::Couple(link, moment), Free::Carrier(carrier)) if *link == carrier => {
                 let zero = self.placement.graph().zero();
@@ -313,16 +346,12 @@ impl Rule for Block {
         "block"
     }
 
-    fn places(&self) -> bool {
-        false
-    }
-
     fn fits(&self, _: &Model, _: &Group) -> bool {
         true
     }
 
-    fn place(&self, _: &mut Assembly<'_>, _: &Group) -> RuleResult {
-        Ok(())
+    fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
+        super::newton::place(assembly, group)
     }
 
     fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
@@ -395,11 +424,10 @@ impl Rule for Block {
             .collect();
         let values = solve(graph, equations, Core { name: &determinant, group: &links, spread: parts.spread() })
             .map_err(|size| too_large(parts.model, group, size))?;
-        let ground = parts.ground();
         let mut row = 0;
         let mut pins: Vec<(JointId, Framed<'_>)> = Vec::new();
         for free in &parts.free {
-            let velocity = Framed { components: Vector::new(values[row], values[row + 1]), axes: ground };
+            let velocity = Framed { components: Vector::new(values[row], values[row + 1]), axes: parts.axes(*free) };
             match free {
                 Free::Carrier(link) => {
                     let name = &parts.model.link(*link).name;
@@ -442,7 +470,7 @@ impl Rule for Block {
 
 fn too_large(model: &Model, group: &Group, size: usize) -> Diagnostic {
     crate::plan::unsupported(model, group, "find the forces of")
-        .note(format!("its equilibrium equations leave a core of {size}; up to 3 are supported"))
+        .note(format!("its equilibrium equations leave a core of {size}; up to {CORE} are supported"))
 }
 
 /// The power of an act on links outside the group.

@@ -6,6 +6,7 @@
 mod block;
 mod crank;
 mod dyad;
+mod newton;
 mod prp;
 mod rpp;
 mod rpr;
@@ -34,11 +35,6 @@ pub trait Rule: Sync {
 
     /// Whether a group belongs to the class.
     fn fits(&self, model: &Model, group: &Group) -> bool;
-
-    /// Whether the rule places links; otherwise it solves forces alone.
-    fn places(&self) -> bool {
-        true
-    }
 
     /// Places the links of the group.
     fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult;
@@ -69,15 +65,9 @@ pub const RULES: [&dyn Rule; 12] = [
     &block::Block,
 ];
 
-/// The rule that places a group.
+/// The rule that solves a group.
 #[must_use]
-pub fn placing_rule(model: &Model, group: &Group) -> Option<&'static dyn Rule> {
-    RULES.into_iter().find(|rule| rule.places() && rule.fits(model, group))
-}
-
-/// The rule that solves a group's forces.
-#[must_use]
-pub fn force_rule(model: &Model, group: &Group) -> Option<&'static dyn Rule> {
+pub fn rule_of(model: &Model, group: &Group) -> Option<&'static dyn Rule> {
     RULES.into_iter().find(|rule| rule.fits(model, group))
 }
 

@@ -66,7 +66,7 @@ fn bounds_of(program: &Program, graph: &Graph, value: ValueId, known: &mut Vec<O
         Definition::Input(Input::Symbol(Symbol::Drive(_)) | Input::Kept(_) | Input::Prepared(_)) => {
             Bounds::finite(scalar)
         }
-        Definition::Input(Input::Symbol(_)) => Bounds::ANY,
+        Definition::Input(Input::Symbol(_) | Input::Known(_)) => Bounds::ANY,
         Definition::Computed(op) => {
             for operand in op.operands() {
                 bounds_of(program, graph, operand, known);
@@ -78,6 +78,8 @@ fn bounds_of(program: &Program, graph: &Graph, value: ValueId, known: &mut Vec<O
                 Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_) | Kernel::Atan2, args, .. } => {
                     !args.iter().all(|arg| of(*arg).are_finite(scalar))
                 }
+                // The directions that it finds have been brought to unit size, from a start that is finite.
+                Op::Kernel { kernel: Kernel::Search { .. }, .. } => false,
                 Op::Kernel { .. } => true,
                 // Of an operand that is no number nothing is known.
                 _ => false,

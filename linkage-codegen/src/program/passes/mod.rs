@@ -24,6 +24,12 @@ pub const PASSES: [(&str, Pass); 7] = [
     ("finite", finite::check_once),
 ];
 
+/// A program after the passes that leave every bit of its results as it is.
+#[must_use]
+pub fn exact(program: Program, graph: &crate::graph::Graph) -> Program {
+    unused::remove(signs::absorb(program, graph), graph)
+}
+
 /// A program after all passes.
 #[must_use]
 pub fn optimised(program: Program, graph: &crate::graph::Graph) -> Program {

@@ -51,6 +51,7 @@ impl Digest {
             Error::DeadCentre { pivot, .. } => (3, pivot, 0.0),
             Error::Parameter { requirement } => (4, requirement, 0.0),
             Error::NotFinite { what } => (5, what, 0.0),
+            Error::NoConvergence { group, gap } => (7, group, gap),
             _ => (6, "", 0.0),
         };
         self.bits(kind);

@@ -25,10 +25,12 @@ macro_rules! each_linkage {
             double_adjustable = double::adjustable,
             double_four_bar = double::four_bar,
             double_six_bar = double::six_bar,
+            double_triad = double::triad,
             double_two_drives = double::two_drives,
             single_math = single::math,
             single_folding = single::folding,
             single_four_bar = single::four_bar,
+            single_iterated = single::iterated,
             single_press = single::press,
             single_slider_crank = single::slider_crank,
         }

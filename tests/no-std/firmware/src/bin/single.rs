@@ -11,6 +11,7 @@ pub extern "C" fn _start(input: &single::Inputs, digest: &mut Digest) {
     single::math::solve(input, digest);
     single::folding::solve(input, digest);
     single::four_bar::solve(input, digest);
+    single::iterated::solve(input, digest);
     single::press::solve(input, digest);
     single::slider_crank::solve(input, digest);
 }

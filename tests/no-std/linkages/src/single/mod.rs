@@ -2,6 +2,7 @@
 
 pub mod folding;
 pub mod four_bar;
+pub mod iterated;
 pub mod press;
 pub mod slider_crank;
 

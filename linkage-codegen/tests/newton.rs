@@ -1,0 +1,218 @@
+//! Groups that are placed by Newton's method: how well they close, near which poses they do not, and that they stay on their branch.
+
+mod support;
+
+use std::collections::HashMap;
+
+use linkage_codegen::Linkage;
+use linkage_codegen::graph::real::Real;
+use linkage_codegen::graph::{Failure, Graph, Kernel, NodeId, Op};
+use linkage_codegen::program::Fault;
+use support::general::equations_at;
+use support::linkages::{Kind, Random, sample_with_search};
+use support::numbers::{Double, Extended, Single};
+use support::{Arguments, Number, compile, moved, pose};
+
+/// The bars, in epsilons of the scalar: closure over the longest link, and the size of directions.
+const CLOSURE: f64 = 4.0;
+const UNIT: f64 = 3.0;
+
+/// Stephenson III: a ternary link on three legs.
+const STEPHENSON: &str = "pub mod sample;
+    ground { O: (0, 0), Q: (5m, 1m), P: (4m, -1m) } link crank { O -> A: 1m } link b { A -> E: 1.95m }
+    link t { E: (0, 0), C: (1m, 0.7m), D: (0.7m, -0.9m), G: (0.3m, 0.3m) } link c { Q -> C: 1.92m } link d { P -> D: 1.8m }
+    revolute O: ground -> crank; revolute A: crank -> b; revolute E: t -> b; revolute C: t -> c; revolute D: d -> t;
+    revolute Q: ground -> c; revolute P: ground -> d; drive q: O;
+    start q: 0.4rad; start b: (1m, 0.4m), angle 36deg; start t: (2.5m, 1.5m), angle 0; start c: (5m, 1m), angle 140deg;
+    start d: (4m, -1m), angle 115deg; load F: force(t.G); scene all: equilibrium; scene work: virtual_work;";
+
+/// The largest constraint residual of a pose, and the largest deviation of a direction from unit size.
+fn errors<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &HashMap<NodeId, T>) -> (f64, f64) {
+    let exact: HashMap<NodeId, Extended> =
+        kept.iter().map(|(node, value)| (*node, Extended::exactly(value.to_f64()))).collect();
+    let general = equations_at(linkage, arguments, &exact);
+    let closure = general.residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs()));
+    let value = |name: String| linkage.plan.pose.iter().find(|k| k.name == name).map(|k| exact[&k.node].clone());
+    let units = linkage.model.moving_links().filter_map(|link| {
+        let name = &linkage.model.link(link).name;
+        let (c, s) = (value(format!("{name}_cos"))?, value(format!("{name}_sin"))?);
+        Some(c.mul(&c).add(&s.mul(&s)).sqrt().sub(&Extended::exactly(1.0)).to_f64().abs())
+    });
+    (closure, units.fold(0.0, f64::max))
+}
+
+fn worst<T: Number>(seeds: core::ops::Range<u64>, scalar: &'static str, epsilon: f64) -> (f64, f64, usize) {
+    let mut worst = (0.0f64, 0.0f64, 0);
+    for seed in seeds {
+        let kind =
+            Kind { dyads: 0, sliders: seed % 2 == 1, joints: false, unknown_anywhere: false, params: false, scalar };
+        let sample = sample_with_search(seed, kind);
+        let linkage = compile(&sample.text);
+        let mut random = Random(seed);
+        for turn in 0..6 {
+            let mut arguments = sample.arguments.clone();
+            if turn > 0 {
+                let drive = T::exactly(arguments.drives[0] + random.range(-0.3, 0.3));
+                arguments.drives[0] = drive.to_f64();
+            }
+            match pose::<T>(&linkage, &arguments) {
+                Ok(kept) => {
+                    let (closure, unit) = errors(&linkage, &arguments, &kept);
+                    let closure = closure / (sample.longest * epsilon);
+                    worst = (worst.0.max(closure), worst.1.max(unit / epsilon), worst.2 + 1);
+                }
+                Err(fault) => {
+                    assert!(
+                        matches!(fault, Fault::Failed(Failure::NoConvergence { .. })),
+                        "{fault:?}\n{}",
+                        sample.text
+                    );
+                }
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn loops_close_to_rounding() {
+    let (closure, unit, count) = worst::<Double>(0..150, "f64", f64::EPSILON);
+    println!("f64: closure {closure:.2} ε, unit {unit:.2} ε, {count} poses of 900");
+    let (single_closure, single_unit, single) = worst::<Single>(0..150, "f32", f64::from(f32::EPSILON));
+    println!("f32: closure {single_closure:.2} ε, unit {single_unit:.2} ε, {single} poses of 900");
+    assert!(closure <= CLOSURE && unit <= UNIT, "f64: {closure} ε, {unit} ε");
+    assert!(single_closure <= CLOSURE && single_unit <= UNIT, "f32: {single_closure} ε, {single_unit} ε");
+    assert!(count > 600 && single > 600);
+}
+
+fn at(q: f64) -> Arguments {
+    Arguments { drives: vec![q], loads: vec![[3.0, -2.0]], ..Arguments::default() }
+}
+
+#[test]
+fn a_sweep_stays_on_its_branch_and_comes_back() {
+    let linkage = compile(STEPHENSON);
+    let start = pose::<Double>(&linkage, &at(0.4)).expect("the start");
+    let mut here = start.clone();
+    let mut end = 0.4;
+    // As far as it goes, by degrees.
+    for step in 1..=720 {
+        let q = 0.4 + f64::from(step) * 1f64.to_radians();
+        match moved(&linkage, &here, &at(q)) {
+            Ok(next) => {
+                let turned = next.iter().map(|(node, value)| (value.0 - here[node].0).abs()).fold(0.0, f64::max);
+                assert!(turned < 0.5, "jumps by {turned} at {q}");
+                (here, end) = (next, q);
+            }
+            Err(fault) => {
+                assert!(matches!(fault, Fault::Failed(Failure::NoConvergence { .. })), "{fault:?}");
+                break;
+            }
+        }
+    }
+    println!("from 0.4 to {end}");
+    assert!(end > 1.0, "{end}");
+    // And back again, to the same place.
+    let mut q = end;
+    while q > 0.4 {
+        q = (q - 1f64.to_radians()).max(0.4);
+        here = moved(&linkage, &here, &at(q)).expect("the way back");
+    }
+    for (node, value) in &start {
+        assert!((value.0 - here[node].0).abs() < 1e-13, "{} {}", value.0, here[node].0);
+    }
+}
+
+#[test]
+fn near_singular_poses_are_refused_or_close() {
+    // The limit of the motion is a pose at which the legs' lines meet in a point; the steps to it are halved.
+    let linkage = compile(STEPHENSON);
+    let (mut here, mut q) = (pose::<Double>(&linkage, &at(0.4)).expect("the start"), 0.4);
+    let mut step = 0.1;
+    let mut refused = 0;
+    while step > 1e-15 {
+        match moved(&linkage, &here, &at(q + step)) {
+            Ok(next) => {
+                q += step;
+                let (closure, unit) = errors(&linkage, &at(q), &next);
+                // Next to the end a search may stop where half an epsilon of the loops' lengths is open; the longest link is 1.95 long.
+                assert!(
+                    closure <= 2.0 * CLOSURE * f64::EPSILON && unit <= UNIT * f64::EPSILON,
+                    "{closure:e} {unit:e} at {q}"
+                );
+                here = next;
+                let scene = support::measures::from_kept::<Double>(&linkage, "all", &here, &at(q));
+                match scene {
+                    Ok(values) => assert!(values.values().all(|value| value.0.is_finite())),
+                    Err(fault) => assert!(matches!(fault, Fault::Failed(Failure::DeadCentre { .. })), "{fault:?}"),
+                }
+                if q > 7.0 {
+                    break;
+                }
+            }
+            Err(fault) => {
+                assert!(matches!(fault, Fault::Failed(Failure::NoConvergence { .. })), "{fault:?}");
+                step *= 0.5;
+                refused += 1;
+            }
+        }
+    }
+    println!("the motion ends at {q}, after {refused} refusals");
+    for value in [f64::NAN, f64::INFINITY, -f64::INFINITY] {
+        assert_eq!(pose::<Double>(&linkage, &at(value)).unwrap_err(), Fault::NotFinite);
+        assert_eq!(moved(&linkage, &here, &at(value)).unwrap_err(), Fault::NotFinite);
+    }
+}
+
+#[test]
+fn extended_numbers_converge_to_their_own_precision() {
+    let linkage = compile(STEPHENSON);
+    let kept = pose::<Extended>(&linkage, &at(0.5)).expect("a pose");
+    let general = equations_at(&linkage, &at(0.5), &kept);
+    let worst = general.residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs()));
+    assert!(worst < 1e-63, "{worst:e}");
+}
+
+#[test]
+fn large_systems_are_the_run_time_crates_bit_for_bit() {
+    let mut random = Random(5);
+    let graph = Graph::new(linkage_codegen::graph::Scalar::F64);
+    let mut compared = 0;
+    for _ in 0..500 {
+        let mut draw = || if random.chance(0.2) { 0.0 } else { random.range(-1.0, 1.0) };
+        let matrix: [[f64; 5]; 5] = [(); 5].map(|()| [(); 5].map(|()| draw()));
+        let right: [f64; 5] = [(); 5].map(|()| draw());
+        let sizes = matrix.map(|row| row.map(f64::abs));
+        let (solution, distance) = linkage_runtime::__private::f64::solve(matrix, sizes, right);
+        let args = matrix.as_flattened().iter().chain(sizes.as_flattened()).chain(&right);
+        let args: Vec<Double> = args.map(|value| Double(*value)).collect();
+        let found = graph.apply(Kernel::Solve(5), &args);
+        if distance.abs() > 1e-15 {
+            let expected: Vec<u64> = solution.iter().chain([&distance]).map(|value| value.to_bits()).collect();
+            assert_eq!(found.iter().map(|value| value.0.to_bits()).collect::<Vec<_>>(), expected);
+            compared += 1;
+        }
+    }
+    assert!(compared > 400, "{compared}");
+}
+
+#[test]
+fn a_scene_that_needs_no_place_of_the_group_does_not_search() {
+    let text = STEPHENSON
+        .replace("scene all: equilibrium;", "scene tip: position -> (crank.A); scene plate: position -> (t.G);");
+    let linkage = compile(&text);
+    let searches = |name: &str| {
+        let index = linkage.model.scenes.iter().position(|scene| scene.name.text == name).expect("a scene");
+        let functions = &linkage.functions.scenes[index];
+        [&functions.direct, &functions.from_pose].map(|program| {
+            let ops = (0..program.values.len()).filter_map(|i| match &program.values[i].definition {
+                linkage_codegen::program::Definition::Computed(op) => Some(op),
+                linkage_codegen::program::Definition::Input(_) => None,
+            });
+            ops.filter(|op| matches!(op, Op::Kernel { kernel: Kernel::Search { .. }, .. })).count() > 0
+        })
+    };
+    assert_eq!(searches("tip"), [false, false]);
+    assert_eq!(searches("plate"), [true, false]);
+    assert_eq!(searches("work"), [true, false]);
+}
