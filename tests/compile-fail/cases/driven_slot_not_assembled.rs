@@ -14,8 +14,6 @@ linkage! {
     slot S: lever.Q -> crank.A along 0deg of lever;
 
     drive q: S.travel;
-    start crank: (0, 0), angle 60deg;
-    start lever: (0, -350mm), angle 80deg;
 
     load F: force(lever.B);
 
