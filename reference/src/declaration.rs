@@ -414,10 +414,9 @@ impl<'a> Writer<'a> {
             };
             let near = relative + driven(from) - driven(on);
             let start = format!("load {}: torsion(", self.loads.find(&load.name)?);
-            let item = items.iter_mut().find(|item| item.starts_with(&start));
-            if let Some(fields) = item.as_ref().and_then(|item| item.strip_suffix(" };")) {
-                let said = format!("{fields}, near: {near:?}rad }};");
-                item.into_iter().for_each(|item| *item = said.clone());
+            let Some(item) = items.iter_mut().find(|item| item.starts_with(&start)) else { continue };
+            if let Some(fields) = item.strip_suffix(" };") {
+                *item = format!("{fields}, near: {near:?}rad }};");
             }
         }
         Ok(())

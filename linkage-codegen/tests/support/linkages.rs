@@ -802,9 +802,9 @@ impl Builder {
         let before = self.bodies.len();
         self.driven_slots = false;
         if self.random.chance(0.3) {
-            self.slider_dyad()
+            self.slider_dyad();
         } else {
-            self.pinned_dyad()
+            self.pinned_dyad();
         }
         // The first link becomes the tube, and a rod takes over its pin to the second one.
         let (tube, other) = (before, before + 1);

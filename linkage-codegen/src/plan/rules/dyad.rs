@@ -149,6 +149,13 @@ impl Leg {
         self.near.slot.is_none() && self.tip.slot.is_none() && !self.rigid.iter().any(driven)
     }
 
+    /// The sum of the loads on it.
+    pub(super) fn total<'m>(&self, balance: &Balance<'m, '_>) -> Framed<'m> {
+        let ground = balance.placement.direction(GROUND);
+        let own = balance.total(self.link());
+        self.links[1..].iter().fold(own, |sum, link| sum.plus(&balance.total(*link), ground))
+    }
+
     /// The other links in an order in which they can be placed from one of its links.
     fn joined_to(&self, model: &Model, first: LinkId) -> Vec<(JointId, LinkId)> {
         let (mut placed, mut order) = (vec![first], Vec::new());
@@ -282,13 +289,6 @@ impl<'a> Dyad<'a> {
     /// Places the other links of a leg from one of them.
     pub(super) fn place_rest(&self, assembly: &mut Assembly<'a>, leg: &Leg, placed: LinkId) -> RuleResult {
         self.joined(leg, placed, Input::Drive).iter().try_for_each(|(rule, group)| rule.place(assembly, group))
-    }
-
-    /// The sum of the loads on a leg.
-    pub(super) fn total(&self, balance: &Balance<'a, '_>, leg: &Leg) -> Framed<'a> {
-        let ground = balance.placement.direction(GROUND);
-        let own = balance.total(leg.link());
-        leg.links[1..].iter().fold(own, |sum, link| sum.plus(&balance.total(*link), ground))
     }
 
     /// The moment of the loads on a leg about its outer joint, times a factor.
@@ -520,8 +520,8 @@ impl<'a> Dyad<'a> {
     fn arm_axis(&self, leg: &Leg) -> Vector<'a> {
         let graph = &self.model.graph;
         let x_axis = Vector::new(graph.one(), graph.zero());
-        let pins = [leg.near, leg.tip].into_iter().filter(|spot| spot.end.link == leg.link());
-        if let Some(slot) = pins.filter_map(|spot| spot.slot).next() {
+        let mut pins = [leg.near, leg.tip].into_iter().filter(|spot| spot.end.link == leg.link());
+        if let Some(slot) = pins.find_map(|spot| spot.slot) {
             return self.model.joint(slot).kind.line().map_or(x_axis, |(_, axis)| axis.vector(graph));
         }
         let slides = |joint: &JointId| {

@@ -80,13 +80,13 @@ impl Rule for Prp {
         let [first, second] = &dyad.legs;
         let pin = dyad.joint_name(dyad.inner);
         let [one, two] = [first, second].map(|leg| balance.placement.slide_direction(leg.outer));
-        let loads = dyad.total(balance, first).along(one);
+        let loads = first.total(balance).along(one);
         let along = |leg: &Leg| {
             format!("±ΣF of the loads on {} along the slide {}", dyad.link_name(leg), dyad.joint_name(leg.outer))
         };
         let own =
             (-loads.x).named(balance.name(&format!("{pin}_along_{}", dyad.joint_name(first.outer))), along(first));
-        let needed = dyad.total(balance, second).along(two).x;
+        let needed = second.total(balance).along(two).x;
         let needed =
             needed.named(balance.name(&format!("{pin}_along_{}", dyad.joint_name(second.outer))), along(second));
         let across = if own.is_zero() && needed.is_zero() {

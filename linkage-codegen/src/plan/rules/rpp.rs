@@ -86,7 +86,7 @@ impl Rule for Rpp {
         let [pinned, slider] = &dyad.legs;
         let [outer, inner] = slides(&dyad).map(|slide| dyad.joint_name(slide));
         let e = balance.placement.slide_direction(slider.outer);
-        let load = dyad.total(balance, slider).along(e);
+        let load = slider.total(balance).along(e);
         let name = dyad.link_name(slider);
         let along = load.x.named(
             balance.name(&format!("{outer}_along")),

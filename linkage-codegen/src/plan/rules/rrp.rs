@@ -64,7 +64,7 @@ impl Rule for Rrp {
         let (outer, slider) = (dyad.joint_name(rod_leg.outer), dyad.link_name(slider_leg));
         let e = balance.placement.slide_direction(slide);
         let u = dyad.direction(balance.placement, rod_leg);
-        let load = dyad.total(balance, slider_leg).along(e);
+        let load = slider_leg.total(balance).along(e);
         let across = (-dyad.moment_over_length(balance, rod_leg)).named(
             balance.name(&format!("{inner}_across_{rod}")),
             format!("−ΣM({outer})/|{outer} {inner}| of the loads on {rod}"),
