@@ -34,6 +34,34 @@ use slider_crank_example::engine;
 use stephenson_example::stephenson;
 use three_loads_example::three_loads;
 
+/// A declaration as a module, and as text.
+macro_rules! declared {
+    ($text:ident: $($tokens:tt)*) => {
+        linkage_runtime::linkage! { $($tokens)* }
+        const $text: &str = stringify!($($tokens)*);
+    };
+}
+
+declared! { CRUSHER:
+    mod crusher;
+    units { mm, N }
+    param rod_mass: mass;
+    ground { O: (0, 0), Q: (140mm, 20mm) } link crank { O -> A: 40mm } link rod { A -> B: 130mm, C: (60mm, 15mm) }
+    link jaw { Q -> B: 110mm, T: (160mm, -10mm) } link ram { P: (0, 0) }
+    mass crank: 1.1kg at (5mm, 0), inertia 900kg*mm^2; mass rod: rod_mass at C, inertia 1900kg*mm^2;
+    mass jaw: 2kg at (60mm, 5mm), inertia 4000kg*mm^2; mass jaw: 0.5kg at T; mass ram: 3kg at (10mm, 2mm);
+    revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> jaw; revolute Q: ground -> jaw;
+    prismatic S: jaw.B -> ram.P along 70deg of jaw;
+    drive theta: O; drive x: S { rate: 80mm/s, acceleration: -2m/s^2 };
+    assemble B: left(A -> Q);
+    load I: inertia; load Ij: inertia(jaw); load W: gravity = 9.81m/s^2 @ -90deg;
+    load K: spring(ground.O, rod.C) { rate: 2N/mm, free: 60mm, damping: _ };
+    load D: torsion(ground -> jaw) { rate: 3N*m/rad, free: 100deg, damping: 0.2N*m*s };
+    scene held: equilibrium; scene parts: superposition(I, K); scene work: virtual_work(Ij, D, W);
+    scene speeds: velocity; scene accelerations: acceleration;
+    scene more: acceleration -> (B along jaw, jaw.T along path, S, inertia(ram), offset(jaw), offset(rod));
+}
+
 /// All numbers of a result, in the order of its fields.
 fn numbers<T: Debug>(result: &Result<T, Error>) -> Option<Vec<u64>> {
     let text = format!("{:?}", result.as_ref().ok()?);
@@ -49,6 +77,11 @@ struct Interpreted {
 impl Interpreted {
     fn of(example: &str) -> Self {
         let linkage = linkage_codegen::analyse(declaration(example));
+        Self { linkage: linkage.unwrap_or_else(|refusal| panic!("{:?}", refusal.errors)) }
+    }
+
+    fn of_text(text: &str) -> Self {
+        let linkage = linkage_codegen::analyse(text.parse().expect("tokens"));
         Self { linkage: linkage.unwrap_or_else(|refusal| panic!("{:?}", refusal.errors)) }
     }
 
@@ -248,5 +281,65 @@ fn stephenson_moved() {
         emitted = emitted.moved_to(theta).expect("a pose");
         let expected = values_from_kept(&linkage, "place", &kept, &at(theta)).map(|all| all.1);
         assert_eq!(numbers(&emitted.place()), Interpreted::bits(expected), "at {theta}");
+    }
+}
+
+#[test]
+fn in_motion() {
+    let interpreted = Interpreted::of_text(CRUSHER);
+    let damping = 0.75;
+    let (rod_mass, theta_rate, theta_acceleration) = (0.62, 31.4, -250.0);
+    let linkage = crusher::Linkage::new(&crusher::Params { rod_mass }).expect("a mass");
+    // The other drive's motion is declared.
+    let motion = crusher::Motion { theta_rate, theta_acceleration };
+    let loads = crusher::Loads { K: crusher::LoadsK { damping } };
+    for theta in angles() {
+        let x = 12.0 + theta.clamp(-4.0, 4.0);
+        let mut given = vec![[0.0; 2]; 5];
+        given[3] = [0.0, damping];
+        let arguments = Arguments {
+            drives: vec![theta, x],
+            loads: given,
+            params: vec![rod_mass],
+            motion: vec![[theta_rate, theta_acceleration], [f64::NAN; 2]],
+            ..Arguments::default()
+        };
+        let pose = crusher::Pose::at(&linkage, theta, x);
+        interpreted.check(
+            "held",
+            &arguments,
+            &crusher::held_at(&linkage, theta, x, &motion, &loads),
+            &pose.and_then(|pose| pose.held(&motion, &loads)),
+        );
+        interpreted.check(
+            "parts",
+            &arguments,
+            &crusher::parts_at(&linkage, theta, x, &motion, &loads),
+            &pose.and_then(|pose| pose.parts(&motion, &loads)),
+        );
+        interpreted.check(
+            "work",
+            &arguments,
+            &crusher::work_at(&linkage, theta, x, &motion),
+            &pose.and_then(|pose| pose.work(&motion)),
+        );
+        interpreted.check(
+            "speeds",
+            &arguments,
+            &crusher::speeds_at(&linkage, theta, x, &motion),
+            &pose.and_then(|pose| pose.speeds(&motion)),
+        );
+        interpreted.check(
+            "accelerations",
+            &arguments,
+            &crusher::accelerations_at(&linkage, theta, x, &motion),
+            &pose.and_then(|pose| pose.accelerations(&motion)),
+        );
+        interpreted.check(
+            "more",
+            &arguments,
+            &crusher::more_at(&linkage, theta, x, &motion),
+            &pose.and_then(|pose| pose.more(&motion)),
+        );
     }
 }

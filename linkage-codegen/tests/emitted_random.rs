@@ -9,14 +9,15 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use linkage_codegen::Linkage;
+use linkage_codegen::graph::Order;
 use linkage_codegen::model::LoadKind;
-use linkage_codegen::program::Fault;
+use linkage_codegen::program::{Fault, Program};
 use support::linkages::{Kind, sample};
 use support::measures::values_from_kept;
 use support::numbers::{Double, Single};
 use support::{Arguments, Number, direct, pose};
 
-const SCENES: [&str; 4] = ["all", "parts", "work", "whole"];
+const SCENES: [&str; 6] = ["all", "parts", "work", "whole", "speeds", "accelerations"];
 
 struct Case {
     name: String,
@@ -35,6 +36,7 @@ fn cases() -> Vec<Case> {
             sliders: true,
             joints: seed % 4 == 1,
             unknown_anywhere: seed.is_multiple_of(2),
+            moving: true,
             params: seed % 5 == 4,
             scalar,
         };
@@ -66,9 +68,10 @@ fn module(case: &Case) -> String {
             }
             LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
                 let place = |name| load.kind.values().iter().position(|(other, _)| *other == name).expect("a value");
-                let fields = load.kind.given(model).map(|name| format!("{name}: {}", number(values[place(name)])));
+                let fields = load.kind.given(model).map(|name| format!("{name}: {}", number(values[place(name) % 2])));
                 format!("sample::{} {{ {} }}", load.type_name(), fields.collect::<Vec<_>>().join(", "))
             }
+            LoadKind::Inertia => "()".to_owned(),
         };
         format!("{}: {value}", load.name)
     });
@@ -89,18 +92,30 @@ fn module(case: &Case) -> String {
     if !loads.is_empty() {
         let _ = writeln!(text, "let loads = sample::Loads {{ {} }};", loads.join(", "));
     }
+    let motion = linkage_codegen::emit::given_motion(model).into_iter().map(|(drive, order)| {
+        let name = drive.motion_name(order);
+        let index = model.drives.iter().position(|own| own.name.text == drive.name.text).expect("a drive");
+        let [rate, acceleration] = arguments.motion[index];
+        format!("{name}: {}", number(if order == Order::Rate { rate } else { acceleration }))
+    });
+    let motion: Vec<String> = motion.collect();
+    let _ = writeln!(text, "let motion = sample::Motion {{ {} }};", motion.join(", "));
     let drives: Vec<String> = arguments.drives.iter().map(|value| number(*value)).collect();
     let drives = drives.join(", ");
     let _ = writeln!(text, "let pose = sample::Pose::at({first}{drives});");
     for scene in SCENES {
         let functions = &linkage.functions.scenes[index_of(linkage, scene)];
-        let loads = |reads: bool, before: &'static str| if reads { format!("{before}&loads") } else { String::new() };
-        let straight = loads(functions.direct.reads_loads(), ", ");
+        let given = |program: &Program| {
+            let all = [(program.reads_motion(), "&motion"), (program.reads_loads(), "&loads")];
+            all.into_iter().filter_map(|(read, what)| read.then_some(what)).collect::<Vec<_>>().join(", ")
+        };
+        let straight = given(&functions.direct);
+        let straight = if straight.is_empty() { straight } else { format!(", {straight}") };
         let _ = writeln!(
             text,
             "println!(\"{name} {scene} straight {{:?}}\", sample::{scene}_at({first}{drives}{straight}));"
         );
-        let from_pose = loads(functions.from_pose.reads_loads(), "");
+        let from_pose = given(&functions.from_pose);
         let _ = writeln!(
             text,
             "println!(\"{name} {scene} pose {{:?}}\", pose.and_then(|pose| pose.{scene}({from_pose})));"

@@ -44,8 +44,15 @@ fn errors<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &HashMap<No
 fn worst<T: Number>(seeds: core::ops::Range<u64>, scalar: &'static str, epsilon: f64) -> (f64, f64, usize) {
     let mut worst = (0.0f64, 0.0f64, 0);
     for seed in seeds {
-        let kind =
-            Kind { dyads: 0, sliders: seed % 2 == 1, joints: false, unknown_anywhere: false, params: false, scalar };
+        let kind = Kind {
+            dyads: 0,
+            sliders: seed % 2 == 1,
+            joints: false,
+            unknown_anywhere: false,
+            moving: false,
+            params: false,
+            scalar,
+        };
         let sample = sample_with_search(seed, kind);
         let linkage = compile(&sample.text);
         let mut random = Random(seed);

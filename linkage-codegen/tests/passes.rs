@@ -31,6 +31,7 @@ fn passes_keep_the_results() {
             sliders: true,
             joints: false,
             unknown_anywhere: false,
+            moving: false,
             params: false,
             scalar: "f64",
         };
@@ -69,8 +70,15 @@ fn passes_keep_the_results() {
 #[test]
 fn a_scene_from_a_pose_goes_on_where_the_pose_ends() {
     for seed in 0..40 {
-        let kind =
-            Kind { dyads: 2, sliders: true, joints: true, unknown_anywhere: false, params: false, scalar: "f64" };
+        let kind = Kind {
+            dyads: 2,
+            sliders: true,
+            joints: true,
+            unknown_anywhere: false,
+            moving: false,
+            params: false,
+            scalar: "f64",
+        };
         let sample = sample(seed, kind);
         let linkage = compile(&sample.text);
         for (index, functions) in linkage.functions.scenes.iter().enumerate() {
@@ -98,8 +106,15 @@ fn a_scene_from_a_pose_goes_on_where_the_pose_ends() {
 fn fewer_checks_find_the_same() {
     let (mut refused, mut checks) = (0, [0, 0]);
     for seed in 0..20 {
-        let kind =
-            Kind { dyads: 2, sliders: true, joints: true, unknown_anywhere: false, params: false, scalar: "f64" };
+        let kind = Kind {
+            dyads: 2,
+            sliders: true,
+            joints: true,
+            unknown_anywhere: false,
+            moving: true,
+            params: false,
+            scalar: "f64",
+        };
         let sample = if seed % 4 == 3 { sample_with_search(seed, kind) } else { sample(seed, kind) };
         let linkage = compile(&sample.text);
         let graph = &linkage.model.graph;

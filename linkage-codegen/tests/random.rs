@@ -133,7 +133,7 @@ fn check_in_doubles(sample: &Sample, linkage: &Linkage) -> f64 {
 
 fn kind(seed: u64, unknown_anywhere: bool) -> Kind {
     let dyads = 1 + usize::try_from(seed % 6).expect("small");
-    Kind { dyads, sliders: true, joints: false, unknown_anywhere, params: seed % 5 == 4, scalar: "f64" }
+    Kind { dyads, sliders: true, joints: false, unknown_anywhere, moving: false, params: seed % 5 == 4, scalar: "f64" }
 }
 
 #[test]

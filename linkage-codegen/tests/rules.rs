@@ -4,12 +4,12 @@ mod support;
 
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::plan::rules::RULES;
-use support::general::{equations, solve_extended};
+use support::general::{equations, open_motion, solve_extended};
 use support::numbers::Extended;
 use support::{Arguments, Number, compile, scene};
 
 /// A linkage for each class of groups, with the class named, drives at which it closes, and how the rule is used.
-const CASES: [(&str, &[&[f64]], &str); 68] = [
+const CASES: [(&str, &[&[f64]], &str); 73] = [
     // Motion and forces of a crank, its arrow either way, with an inclined dyad.
     (
         "link on a pin",
@@ -595,12 +595,57 @@ const CASES: [(&str, &[&[f64]], &str); 68] = [
          prismatic G: ground -> slider along 5deg; drive q: S; drive r: lift; drive s: B.travel; assemble B: ahead(A);
          load F: force(rod.P) = (3N, -2N); load H: force(slider.P) = (1N, 4N); load J: force(carriage.P) = (1N, 4N);",
     ),
+    // An oscillating block whose rod is bent by a drive, and one whose rod is lengthened.
+    (
+        "RPR dyad",
+        &[&[0.4, 0.3], &[2.0, 0.3]],
+        "ground { O: (0, 0), C: (2m, -0.3m) } link crank { O -> A: 0.6m } link rod { A: (0.1m, 0.2m), E: (0.5m, 0.1m) } link tip { E: (0, 0.1m), S: (0.3m, 0.1m), P: (1m, 1m) }
+         link block { C: (0.2m, 0.1m), S: (-0.1m, 0.3m), P: (0.5m, 0) } revolute O: ground -> crank; revolute A: rod -> crank; revolute C: ground -> block;
+         revolute E: tip -> rod; prismatic S: block -> tip along 25deg of tip, angle 40deg; drive q: O; drive r: E; assemble S: behind(C);
+         load F: force(tip.P) = (3N, -2N); load H: force(block.P) in rod = (1N, 4N);",
+    ),
+    (
+        "RPR dyad",
+        &[&[0.4, 0.3], &[2.0, 0.3]],
+        "ground { O: (0, 0), C: (2m, -0.3m) } link crank { O -> A: 0.6m } link rod { A: (0.1m, 0.2m), E: (0.5m, 0.1m) } link tip { E: (0, 0.1m), S: (0.3m, 0.1m), P: (1m, 1m) }
+         link block { C: (0.2m, 0.1m), S: (-0.1m, 0.3m), P: (0.5m, 0) } revolute O: ground -> crank; revolute A: rod -> crank; revolute C: ground -> block;
+         prismatic E: tip -> rod along 70deg of rod, angle 20deg; prismatic S: block -> tip along 25deg of tip, angle 40deg; drive q: O; drive r: E; assemble S: behind(C);
+         load F: force(tip.P) = (3N, -2N); load H: force(block.P) in rod = (1N, 4N);",
+    ),
+    // Two sliders, one of them bent by a drive.
+    (
+        "PRP dyad",
+        &[&[0.4, 0.3], &[1.0, 0.3]],
+        "ground { O: (0, 0) } link crank { O -> G: 0.5m } link one { E: (0.1m, 0.2m), G: (0.4m, 0.3m) } link mid { E: (0, 0.1m), B: (0.3m, 0.2m), P: (1m, 0) }
+         link two { B: (0.3m, -0.2m), H: (0.2m, 0.3m), P: (0.3m, 1m) } revolute O: ground -> crank; revolute E: one -> mid; revolute B: two -> mid;
+         prismatic G: one -> crank along 80deg of crank, angle 15deg; prismatic H: ground.O -> two along 15deg of two, angle -35deg;
+         drive q: O; drive r: E; load F: force(mid.P) = (3N, -2N); load K: force(two.P) in crank = (1N, 4N);",
+    ),
+    // A slider on a slider, each of them bent by a drive.
+    (
+        "RPP dyad",
+        &[&[0.4, 0.3], &[1.0, 0.3]],
+        "ground { O: (0, 0), H: (1m, 1m) } link crank { O -> A: 0.5m } link one { A: (0.1m, 0.2m), E: (0.4m, 0.3m) } link mid { E: (0, 0.1m), S: (0.3m, 0.2m), P: (1m, 0) }
+         link two { S: (0.3m, -0.2m), H: (0.2m, 0.3m), P: (0.3m, 1m) } revolute O: ground -> crank; revolute A: crank -> one; revolute E: one -> mid;
+         prismatic S: mid -> two along 80deg of mid, angle 15deg; prismatic H: crank.A -> two along 15deg of two, angle -35deg;
+         drive q: O; drive r: E; load F: force(mid.P) = (3N, -2N); load K: force(two.P) in crank = (1N, 4N);",
+    ),
+    (
+        "RPP dyad",
+        &[&[0.4, 0.3], &[1.0, 0.3]],
+        "ground { O: (0, 0) } link crank { O -> A: 0.5m, H: (0.2m, 0.7m) } link one { A: (0.1m, 0.2m), S: (0.4m, 0.3m), P: (1m, 0) } link mid { E: (0, 0.1m), S: (0.3m, 0.2m) }
+         link two { E: (0.3m, -0.2m), H: (0.2m, 0.3m), P: (0.3m, 1m) } revolute O: ground -> crank; revolute A: crank -> one; revolute E: two -> mid;
+         prismatic S: one -> mid along 80deg of one, angle 15deg; prismatic H: crank -> two along 15deg of two, angle -35deg;
+         drive q: O; drive r: E; load F: force(one.P) = (3N, -2N); load K: force(two.P) in crank = (1N, 4N);",
+    ),
 ];
 
 #[test]
 fn every_rule_satisfies_the_equations_of_its_group() {
     for (class, drives, items) in CASES {
-        let text = format!("pub mod sample; {items} scene all: equilibrium; scene work: virtual_work;");
+        let text = format!(
+            "pub mod sample; {items} scene all: equilibrium; scene work: virtual_work; scene moved: acceleration;"
+        );
         let linkage = compile(&text);
         let used = linkage.plan.motion_rules.iter().chain(&linkage.plan.force_rules);
         assert!(used.into_iter().any(|rule| *rule == class), "{class} is not used\n{text}");
@@ -611,6 +656,23 @@ fn every_rule_satisfies_the_equations_of_its_group() {
                 ..Arguments::default()
             };
             check(&linkage, &arguments, &text);
+            check_motion(&linkage, &arguments, &text);
+        }
+    }
+}
+
+/// Velocities keep the constraints, and so do accelerations: `J q̇ = 0` and `J q̈ + J̇ q̇ = 0`, the drives' own coordinates as given.
+fn check_motion(linkage: &linkage_codegen::Linkage, arguments: &Arguments, text: &str) {
+    let motions = [
+        [[1.3, -0.7], [0.6, 2.1], [-0.9, 0.4], [0.3, 1.7]],
+        [[-0.4, 0.0], [1.9, -1.0], [0.0, 1.1], [-1.2, 0.0]],
+    ];
+    for motion in motions {
+        let arguments = Arguments { motion: motion.to_vec(), ..arguments.clone() };
+        for (source, [rate, acceleration]) in open_motion::<Extended>(linkage, &arguments).unwrap() {
+            assert!(rate.to_f64().abs() < 1e-50, "velocity at {source:?}: {:e}\n{text}", rate.to_f64());
+            let open = acceleration.to_f64();
+            assert!(open.abs() < 1e-50, "acceleration at {source:?}: {open:e}\n{text}");
         }
     }
 }

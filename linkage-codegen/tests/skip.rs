@@ -2,7 +2,8 @@
 
 mod support;
 
-use linkage_codegen::program::{Counts, Definition, Program, Step};
+use linkage_codegen::graph::{Order, Symbol};
+use linkage_codegen::program::{Counts, Definition, Input, Program, Step};
 use support::compile;
 
 const FOUR_BAR: &str = "pub mod four_bar; units { mm, N }
@@ -65,6 +66,89 @@ fn only_what_a_result_needs_is_computed() {
     // The place of A is that of the crank's end.
     let counts = program(&linkage, "place").counts();
     assert_eq!((counts.sin_cos, counts.sqrt, counts.div, counts.atan2), (1, 0, 0, 0));
+}
+
+/// A slider-crank in motion, with its drive as it is declared here.
+fn engine(motion: &str) -> linkage_codegen::Linkage {
+    compile(&format!(
+        "pub mod engine; units {{ mm, N }}
+         ground {{ O: (0, 0) }} link crank {{ O -> A: 40mm }} link rod {{ A -> B: 140mm, C: (45mm, 0) }} link piston {{ B }}
+         mass crank: 1.1kg at (5mm, 0), inertia 900kg*mm^2; mass rod: 0.62kg at C, inertia 1900kg*mm^2;
+         revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> piston;
+         prismatic G: ground.O -> piston.B along 0deg; drive theta: O{motion}; assemble B: ahead(A);
+         load I: inertia; load Ic: inertia(crank); load gas: force(piston.B); load K: spring(ground.O, rod.C) {{ damping: 2N*s/mm }};
+         scene statics: equilibrium(gas); scene dynamics: equilibrium(I, gas); scene crank_alone: equilibrium(Ic) -> (effort_theta);
+         scene damped: equilibrium(K) -> (effort_theta); scene speeds: velocity; scene turning: acceleration -> (rod.angle);"
+    ))
+}
+
+/// What a scene reads of the drive's motion.
+fn motion_read(linkage: &linkage_codegen::Linkage, scene: &str) -> Vec<Order> {
+    let inputs = program(linkage, scene).inputs().filter_map(|(_, input)| match input {
+        Input::Symbol(Symbol::Driven(_, order)) => Some(order),
+        _ => None,
+    });
+    let mut read: Vec<Order> = inputs.collect();
+    read.sort_unstable();
+    read
+}
+
+#[test]
+fn what_rests_has_no_velocity_and_what_is_damped_no_acceleration() {
+    let linkage = engine("");
+    assert!(motion_read(&linkage, "statics").is_empty());
+    let named = |scene: &str, name: &str| {
+        program(&linkage, scene).values.iter().any(|value| value.label.as_ref().is_some_and(|own| own.name == name))
+    };
+    for quantity in ["omega_rod", "alpha_rod", "omega2_crank"] {
+        assert!(!named("statics", quantity), "{quantity}");
+        assert!(named("dynamics", quantity), "{quantity}");
+    }
+    assert_eq!(motion_read(&linkage, "speeds"), [Order::Rate]);
+    assert_eq!(motion_read(&linkage, "damped"), [Order::Rate]);
+    assert_eq!(motion_read(&linkage, "dynamics"), [Order::Rate, Order::Acceleration]);
+    assert!(!named("damped", "alpha_rod"));
+}
+
+#[test]
+fn inertia_of_one_link_needs_the_acceleration_of_that_link_alone() {
+    let linkage = engine("");
+    // The crank's own inertia needs nothing of the rod: its centrifugal force has no moment about the pin.
+    assert_eq!(motion_read(&linkage, "crank_alone"), [Order::Acceleration]);
+    let counts = program(&linkage, "crank_alone").counts();
+    assert_eq!((counts.sin_cos, counts.sqrt, counts.div), (0, 0, 0), "{counts}");
+    // The piston has no mass: its acceleration is not computed.
+    let computed = |name: &str| {
+        let values = &program(&linkage, "dynamics").values;
+        values.iter().any(|value| value.label.as_ref().is_some_and(|own| own.name == name))
+    };
+    assert!(computed("alpha_rod") && !computed("acceleration_G"));
+}
+
+#[test]
+fn a_declared_constant_speed_drops_what_it_makes_zero() {
+    let free = engine("");
+    let constant = engine(" { rate: 3000rpm, acceleration: 0 }");
+    for scene in ["dynamics", "turning", "damped"] {
+        assert!(motion_read(&constant, scene).is_empty());
+    }
+    let work = |linkage: &linkage_codegen::Linkage, scene: &str| {
+        let counts = program(linkage, scene).counts();
+        (counts.add, counts.mul)
+    };
+    for scene in ["dynamics", "turning"] {
+        let ([sums, products], [fewer_sums, fewer_products]) =
+            (<[usize; 2]>::from(work(&free, scene)), <[usize; 2]>::from(work(&constant, scene)));
+        assert!(
+            fewer_sums < sums && fewer_products + 2 < products,
+            "{scene}: {sums} {products} {fewer_sums} {fewer_products}"
+        );
+    }
+    // At rest there is nothing at all.
+    let resting = engine(" { rate: 0, acceleration: 0 }");
+    for scene in ["turning", "speeds"] {
+        assert!(program(&resting, scene).steps.iter().all(|step| !matches!(step, Step::Let(_))), "{scene}");
+    }
 }
 
 /// Every value of every program is read by a later step, or is a result.

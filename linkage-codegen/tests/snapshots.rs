@@ -95,7 +95,7 @@ fn every_stage_of_every_example() {
 
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
 /// cylinders, slots, welds, gears, inner slides.
-const OTHERS: [(&str, &str); 10] = [
+const OTHERS: [(&str, &str); 11] = [
     (
         "adjustable",
         "/// A crank-rocker whose dimensions are given at run time.
@@ -202,6 +202,19 @@ const OTHERS: [(&str, &str); 10] = [
         revolute B: lever -> rod; revolute C: rod -> ram; prismatic R: ground.R -> ram.C along 0deg;
         drive theta: O2; assemble A: ahead(O4); assemble C: behind(B);
         load cut: force(ram.tool); scene held: equilibrium; scene torque: virtual_work;",
+    ),
+    (
+        "engine_dynamic",
+        "/// An engine in motion: bearing forces with inertia, a constant speed that is declared apart.
+        pub mod engine_dynamic; units { mm, N }
+        ground { O: (0, 0) } link crank { O -> A: 40mm } link rod { A -> B: 140mm, C: (45mm, 0) } link piston { B }
+        mass crank: 1.1kg at (5mm, 0), inertia 900kg*mm^2; mass rod: 0.62kg at C, inertia 1900kg*mm^2; mass piston: 0.45kg at B;
+        revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> piston; prismatic G: ground.O -> piston.B along 0deg;
+        drive theta: O; assemble B: ahead(A);
+        load I: inertia; load gas: force(piston.B); load K: spring(ground.O, rod.C) { damping: _ };
+        scene dynamics: equilibrium(I, gas); scene torque: virtual_work(I, gas) -> (effort_theta);
+        scene damped: equilibrium(K) -> (effort_theta); scene statics: equilibrium(gas) -> (effort_theta);
+        scene speeds: velocity; scene accelerations: acceleration -> (B, rod.C, rod.C along path, rod.angle, inertia(rod), offset(rod));",
     ),
     (
         "scotch_yoke",

@@ -57,7 +57,8 @@ pub enum Error {
         /// The undetermined joint.
         joint: &'static str,
     },
-    /// A group is at a dead centre of the scene's unknown: no effort, however large, holds its loads.
+    /// A group is at a dead centre: of the scene's unknown, no effort, however large, holds its loads; or of the drives, no rate of them
+    /// moves it on.
     DeadCentre {
         /// The group, by its links.
         group: &'static str,
@@ -67,6 +68,12 @@ pub enum Error {
     /// The two points between which a spring or a thrust acts coincide: its force has no direction.
     CoincidentEnds {
         /// The load or the unknown.
+        of: &'static str,
+    },
+    /// A vector vanishes whose direction is asked for, or is no larger than its rounding: of a point that rests, its path; of a centre of
+    /// mass without acceleration, the line of its inertia.
+    NoDirection {
+        /// The vector.
         of: &'static str,
     },
     /// A parameter is out of its range.
@@ -95,6 +102,7 @@ impl fmt::Display for Error {
             }
             Self::DeadCentre { group, pivot } => write!(f, "{group} is at a dead centre: {pivot} vanishes"),
             Self::CoincidentEnds { of } => write!(f, "the ends of {of} coincide: it has no direction"),
+            Self::NoDirection { of } => write!(f, "{of} vanishes: it has no direction"),
             Self::Parameter { requirement } => f.write_str(requirement),
             Self::NotFinite { what } => write!(f, "{what} is not finite"),
         }

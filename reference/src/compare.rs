@@ -6,9 +6,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::declaration::{ALL, Declaration, PARTS, PLACES, WEIGHT, WORK, depends_on_motion, is_dynamic};
+use crate::declaration::{
+    ACCELERATIONS, ALL, CENTROID, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, SPEEDS, WEIGHT, WORK,
+};
 use crate::exact::{difference, difference_of_angles, nearest};
-use crate::file::{Answers, File, Limits, Reaction};
+use crate::file::{Answers, File, Limits, LinkMotion, Ordered, Reaction};
 use crate::number::Number;
 use crate::printed::Value;
 
@@ -44,8 +46,7 @@ impl Worst {
 /// The results of the scenes in one form at one position.
 pub(crate) type Results = BTreeMap<String, Value>;
 
-/// Holds the results of a position against its answers. Where inertia or damping plays a part, what is left of statics: the pose, and
-/// what each of the other loads brings.
+/// Holds the results of a position against its answers.
 pub(crate) fn compare(
     file: &File,
     declaration: &Declaration,
@@ -54,16 +55,25 @@ pub(crate) fn compare(
     worst: &mut Worst,
 ) -> Result<(), String> {
     let scales = Scales::of(file, answers)?;
-    let comparison = Comparison { file, declaration, answers, scales };
+    let comparison = Comparison { declaration, answers, scales };
     let scene = |name: &str| {
         let value = results.get(name).ok_or_else(|| format!("the scene `{name}` printed nothing"))?;
         if let Value::Error(error) = value { Err(format!("{name}: {error}")) } else { Ok(value) }
     };
     comparison.pose(scene(PLACES)?, worst)?;
-    if !is_dynamic(file) {
-        comparison.equilibrium(scene(ALL)?, worst)?;
-        comparison.work(scene(WORK)?, worst)?;
+    for (name, answers) in [(SPEEDS, &answers.velocity), (ACCELERATIONS, &answers.acceleration)] {
+        if !answers.0.is_empty() {
+            comparison.motion(scene(name)?, answers, name, worst)?;
+        }
     }
+    for (link, line) in answers.inertia_offset.iter() {
+        let name = declaration.links.find(link)?;
+        let field = format!("{name}_offset");
+        let own = scene(&format!("{OFFSET}{name}"))?.field(&field).ok_or_else(|| format!("no line of `{link}`"))?;
+        comparison.line(own, (link, line), worst)?;
+    }
+    comparison.equilibrium(scene(ALL)?, worst)?;
+    comparison.work(scene(WORK)?, worst)?;
     comparison.parts(scene(PARTS)?, worst)
 }
 
@@ -74,6 +84,7 @@ struct Scales {
     length: f64,
     limits: [Limits; 2],
     pose: f64,
+    motion: f64,
 }
 
 impl Scales {
@@ -101,7 +112,7 @@ impl Scales {
         // Without a measure of its own, a pose may move as far as the forces that follow from it.
         let moved = limits[0].effort.iter().fold(limits[0].reaction, |most, limit| most.max(*limit));
         let pose = answers.f64_floor.as_ref().map_or(Ok(moved), |floor| limit(&floor.pose))?;
-        Ok(Self { effort, reaction, length: length_of(file)?, limits, pose })
+        Ok(Self { effort, reaction, length: length_of(file)?, limits, pose, motion: moved })
     }
 
     fn effort_limits(&self, index: usize) -> [f64; 2] {
@@ -144,7 +155,6 @@ fn length_of(file: &File) -> Result<f64, String> {
 }
 
 struct Comparison<'a> {
-    file: &'a File,
     declaration: &'a Declaration,
     answers: &'a Answers,
     scales: Scales,
@@ -156,15 +166,62 @@ impl Comparison<'_> {
         for (link, [x, y, angle]) in self.answers.pose.iter() {
             let name = self.declaration.links.find(link)?;
             let missing = || format!("the pose has no `{link}`");
-            let at = own.fields().iter().find(|(field, value)| {
-                field.starts_with(name) && field.ends_with(crate::declaration::ORIGIN) && value.vector().is_some()
-            });
+            let at = own
+                .fields()
+                .iter()
+                .find(|(field, value)| field.starts_with(name) && field.ends_with(ORIGIN) && value.vector().is_some());
             let at = at.and_then(|(_, value)| value.vector()).ok_or_else(missing)?;
             let turn = own.field(&format!("{name}_angle")).and_then(Value::number).ok_or_else(missing)?;
             let off = difference(at[0], x)?.hypot(difference(at[1], y)?);
             worst.see(off / self.scales.length, limit, || format!("place of {link}"));
             worst.see(difference_of_angles(turn, angle)?.abs(), limit, || format!("angle of {link}"));
         }
+        Ok(())
+    }
+
+    /// Velocities or accelerations, measured by the largest of them: what turns by what that is over the length of the linkage.
+    fn motion(&self, own: &Value, answers: &Ordered<LinkMotion>, scene: &str, worst: &mut Worst) -> Result<(), String> {
+        let size = |[x, y]: &[String; 2]| Ok::<f64, String>(nearest(x)?.hypot(nearest(y)?));
+        let mut scale: f64 = 0.0;
+        for (_, answer) in answers.iter() {
+            let centroid = answer.centroid.as_ref().map_or(Ok(0.0), size)?;
+            scale =
+                scale.max(size(&answer.origin)?).max(centroid).max(nearest(&answer.angle)?.abs() * self.scales.length);
+        }
+        let limits = [self.scales.motion * scale; 2];
+        for (link, answer) in answers.iter() {
+            let name = self.declaration.links.find(link)?;
+            let missing = |what: &str| format!("{scene} have no {what} of `{link}`");
+            let points = [(ORIGIN, Some(&answer.origin)), (CENTROID, answer.centroid.as_ref())];
+            for (point, known) in points.into_iter().filter_map(|(point, known)| Some((point, known?))) {
+                let found = own.field(&format!("{name}_{point}")).and_then(Value::vector);
+                let [x, y] = found.ok_or_else(|| missing(point))?;
+                let off = difference(x, &known[0])?.hypot(difference(y, &known[1])?);
+                worst.see(off, limits, || format!("{scene}: {point} of {link}"));
+            }
+            let turn = own.field(&format!("{name}_angle")).and_then(Value::number).ok_or_else(|| missing("angle"))?;
+            let off = difference(turn, &answer.angle)?.abs() * self.scales.length;
+            worst.see(off, limits, || format!("{scene}: angle of {link}"));
+        }
+        Ok(())
+    }
+
+    /// The line of a link's inertia.
+    fn line(
+        &self,
+        own: &Value,
+        (link, answer): (&str, &crate::file::InertiaOffset),
+        worst: &mut Worst,
+    ) -> Result<(), String> {
+        let missing = || format!("the line of `{link}` is not whole");
+        let distance = own.field("distance").and_then(Value::number).ok_or_else(missing)?;
+        let [x, y] = own.field("vector").and_then(Value::vector).ok_or_else(missing)?;
+        let scale = nearest(&answer.h)?.abs().max(self.scales.length);
+        let limits = [self.scales.motion * scale; 2];
+        // Seen from the acceleration, it is on the right where it is positive.
+        worst.see(difference(distance, &answer.h)?.abs(), limits, || format!("offset of {link}"));
+        let off = difference(x, &answer.offset[0])?.hypot(difference(y, &answer.offset[1])?);
+        worst.see(off, limits, || format!("line of {link}"));
         Ok(())
     }
 
@@ -226,15 +283,14 @@ impl Comparison<'_> {
     fn parts(&self, own: &Value, worst: &mut Worst) -> Result<(), String> {
         let found: Vec<(String, &Value)> = own.fields().iter().flat_map(|part| self.part(part)).collect();
         if self.answers.contributions.0.is_empty() {
-            return if is_dynamic(self.file) { Ok(()) } else { self.sums(&found, worst) };
+            return self.sums(&found, worst);
         }
         for (load, _) in &found {
             if self.answers.contributions.get(load).is_none() {
                 return Err(format!("`{load}` brings something, and the file knows nothing of it"));
             }
         }
-        for (load, answer) in self.answers.contributions.iter().filter(|(load, _)| !depends_on_motion(self.file, load))
-        {
+        for (load, answer) in self.answers.contributions.iter() {
             let own = found.iter().find_map(|(name, value)| (name == load).then_some(*value));
             let own = own.ok_or_else(|| format!("there is no part of `{load}`"))?;
             for (index, effort) in answer.efforts.iter().enumerate() {
@@ -250,14 +306,16 @@ impl Comparison<'_> {
         Ok(())
     }
 
-    /// A field of a superposition under the file's name of its load; of gravity, a field for each link.
+    /// A field of a superposition under the file's name of its load; of gravity and inertia, a field for each link.
     fn part<'v>(&self, (name, value): &'v (String, Value)) -> Vec<(String, &'v Value)> {
-        if name != WEIGHT {
-            return vec![(self.declaration.loads.original(name).unwrap_or(name).to_owned(), value)];
-        }
+        let what = match name.as_str() {
+            WEIGHT => "gravity",
+            INERTIA => "inertia",
+            _ => return vec![(self.declaration.loads.original(name).unwrap_or(name).to_owned(), value)],
+        };
         let of_link = |(link, value): &'v (String, Value)| {
             let link = self.declaration.links.original(link).unwrap_or(link);
-            (format!("gravity:{link}"), value)
+            (format!("{what}:{link}"), value)
         };
         value.fields().iter().map(of_link).collect()
     }

@@ -25,10 +25,18 @@ pub(crate) const PARTS: &str = "parts";
 pub(crate) const WORK: &str = "work";
 /// Where the links are.
 pub(crate) const PLACES: &str = "places";
+/// How the links move, of a file that moves.
+pub(crate) const SPEEDS: &str = "speeds";
+/// Their accelerations.
+pub(crate) const ACCELERATIONS: &str = "accelerations";
+/// Before the name of a link: the line of its inertia.
+pub(crate) const OFFSET: &str = "offset_";
 /// The load that gravity is.
 pub(crate) const WEIGHT: &str = "W";
-/// All scenes.
-pub(crate) const SCENES: [&str; 4] = [PLACES, ALL, PARTS, WORK];
+/// The load that inertia is.
+pub(crate) const INERTIA: &str = "I";
+/// The point at the centre of mass of each link.
+pub(crate) const CENTROID: &str = "centroid";
 
 /// The names of one kind of item: in the file, and declared.
 #[derive(Debug, Default)]
@@ -67,6 +75,8 @@ pub(crate) struct Declaration {
     pub(crate) unknowns: Vec<String>,
     /// The arguments at each position: only one if the file has no sweep.
     pub(crate) positions: Vec<Vec<f64>>,
+    /// Rate and acceleration of each drive.
+    pub(crate) motion: Vec<[f64; 2]>,
     /// The loads that are given at run time, as expressions for each position.
     pub(crate) run_time_loads: Vec<(String, Vec<String>)>,
 }
@@ -85,8 +95,6 @@ impl Declaration {
 
 struct Writer<'a> {
     file: &'a File,
-    /// Of a file that needs more than statics, the statics are declared.
-    dynamic: bool,
     links: Names,
     joints: Names,
     loads: Names,
@@ -104,7 +112,7 @@ impl<'a> Writer<'a> {
             let names = body.points.iter().enumerate();
             names.map(|(index, (name, _))| (Place::Named(name.into()), declared('P', index, name))).collect()
         };
-        Self { file, dynamic: is_dynamic(file), links, joints, loads, points: bodies.map(named).collect() }
+        Self { file, links, joints, loads, points: bodies.map(named).collect() }
     }
 
     fn number(&self, raw: &Raw) -> Result<Number, String> {
@@ -165,8 +173,21 @@ impl<'a> Writer<'a> {
         let unknowns = self.inputs(&mut items)?;
         let run_time_loads = self.loads(&mut items)?;
         self.masses(&mut items)?;
-        let places = self.links.0.iter().flat_map(|(_, link)| [format!("{link}.{ORIGIN}"), format!("{link}.angle")]);
-        items.push(format!("scene {PLACES}: position -> ({});", places.collect::<Vec<_>>().join(", ")));
+        let results = |points: &[&str]| {
+            let of = |link: &str| points.iter().map(|point| format!("{link}.{point}")).collect::<Vec<_>>();
+            self.links.0.iter().flat_map(|(_, link)| of(link)).collect::<Vec<_>>().join(", ")
+        };
+        items.push(format!("scene {PLACES}: position -> ({});", results(&[ORIGIN, "angle"])));
+        if moves(self.file) {
+            let moved = results(&[ORIGIN, CENTROID, "angle"]);
+            items.push(format!("scene {SPEEDS}: velocity -> ({moved});"));
+            items.push(format!("scene {ACCELERATIONS}: acceleration -> ({moved});"));
+            let lines = self.file.reference.iter().flat_map(|answers| answers.inertia_offset.iter());
+            for (link, _) in lines {
+                let link = self.links.find(link)?;
+                items.push(format!("scene {OFFSET}{link}: acceleration -> (offset({link}));"));
+            }
+        }
         items.push(format!("scene {ALL}: equilibrium;"));
         items.push(format!("scene {PARTS}: superposition;"));
         items.push(format!("scene {WORK}: virtual_work;"));
@@ -175,8 +196,9 @@ impl<'a> Writer<'a> {
         all.append(&mut items);
         self.turns(&mut all)?;
         let positions = self.positions()?;
+        let motion = self.motion()?;
         let Self { links, joints, loads, .. } = self;
-        Ok(Declaration { items: all, links, joints, loads, unknowns, positions, run_time_loads })
+        Ok(Declaration { items: all, links, joints, loads, unknowns, positions, motion, run_time_loads })
     }
 
     fn bodies(&self) -> Result<Vec<String>, String> {
@@ -194,6 +216,14 @@ impl<'a> Writer<'a> {
                 return Ok(format!("ground {{ {} }}", places.join(", ")));
             }
             places.push(format!("{ORIGIN}: (0, 0)"));
+            let centroid = match &body.centroid {
+                Some(Place::At(at)) => self.vector(at, "m")?,
+                Some(Place::Named(point)) => {
+                    self.vector(body.points.get(point).ok_or(format!("no point `{point}`"))?, "m")?
+                }
+                None => "(0, 0)".to_owned(),
+            };
+            places.push(format!("{CENTROID}: {centroid}"));
             Ok(format!("link {} {{ {} }}", self.link(name)?, places.join(", ")))
         };
         bodies.zip(&self.points).map(body).collect()
@@ -328,6 +358,8 @@ impl<'a> Writer<'a> {
 
     fn load(&mut self, load: &LoadKind, constant: bool) -> Result<String, String> {
         let value = |text: String| if constant { format!(" = {text}") } else { String::new() };
+        // What does not move is not damped.
+        let damped = moves(self.file) && is_damped(load);
         Ok(match load {
             LoadKind::Force { link, point, force, frame } => {
                 let frame = self.frame(frame.as_deref(), link)?;
@@ -349,7 +381,7 @@ impl<'a> Writer<'a> {
                     ("rate", stiffness.as_ref(), "N/m"),
                     ("free", free_length.as_ref(), "m"),
                     ("preload", preload.as_ref(), "N"),
-                    ("damping", damping.as_ref().filter(|_| !self.dynamic), "N*s/m"),
+                    ("damping", damping.as_ref().filter(|_| damped), "N*s/m"),
                 ])?;
                 format!("spring({}, {}) {{ {fields} }}", self.end(a)?, self.end(b)?)
             }
@@ -357,7 +389,7 @@ impl<'a> Writer<'a> {
                 let fields = self.fields(&[
                     ("rate", stiffness.as_ref(), "N*m/rad"),
                     ("free", free_angle.as_ref(), "rad"),
-                    ("damping", damping.as_ref().filter(|_| !self.dynamic), "N*m*s/rad"),
+                    ("damping", damping.as_ref().filter(|_| damped), "N*m*s/rad"),
                 ])?;
                 format!("torsion({} -> {}) {{ {fields} }}", self.link(a)?, self.link(b)?)
             }
@@ -443,24 +475,24 @@ impl<'a> Writer<'a> {
                 continue;
             }
             weighty = true;
-            let at = match &body.centroid {
-                Some(Place::At(at)) => self.vector(at, "m")?,
-                Some(place) => {
-                    let point = self.point(name, place)?;
-                    point.split_once('.').map_or_else(String::new, |(_, point)| point.to_owned())
-                }
-                None => ORIGIN.to_owned(),
-            };
             let inertia = match &body.inertia {
                 Some(inertia) => format!(", inertia {}", self.quantity(inertia, "kg*m^2")?),
                 None => String::new(),
             };
-            items.push(format!("mass {}: {} at {at}{inertia};", self.link(name)?, mass.in_unit("kg")));
+            items.push(format!("mass {}: {} at {CENTROID}{inertia};", self.link(name)?, mass.in_unit("kg")));
+        }
+        if weighty && moves(self.file) && self.file.include_inertia {
+            items.push(format!("load {INERTIA}: inertia;"));
         }
         if let Some(gravity) = self.file.gravity.as_ref().filter(|_| weighty) {
             items.push(format!("load {WEIGHT}: gravity = {};", self.vector(gravity, "m/s^2")?));
         }
         Ok(())
+    }
+
+    fn motion(&self) -> Result<Vec<[f64; 2]>, String> {
+        let value = |raw: Option<&Raw>| raw.map_or(Ok(0.0), |raw| self.number(raw).map(|number| number.value));
+        self.file.inputs.iter().map(|input| Ok([value(input.rate.as_ref())?, value(input.acc.as_ref())?])).collect()
     }
 
     fn positions(&self) -> Result<Vec<Vec<f64>>, String> {
@@ -490,18 +522,9 @@ fn is_damped(load: &LoadKind) -> bool {
     }
 }
 
-/// Whether inertia or damping plays a part: such a file needs more than statics.
-pub(crate) fn is_dynamic(file: &File) -> bool {
-    let moving = file.inputs.iter().any(|input| !is_zero(input.rate.as_ref()) || !is_zero(input.acc.as_ref()));
-    let has_inertia = |body: &Body| !is_zero(body.mass.as_ref()) || !is_zero(body.inertia.as_ref());
-    let massive = file.include_inertia && file.links.iter().any(|(_, body)| has_inertia(body));
-    moving && (massive || file.loads.iter().any(|load| is_damped(&load.kind)))
-}
-
-/// Whether what a load brings depends on how fast a file moves.
-pub(crate) fn depends_on_motion(file: &File, load: &str) -> bool {
-    let damped = file.loads.iter().any(|own| own.name == load && is_damped(&own.kind));
-    is_dynamic(file) && (load.starts_with("inertia:") || damped)
+/// Whether anything moves.
+pub(crate) fn moves(file: &File) -> bool {
+    file.inputs.iter().any(|input| !is_zero(input.rate.as_ref()) || !is_zero(input.acc.as_ref()))
 }
 
 /// The file's joint of this name.

@@ -8,8 +8,11 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use linkage_codegen::graph::Order;
+use linkage_codegen::program::Program;
+
 use crate::closure::Closed;
-use crate::declaration::{Declaration, SCENES};
+use crate::declaration::Declaration;
 
 /// A mechanism to be computed.
 pub(crate) struct Case<'a> {
@@ -125,6 +128,17 @@ fn module(index: usize, case: &Case<'_>) -> String {
         }
         let _ = writeln!(text, "    ];");
     }
+    let model = &closed.linkage.model;
+    let motion = linkage_codegen::emit::given_motion(model).into_iter().filter_map(|(drive, order)| {
+        let index = model.drives.iter().position(|own| own.name.text == drive.name.text)?;
+        let [rate, acceleration] = declaration.motion.get(index)?;
+        let value = if order == Order::Rate { rate } else { acceleration };
+        Some(format!("{}: {value:?}", drive.motion_name(order)))
+    });
+    let motion: Vec<String> = motion.collect();
+    if !motion.is_empty() {
+        let _ = writeln!(text, "    let motion = mechanism::Motion {{ {} }};", motion.join(", "));
+    }
     let arguments: Vec<String> = (0..drives).map(|drive| format!("at[{drive}]")).collect();
     let arguments = arguments.join(", ");
     // Where groups are placed by iteration, a sweep goes from pose to pose.
@@ -141,13 +155,15 @@ fn module(index: usize, case: &Case<'_>) -> String {
         let _ = writeln!(text, "        let pose = before.map_or(pose, |before| before.moved_to({arguments}));");
         let _ = writeln!(text, "        before = pose.ok().or(before);");
     }
-    for scene in SCENES {
-        let Some(function) = scenes.iter().position(|s| s.name.text == scene).and_then(|s| functions.get(s)) else {
-            continue;
+    for (scene, function) in scenes.iter().zip(functions) {
+        let scene = &scene.name.text;
+        let given = |program: &Program| {
+            let all = [(program.reads_motion(), "&motion"), (program.reads_loads(), "&loads")];
+            all.into_iter().filter_map(|(read, what)| read.then_some(what)).collect::<Vec<_>>().join(", ")
         };
-        let of = |reads: bool, before: &str| if reads { format!("{before}&loads") } else { String::new() };
-        let from_pose = of(function.from_pose.reads_loads(), "");
-        let straight = of(function.direct.reads_loads(), ", ");
+        let from_pose = given(&function.from_pose);
+        let straight = given(&function.direct);
+        let straight = if straight.is_empty() { straight } else { format!(", {straight}") };
         for (form, call) in FORMS.into_iter().zip([
             format!("pose.and_then(|pose| pose.{scene}({from_pose}))"),
             format!("mechanism::{scene}_at({arguments}{straight})"),

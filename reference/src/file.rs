@@ -225,6 +225,12 @@ pub(crate) struct Answers {
     pub(crate) efforts: Vec<EffortAnswer>,
     pub(crate) reactions: Ordered<Reaction>,
     #[serde(default)]
+    pub(crate) velocity: Ordered<LinkMotion>,
+    #[serde(default)]
+    pub(crate) acceleration: Ordered<LinkMotion>,
+    #[serde(default)]
+    pub(crate) inertia_offset: Ordered<InertiaOffset>,
+    #[serde(default)]
     pub(crate) contributions: Ordered<Contribution>,
     pub(crate) virtual_work: Option<VirtualWork>,
     pub(crate) f64_floor: Option<Floor>,
@@ -245,6 +251,22 @@ impl EffortAnswer {
             Self::Plain(text) | Self::OfInput { effort: text } => text,
         }
     }
+}
+
+/// Velocity or acceleration of a link's frame, of its centre of mass, and of its angle.
+#[derive(Debug, Deserialize)]
+pub(crate) struct LinkMotion {
+    pub(crate) origin: [String; 2],
+    pub(crate) centroid: Option<[String; 2]>,
+    #[serde(alias = "omega", alias = "alpha")]
+    pub(crate) angle: String,
+}
+
+/// The line of the single force that is equivalent to a link's inertia.
+#[derive(Debug, Deserialize)]
+pub(crate) struct InertiaOffset {
+    pub(crate) h: String,
+    pub(crate) offset: [String; 2],
 }
 
 /// What the second link of a joint feels.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::closure::Refused;
 use crate::compare::{Results, Worst, compare};
-use crate::declaration::{ALL, Declaration, PARTS, PLACES, SCENES, WORK, is_dynamic};
+use crate::declaration::{ALL, Declaration, PARTS, PLACES, WORK};
 use crate::driver::{FORMS, Printed};
 use crate::file::{Answers, Expected, File, Outcome};
 use crate::printed::Value;
@@ -20,8 +20,6 @@ pub(crate) enum Verdict {
     Failed(String),
     /// The compiler says that it does not carry this out yet.
     Unsupported(String),
-    /// More than statics; how far its statics are right.
-    NotYetRun(String),
 }
 
 impl fmt::Display for Verdict {
@@ -34,27 +32,19 @@ impl fmt::Display for Verdict {
             Self::Refused(how) => write!(f, "passed         {how}"),
             Self::Failed(why) => write!(f, "FAILED         {why}"),
             Self::Unsupported(what) => write!(f, "not supported  {what}"),
-            Self::NotYetRun(why) => write!(f, "not yet run    {why}"),
         }
     }
 }
 
 /// The verdict on a file whose declaration the compiler refuses: right where there is no answer.
 pub(crate) fn of_refusal(file: &File, refused: &Refused) -> Verdict {
-    if refused.is_unsupported() && needs_motion(file) {
-        Verdict::NotYetRun(refused.summary())
-    } else if refused.is_unsupported() {
+    if refused.is_unsupported() {
         Verdict::Unsupported(refused.summary())
     } else if file.expect.is_some() {
         Verdict::Refused(format!("refused: {}", refused.summary()))
     } else {
         Verdict::Failed(format!("refused: {}", refused.messages.join("\n    ").replace('\n', "\n    ")))
     }
-}
-
-/// Whether the answers of a file are those of a motion. Without an answer it makes no difference.
-fn needs_motion(file: &File) -> bool {
-    file.expect.is_none() && is_dynamic(file)
 }
 
 /// The verdict on a file whose declaration was compiled.
@@ -67,25 +57,16 @@ pub(crate) fn of_results(file: &File, declaration: &Declaration, printed: &Print
     } else {
         positions(file, declaration, printed).map(|worst| {
             let text = format!("{:9.2e} of the limit: {}", worst.ratio, worst.what);
-            if worst.ratio > 1.0 {
-                Verdict::Failed(text)
-            } else if needs_motion(file) {
-                Verdict::NotYetRun(format!("{text}; without inertia and damping"))
-            } else {
-                Verdict::Passed(worst)
-            }
+            if worst.ratio > 1.0 { Verdict::Failed(text) } else { Verdict::Passed(worst) }
         })
     };
     found.unwrap_or_else(Verdict::Failed)
 }
 
+/// What all scenes of a position gave in one form.
 fn results(printed: &Printed, position: usize, form: &str) -> Result<Results, String> {
-    let scene = |scene: &str| {
-        let text = printed.results.get(&(position, scene.to_owned(), form.to_owned()));
-        let text = text.ok_or_else(|| format!("the scene `{scene}` printed nothing"))?;
-        Ok((scene.to_owned(), Value::parse(text)?))
-    };
-    SCENES.into_iter().map(scene).collect()
+    let of = printed.results.iter().filter(|((at, _, own), _)| *at == position && own == form);
+    of.map(|((_, scene, _), text)| Ok((scene.clone(), Value::parse(text)?))).collect()
 }
 
 /// The worst error of all positions, in both forms of each scene.
@@ -163,10 +144,9 @@ pub(crate) fn report(verdicts: &[(String, Verdict)], allow_unsupported: bool) ->
     let refused = count(|v| matches!(v, Verdict::Refused(_)));
     let failed = count(|v| matches!(v, Verdict::Failed(_)));
     let unsupported = count(|v| matches!(v, Verdict::Unsupported(_)));
-    let waiting = count(|v| matches!(v, Verdict::NotYetRun(_)));
     println!(
         "\n{} files: {passed} passed with numbers, {tight} of them within the tight limits; {refused} rightly refused; \
-         {failed} failed; {unsupported} not supported yet; {waiting} not yet run",
+         {failed} failed; {unsupported} not supported yet",
         verdicts.len()
     );
     failed == 0 && (allow_unsupported || unsupported == 0)
@@ -186,7 +166,6 @@ mod tests {
         assert!(!all_is_well(Verdict::Unsupported("gears".into()), false));
         assert!(all_is_well(Verdict::Unsupported("gears".into()), true));
         assert!(!all_is_well(Verdict::Failed("wrong".into()), true));
-        assert!(all_is_well(Verdict::NotYetRun("inertia".into()), false));
         assert!(all_is_well(Verdict::Refused("a dead centre".into()), false));
     }
 }

@@ -369,6 +369,7 @@ impl<'a> Body<'a> {
                 quote!(Error::NoConvergence { group: #group, gap: math::gap(#gap) })
             }
             Failure::DeadCentre { group, pivot } => quote!(Error::DeadCentre { group: #group, pivot: #pivot }),
+            Failure::NoDirection { of } => quote!(Error::NoDirection { of: #of }),
             Failure::CoincidentEnds { of } => quote!(Error::CoincidentEnds { of: #of }),
             Failure::Parameter { requirement } => quote!(Error::Parameter { requirement: #requirement }),
         };

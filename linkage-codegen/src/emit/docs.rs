@@ -94,6 +94,8 @@ pub(super) fn scene_summary(linkage: &Linkage, index: usize, from_pose: bool) ->
     let from = if from_pose { "from this pose" } else { "straight from the drives" };
     match scene.method {
         Method::Position => format!("Where everything is, {from}."),
+        Method::Velocity => format!("How fast everything moves, {from}."),
+        Method::Acceleration => format!("The accelerations, {from}."),
         Method::Equilibrium => format!("Equilibrium under {loads}, {from}."),
         Method::Superposition => format!("Equilibrium under each of {loads} by itself, {from}."),
         Method::VirtualWork => format!("Virtual work of {loads}, {from}."),
@@ -155,6 +157,7 @@ fn errors(program: &Program) -> Vec<String> {
                 Failure::DeadCentre { group, pivot } => {
                     add(format!("* [`Error::DeadCentre`]: {group} is at a dead centre, `{pivot}` vanishes."));
                 }
+                Failure::NoDirection { of } => add(format!("* [`Error::NoDirection`]: {of} vanishes.")),
                 Failure::CoincidentEnds { of } => {
                     add(format!("* [`Error::CoincidentEnds`]: the points between which `{of}` acts coincide."));
                 }
@@ -162,8 +165,13 @@ fn errors(program: &Program) -> Vec<String> {
             },
             Step::FiniteInput(_) => add("* [`Error::NotFinite`]: a drive is not a finite number.".into()),
             Step::FiniteResults(_) => {
-                let load = if program.reads_loads() { "a load is not a finite number, or " } else { "" };
-                add(format!("* [`Error::NotFinite`]: {load}a result is too large for one."));
+                let read = match (program.reads_motion(), program.reads_loads()) {
+                    (true, true) => "a rate or a load is not a finite number, or ",
+                    (true, false) => "a rate is not a finite number, or ",
+                    (false, true) => "a load is not a finite number, or ",
+                    (false, false) => "",
+                };
+                add(format!("* [`Error::NotFinite`]: {read}a result is too large for one."));
             }
             Step::Let(_) => {}
         }

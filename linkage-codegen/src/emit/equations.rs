@@ -40,12 +40,17 @@ fn mobility(linkage: &Linkage) -> String {
     format!(
         "{} links, {moving} of them moving; {} joints with {constraints} constraints: mobility 3·{moving} − {constraints} = {}\n\
          lengths in {}, forces in {}; the link that a reaction acts on stands behind the arrow\n\
-         sin(link), cos(link): of the angle of the x axis of the link's own frame; link_sin, link_cos: of the direction that it carries\n\n",
+         sin(link), cos(link): of the angle of the x axis of the link's own frame; link_sin, link_cos: of the direction that it carries\n{}\n",
         model.links.len(),
         model.joints.len(),
         3 * moving - constraints,
         model.units.length.name,
         model.units.force.name,
+        if model.moves() {
+            "vx(link), ax(link), …: velocity and acceleration of the frame's origin; ω(link), α(link): of its angle\n"
+        } else {
+            ""
+        },
     )
 }
 
@@ -94,8 +99,9 @@ fn parts(linkage: &Linkage) -> String {
             LoadKind::Moment { moment: value, .. } | LoadKind::Thrust { force: value, .. } => {
                 format!(" = {}", formula.of(value))
             }
+            LoadKind::Inertia => String::new(),
         };
-        format!("  load      {}{value}: {}\n", load.name, plain(load_doc(model, &load.kind)))
+        format!("  load      {}{value}: {}\n", load.name, plain(load_doc(model, load)))
     });
     joints.chain(unknowns).chain(loads).chain(["\n".to_owned()]).collect()
 }

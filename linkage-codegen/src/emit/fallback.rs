@@ -7,9 +7,10 @@ use quote::quote;
 use syn::ext::IdentExt;
 
 use super::literals::ident;
-use super::types::{closures, loads, results, run_time_loads, scalar};
+use super::types::{closures, given_motion, loads, motion, results, run_time_loads, scalar};
 use crate::graph::NodeId;
-use crate::model::{LoadKind, Method, Model, OWN_TYPES, Scene, Wanted, type_name};
+use crate::model::ids::LinkId;
+use crate::model::{Along, Load, Method, Model, OWN_TYPES, Scene, Wanted, type_name};
 use crate::plan::{Field, Meaning, Output, reaction_type};
 
 /// The names of a module. Where several things would have one name, the first has it.
@@ -28,18 +29,19 @@ pub fn module(mut model: Model) -> TokenStream {
     let lifetime = (!model.params.is_empty()).then(|| quote!(<'l>));
     let bound = (!model.params.is_empty()).then(|| quote!(linkage: &'l Linkage));
     let drives: Vec<TokenStream> = drives(model);
-    let given: Vec<Option<TokenStream>> = model.scenes.iter().map(|scene| loads_argument(model, scene)).collect();
-    let at = arguments(bound, &drives, None);
+    let given: Vec<Vec<TokenStream>> = model.scenes.iter().map(|scene| given_arguments(model, scene)).collect();
+    let at = arguments(bound, &drives, &[]);
     let accessors = accessors(model);
-    let from_pose = names.iter().zip(&types).zip(&given).map(|((name, ty), loads)| {
-        let loads = loads.as_ref().map(|loads| quote!(, #loads));
-        quote!(pub fn #name(&self #loads) -> Result<#ty, Error> { loop {} })
-    });
-    let direct = direct.iter().zip(&types).zip(&given).map(|((name, ty), loads)| {
-        let arguments = arguments(prepared.clone(), &drives, loads.clone());
+    let from_pose = names
+        .iter()
+        .zip(&types)
+        .zip(&given)
+        .map(|((name, ty), given)| quote!(pub fn #name(&self #(, #given)*) -> Result<#ty, Error> { loop {} }));
+    let direct = direct.iter().zip(&types).zip(&given).map(|((name, ty), given)| {
+        let arguments = arguments(prepared.clone(), &drives, given);
         quote!(pub fn #name(#arguments) -> Result<#ty, Error> { loop {} })
     });
-    let loads = loads(model, false);
+    let (motion, loads) = (motion(model), loads(model, false));
     let closures = closures(model, false);
     let sides = (!closures.is_empty()).then(|| quote!(use #runtime::{Along, Side};));
     let own = names.iter().map(|name| name.unraw().to_string());
@@ -58,6 +60,7 @@ pub fn module(mut model: Model) -> TokenStream {
                 pub const OPERATIONS: &str = "";
                 pub const SOURCE: &str = "";
                 #sides
+                #motion
                 #loads
                 #closures
                 #params
@@ -124,13 +127,15 @@ fn drives(model: &Model) -> Vec<TokenStream> {
     model.drives.iter().map(|_| quote!(_: #scalar)).chain(closures).collect()
 }
 
-fn loads_argument(model: &Model, scene: &Scene) -> Option<TokenStream> {
+/// The arguments behind the drives.
+fn given_arguments(model: &Model, scene: &Scene) -> Vec<TokenStream> {
+    let moves = !given_motion(model).is_empty() && model.scene_moves(scene);
     let reads = scene.loads.iter().any(|load| run_time_loads(model).contains(load));
-    reads.then(|| quote!(loads: &Loads))
+    moves.then(|| quote!(motion: &Motion)).into_iter().chain(reads.then(|| quote!(loads: &Loads))).collect()
 }
 
-fn arguments(first: Option<TokenStream>, drives: &[TokenStream], last: Option<TokenStream>) -> TokenStream {
-    let all = first.into_iter().chain(drives.iter().cloned()).chain(last);
+fn arguments(first: Option<TokenStream>, drives: &[TokenStream], last: &[TokenStream]) -> TokenStream {
+    let all = first.into_iter().chain(drives.iter().cloned()).chain(last.iter().cloned());
     quote!(#(#all),*)
 }
 
@@ -188,7 +193,7 @@ fn shape(model: &Model, scene: &Scene) -> Output {
     let parts = |one: &dyn Fn() -> Output| {
         let fields = scene.loads.iter().map(|load| {
             let load = model.load(*load);
-            field(&load.name.text, if let LoadKind::Gravity { .. } = load.kind { per_link(model, one) } else { one() })
+            field(&load.name.text, if load.kind.is_per_link() { per_link(model, load, one) } else { one() })
         });
         Output::Record(fields.collect())
     };
@@ -203,9 +208,11 @@ fn field(name: &str, value: Output) -> Field {
 }
 
 /// One for each link that has mass; if none has, which is an error by itself, for each that moves.
-fn per_link(model: &Model, one: &dyn Fn() -> Output) -> Output {
+fn per_link(model: &Model, load: &Load, one: &dyn Fn() -> Output) -> Output {
     let none = model.links.iter().all(|link| link.mass.is_none());
-    let massive = model.links.iter().skip(1).filter(|link| none || link.mass.is_some());
+    let meant = |id: &LinkId| load.links.is_empty() || load.links.contains(id);
+    let links = model.moving_links().filter(meant).map(|id| model.link(id));
+    let massive = links.filter(|link| none || link.mass.is_some());
     Output::Record(massive.map(|link| field(&link.name.text, one())).collect())
 }
 
@@ -220,6 +227,7 @@ fn record(model: &Model, scene: &Scene, zero: NodeId) -> Output {
 /// What a result is like.
 fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> Output {
     let vector = Output::Vector([zero, zero], Meaning::Place);
+    let number = Output::Scalar(zero, Meaning::Number);
     let term = || Output::Term { velocity: zero, work: zero, meaning: Meaning::ForceTerm };
     let terms = || {
         if model.unknowns.len() == 1 {
@@ -230,7 +238,7 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
     match wanted {
         Some(Wanted::Joint(joint)) => {
             let ty = model.joints.get(joint.index()).and_then(|joint| reaction_type(&joint.kind));
-            match ty.filter(|_| scene.method != Method::Position) {
+            match ty.filter(|_| scene.method.has_loads()) {
                 Some((ty, components)) => {
                     let parts = components.iter().map(|component| (component.name(), zero)).collect();
                     Output::Reaction { ty, force: [zero, zero], parts }
@@ -238,12 +246,21 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
                 None => vector,
             }
         }
-        Some(Wanted::Load(load)) => match model.loads.get(load.index()).map(|load| load.kind) {
-            Some(LoadKind::Gravity { .. }) => per_link(model, &terms),
+        Some(Wanted::Load(load)) => match model.loads.get(load.index()) {
+            Some(load) if load.kind.is_per_link() => per_link(model, load, &terms),
             _ => terms(),
         },
         Some(Wanted::Point(_)) => vector,
+        Some(Wanted::Resolved(_, along)) => {
+            let names = if let Along::Path = along { ["tangential", "normal"] } else { ["axial", "transverse"] };
+            Output::Record(names.map(|name| field(name, number.clone())).into())
+        }
+        Some(Wanted::Inertia(_)) => {
+            let parts = [("acceleration", vector.clone()), ("force", vector), ("couple", number)];
+            Output::Record(parts.map(|(name, value)| field(name, value)).into())
+        }
+        Some(Wanted::Offset(_)) => Output::Record(vec![field("distance", number), field("vector", vector)]),
         Some(Wanted::Along(..)) => Output::Resolved([zero, zero]),
-        Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..)) | None => Output::Scalar(zero, Meaning::Number),
+        Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..)) | None => number,
     }
 }

@@ -1,6 +1,6 @@
 //! Expressions as text, in the notation of a textbook.
 
-use crate::graph::{Coordinate, Graph, Kernel, NodeId, Op, Stage, Symbol};
+use crate::graph::{Coordinate, Graph, Kernel, NodeId, Op, Order, Stage, Symbol};
 use crate::model::Model;
 use crate::program::{Definition, Program, ValueId};
 
@@ -196,7 +196,7 @@ impl<S> Formula<'_, S> {
             Symbol::Side(closure) => format!("side_{}", self.model.joint(self.model.closure(closure).joint).name),
             Symbol::Load(load, part) => {
                 let load = self.model.load(load);
-                let value = load.kind.values()[usize::from(part)].0;
+                let value = load.kind.value_name(part);
                 format!("{}{}{value}", load.name, if value.is_empty() { "" } else { "." })
             }
             Symbol::Coordinate(link, coordinate) => {
@@ -207,6 +207,19 @@ impl<S> Formula<'_, S> {
                     Coordinate::Angle => format!("θ({link})"),
                     Coordinate::Cos => format!("cos({link})"),
                     Coordinate::Sin => format!("sin({link})"),
+                }
+            }
+            Symbol::Driven(drive, order) => self.model.drive(drive).motion_name(order),
+            Symbol::Moving(link, coordinate, order) => {
+                let link = &self.model.link(link).name;
+                let (along, turning) = match order {
+                    Order::Rate => ('v', 'ω'),
+                    Order::Acceleration => ('a', 'α'),
+                };
+                match coordinate {
+                    Coordinate::X => format!("{along}x({link})"),
+                    Coordinate::Y => format!("{along}y({link})"),
+                    Coordinate::Angle | Coordinate::Cos | Coordinate::Sin => format!("{turning}({link})"),
                 }
             }
             Symbol::Sought(search, number) | Symbol::Start(search, number) => {

@@ -17,7 +17,7 @@ use crate::plan::{Comparison, Output};
 use crate::program::{Input, Program, ValueId};
 
 /// Names that a function's own values cannot have.
-const TAKEN: [&str; 7] = ["loads", "linkage", "params", "closures", "EQUATIONS", "OPERATIONS", "SOURCE"];
+const TAKEN: [&str; 8] = ["motion", "loads", "linkage", "params", "closures", "EQUATIONS", "OPERATIONS", "SOURCE"];
 
 /// The name of an input.
 fn input_name(linkage: &Linkage, input: Input) -> String {
@@ -28,16 +28,16 @@ fn input_name(linkage: &Linkage, input: Input) -> String {
         Input::Symbol(Symbol::Side(closure)) => format!("side_{}", model.joint(model.closure(closure).joint).name),
         Input::Symbol(Symbol::Load(load, part)) => {
             let load = model.load(load);
-            load.value_name(load.kind.values()[usize::from(part)].0)
+            load.value_name(load.kind.value_name(part))
         }
+        Input::Symbol(Symbol::Driven(drive, order)) => model.drive(drive).motion_name(order),
         // A number of an unknown, at the pose from which its search starts.
         Input::Symbol(Symbol::Start(search, number)) => {
             format!("{}_before", super::search::kept_name(&model.graph.search(search), number))
         }
         // Only in the functions of searches, and nowhere.
-        Input::Symbol(Symbol::Sought(..) | Symbol::Coordinate(..) | Symbol::Dimension(_)) | Input::Known(_) => {
-            String::new()
-        }
+        Input::Symbol(Symbol::Sought(..) | Symbol::Coordinate(..) | Symbol::Moving(..) | Symbol::Dimension(_))
+        | Input::Known(_) => String::new(),
         Input::Kept(node) => {
             let kept = linkage.plan.pose.iter().find(|kept| kept.node == node);
             kept.map_or_else(String::new, |kept| kept.name.clone())
@@ -69,6 +69,7 @@ enum Drives {
 fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream {
     let mut prepared = Vec::new();
     let mut kept = Vec::new();
+    let mut motion = Vec::new();
     let mut statements = TokenStream::new();
     let mut loads: BTreeMap<LoadId, Vec<u8>> = BTreeMap::new();
     for (_, input) in program.inputs() {
@@ -81,6 +82,7 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
                 let own = ident(&super::search::kept_name(&linkage.model.graph.search(search), number));
                 kept.push(quote!(#own: #name));
             }
+            Input::Symbol(Symbol::Driven(..)) => motion.push(name),
             Input::Symbol(Symbol::Load(load, part)) => loads.entry(load).or_default().push(part),
             Input::Symbol(Symbol::Side(closure)) => {
                 let scalar = scalar(&linkage.model);
@@ -97,6 +99,9 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
     if !prepared.is_empty() {
         statements.extend(quote!(let Linkage { #(#prepared,)* .. } = *linkage;));
     }
+    if !motion.is_empty() {
+        statements.extend(quote!(let Motion { #(#motion,)* .. } = *motion;));
+    }
     for (load, read) in loads {
         let data = linkage.model.load(load);
         let name = ident(&data.name.text);
@@ -112,13 +117,13 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
                 quote!(let [[#x, #y]] = loads.#name.data.0;)
             }
             LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
-                let values = data.kind.values();
                 let each = read.iter().map(|part| {
-                    let (field, local) = (ident(values[usize::from(*part)].0), local(*part));
+                    let (field, local) = (ident(data.kind.value_name(*part)), local(*part));
                     quote!(let #local = loads.#name.#field;)
                 });
                 each.collect()
             }
+            LoadKind::Inertia => TokenStream::new(),
         });
     }
     statements
@@ -384,7 +389,7 @@ pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
     let program = without_input_checks(&linkage.functions.scenes[index].from_pose);
     let name = ident(&scene.name.text);
     let ty = output_type(&linkage.model, &linkage.plan.scenes[index], &type_name(&scene.name.text));
-    let loads = loads_argument(&program);
+    let given = given_arguments(&program);
     let prepared = prepared_of_pose(linkage, &program);
     let bindings = bindings(linkage, &program, Drives::Pose);
     let (statements, body) = body(linkage, &program).statements();
@@ -396,7 +401,7 @@ pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
     quote! {
         #lines
         #[inline]
-        pub fn #name(&self #loads) -> Result<#ty, Error> {
+        pub fn #name(&self #given) -> Result<#ty, Error> {
             #prepared
             #bindings
             #statements
@@ -412,8 +417,11 @@ fn without_input_checks(program: &Program) -> Program {
     program
 }
 
-fn loads_argument(program: &Program) -> TokenStream {
-    if program.reads_loads() { quote!(, loads: &Loads) } else { TokenStream::new() }
+/// The arguments behind the drives.
+fn given_arguments(program: &Program) -> TokenStream {
+    let motion = program.reads_motion().then(|| quote!(, motion: &Motion));
+    let loads = program.reads_loads().then(|| quote!(, loads: &Loads));
+    quote!(#motion #loads)
 }
 
 /// A scene straight from the drives.
@@ -422,7 +430,7 @@ pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
     let program = &linkage.functions.scenes[index].direct;
     let name = ident(&format!("{}_at", scene.name));
     let ty = output_type(&linkage.model, &linkage.plan.scenes[index], &type_name(&scene.name.text));
-    let loads = loads_argument(program);
+    let given = given_arguments(program);
     let prepared = linkage_argument(linkage, &TokenStream::new());
     let arguments = drive_arguments(linkage);
     let bindings = bindings(linkage, program, Drives::Arguments);
@@ -438,7 +446,7 @@ pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
     quote! {
         #lines
         #[inline]
-        pub fn #name(#prepared #(#arguments),* #loads) -> Result<#ty, Error> {
+        pub fn #name(#prepared #(#arguments),* #given) -> Result<#ty, Error> {
             #bindings
             #statements
             Ok(#value)

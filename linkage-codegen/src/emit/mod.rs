@@ -20,6 +20,7 @@ pub use equations::text as equations;
 pub use fallback::module as fallback;
 use formula::{Formula, Nodes};
 use literals::ident;
+pub use types::given_motion;
 
 /// The module of a linkage.
 #[must_use]
@@ -54,6 +55,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     let math = ident(model.graph.scalar().name());
     let equations = literals::text(&equations::text(linkage));
     let operations = literals::text(&operations(linkage));
+    let motion = types::motion(model);
     let loads = types::loads(model, true);
     let prepare = if types::has_params(linkage) { functions::prepare(linkage) } else { TokenStream::new() };
     let params = types::params(linkage, &prepare);
@@ -103,6 +105,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
                 pub const OPERATIONS: &str = #operations;
                 #source
 
+                #motion
                 #loads
                 #closures
                 #params

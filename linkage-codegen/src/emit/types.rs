@@ -5,9 +5,10 @@ use quote::quote;
 
 use super::literals::{ident, signed_literal};
 use crate::Linkage;
+use crate::graph::Order;
 use crate::model::ids::{GROUND, JointId, LoadId};
 use crate::model::units::Kind;
-use crate::model::{Load, LoadKind, Method, Model, type_name};
+use crate::model::{Drive, Load, LoadKind, Method, Model, type_name};
 use crate::plan::Output;
 
 /// The scalar type.
@@ -34,7 +35,7 @@ pub(super) fn loads(model: &Model, whole: bool) -> TokenStream {
         .map(|load| {
             let load = model.load(load);
             let name = ident(&load.name.text);
-            let doc = if whole { format!(" {}", load_doc(model, &load.kind)) } else { String::new() };
+            let doc = if whole { format!(" {}", load_doc(model, load)) } else { String::new() };
             let ty = match load.kind {
                 LoadKind::Moment { .. } | LoadKind::Thrust { .. } => quote!(#scalar),
                 LoadKind::Force { .. } | LoadKind::Gravity { .. } => quote!(Vector2<#scalar>),
@@ -43,6 +44,8 @@ pub(super) fn loads(model: &Model, whole: bool) -> TokenStream {
                     springs.extend(spring(model, load));
                     quote!(#ty)
                 }
+                // Nothing of it is given.
+                LoadKind::Inertia => quote!(()),
             };
             quote!(#[doc = #doc] pub #name: #ty)
         })
@@ -58,6 +61,44 @@ pub(super) fn loads(model: &Model, whole: bool) -> TokenStream {
     }
 }
 
+/// What of the drives' motion is given at run time.
+#[must_use]
+pub fn given_motion(model: &Model) -> Vec<(&Drive, Order)> {
+    let read = |order: &Order| match order {
+        Order::Rate => model.moves(),
+        Order::Acceleration => model.accelerates(),
+    };
+    let of = |drive| Drive::given_motion(drive, &model.graph).filter(read).map(move |order| (drive, order));
+    model.drives.iter().flat_map(of).collect()
+}
+
+/// `Motion`: rates and accelerations of the drives that do not declare them; none if nothing moves.
+pub(super) fn motion(model: &Model) -> TokenStream {
+    let scalar = scalar(model);
+    let fields = given_motion(model).into_iter().map(|(drive, order)| {
+        let name = ident(&drive.motion_name(order));
+        let what = match order {
+            Order::Rate => "Rate",
+            Order::Acceleration => "Acceleration",
+        };
+        let doc = format!(
+            " {what} of the drive `{}`, {}.",
+            drive.name,
+            Drive::kind_of(order, drive.turns).unit(&model.units)
+        );
+        quote!(#[doc = #doc] pub #name: #scalar)
+    });
+    let fields: Vec<TokenStream> = fields.collect();
+    if fields.is_empty() {
+        return TokenStream::new();
+    }
+    quote! {
+        /// The motion of the drives.
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        pub struct Motion { #(#fields),* }
+    }
+}
+
 /// The type of what is given of a spring at run time.
 fn spring(model: &Model, load: &Load) -> TokenStream {
     let (scalar, ty) = (scalar(model), ident(&load.type_name()));
@@ -69,6 +110,8 @@ fn spring(model: &Model, load: &Load) -> TokenStream {
             ("rate", true) => ("Moment per angle", Kind::TorsionStiffness),
             ("free", false) => ("Length without force, but for its preload", Kind::Length),
             ("free", true) => ("Angle without moment", Kind::Angle),
+            ("damping", false) => ("Force per rate of its length", Kind::Damping),
+            ("damping", true) => ("Moment per rate of its angle", Kind::TorsionDamping),
             ("near", _) => ("Angle that tells which turn is meant", Kind::Angle),
             _ => ("Tension at its free length", Kind::Force),
         };
@@ -84,9 +127,9 @@ fn spring(model: &Model, load: &Load) -> TokenStream {
 }
 
 /// What a load is, in a sentence.
-pub(super) fn load_doc(model: &Model, kind: &LoadKind) -> String {
+pub(super) fn load_doc(model: &Model, load: &Load) -> String {
     let link = |id| &model.link(id).name.text;
-    match kind {
+    match &load.kind {
         LoadKind::Force { at, frame, .. } => {
             let axes = if *frame == GROUND { "ground axes".to_owned() } else { format!("axes of `{}`", link(*frame)) };
             format!("Force on `{}`, {}, {axes}.", model.end_name(*at), Kind::Force.unit(&model.units))
@@ -106,6 +149,10 @@ pub(super) fn load_doc(model: &Model, kind: &LoadKind) -> String {
         }
         LoadKind::Torsion { from, on, .. } => {
             format!("Torsion spring on `{}`, reacted by `{}`.", link(*on), link(*from))
+        }
+        LoadKind::Inertia => {
+            let links: Vec<String> = load.links.iter().map(|id| format!("`{}`", link(*id))).collect();
+            format!("Inertia of {} by D'Alembert.", links.join(", "))
         }
         LoadKind::Gravity { .. } => {
             format!("Acceleration of gravity, {}, ground axes.", Kind::Acceleration.unit(&model.units))

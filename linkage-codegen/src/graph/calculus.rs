@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::real::Real;
-use super::{Coordinate, Expr, Graph, Kernel, NodeId, Op, Stage, Symbol};
+use super::{Coordinate, Expr, Graph, Kernel, NodeId, Op, Order, Stage, Symbol};
 use crate::model::ids::LinkId;
 
 impl Graph {
@@ -20,6 +20,27 @@ impl Graph {
             _ => self.zero(),
         };
         // Dimensions do not move.
+        self.change(of, Stage::Posed, &symbol)
+    }
+
+    /// Derivative by time of what coordinates and their rates determine.
+    #[must_use]
+    pub fn rate<'g>(&'g self, of: Expr<'g>) -> Expr<'g> {
+        let moving = |link, which, order| self.symbol(Symbol::Moving(link, which, order));
+        let symbol = |symbol: Symbol| match symbol {
+            Symbol::Coordinate(link, which) => {
+                let turning = moving(link, Coordinate::Angle, Order::Rate);
+                match which {
+                    Coordinate::Cos => -(self.symbol(Symbol::Coordinate(link, Coordinate::Sin)) * turning),
+                    Coordinate::Sin => self.symbol(Symbol::Coordinate(link, Coordinate::Cos)) * turning,
+                    Coordinate::X | Coordinate::Y | Coordinate::Angle => moving(link, which, Order::Rate),
+                }
+            }
+            Symbol::Moving(link, which, Order::Rate) => moving(link, which, Order::Acceleration),
+            Symbol::Drive(drive) => self.symbol(Symbol::Driven(drive, Order::Rate)),
+            Symbol::Driven(drive, Order::Rate) => self.symbol(Symbol::Driven(drive, Order::Acceleration)),
+            _ => self.zero(),
+        };
         self.change(of, Stage::Posed, &symbol)
     }
 

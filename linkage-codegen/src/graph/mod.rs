@@ -92,6 +92,15 @@ pub enum Coordinate {
     Sin,
 }
 
+/// How often a coordinate is differentiated by time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Order {
+    /// Once.
+    Rate,
+    /// Twice.
+    Acceleration,
+}
+
 /// What is not known before run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Symbol {
@@ -99,12 +108,16 @@ pub enum Symbol {
     Parameter(ParamId),
     /// The coordinate of a drive.
     Drive(DriveId),
+    /// Its rate or its acceleration, given at run time.
+    Driven(DriveId, Order),
     /// The side of a closure that is chosen at run time: 1 or −1.
     Side(ClosureId),
     /// A component of a load that is given at run time.
     Load(LoadId, u8),
     /// A coordinate of a link in the symbolic equations.
     Coordinate(LinkId, Coordinate),
+    /// The rate or the acceleration of a link's place or angle likewise.
+    Moving(LinkId, Coordinate, Order),
     /// A place in the symbolic equations that stands for any dimension.
     Dimension(u32),
     /// A number of the unknowns of a search, where it stands.
@@ -122,7 +135,7 @@ pub enum Stage {
     Prepared,
     /// When the drives are given.
     Posed,
-    /// When the loads are given.
+    /// When rates and loads are given.
     Loaded,
     /// In each step of a search.
     Iterated,
@@ -344,6 +357,11 @@ pub enum Failure<T = NodeId> {
         /// What acts between them.
         of: String,
     },
+    /// A vector vanishes whose direction is needed.
+    NoDirection {
+        /// Which one, as `the velocity of C`.
+        of: String,
+    },
     /// A parameter is out of its range.
     Parameter {
         /// What is wrong with it, as `crank: |A0 A| must be positive`.
@@ -374,6 +392,7 @@ impl<T: Copy> Failure<T> {
             }
             Self::DeadCentre { group, pivot } => Failure::DeadCentre { group: group.clone(), pivot: pivot.clone() },
             Self::CoincidentEnds { of } => Failure::CoincidentEnds { of: of.clone() },
+            Self::NoDirection { of } => Failure::NoDirection { of: of.clone() },
             Self::Parameter { requirement } => Failure::Parameter { requirement: requirement.clone() },
         }
     }
@@ -599,7 +618,7 @@ impl Arena {
     fn stage_of(&self, op: &Op) -> Stage {
         let own = match op {
             Op::Symbol(Symbol::Parameter(_)) => Stage::Prepared,
-            Op::Symbol(Symbol::Load(..)) => Stage::Loaded,
+            Op::Symbol(Symbol::Load(..) | Symbol::Driven(..) | Symbol::Moving(..)) => Stage::Loaded,
             Op::Symbol(Symbol::Sought(..)) => Stage::Iterated,
             Op::Symbol(_) => Stage::Posed,
             _ => Stage::Constant,

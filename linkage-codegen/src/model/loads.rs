@@ -22,16 +22,21 @@ pub(super) fn loads(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
             let word = broken.words().first().map_or(String::new(), |word| word.text.clone());
             let written: Vec<TokenTree> = broken.rest.clone().into_iter().collect();
             let kind = stand_in(model, id, &word, &|value| is_given_at_run_time(&word, &written, value));
-            model.loads.push(Load { name: name.clone(), kind });
+            let links = massive(model);
+            model.loads.push(Load { name: name.clone(), kind, links });
         }
         let Item::Load(given) = item else { continue };
         let kind = kind(Scope { model, names }, given, id, sink);
         let kind = sink.absorb(kind).flatten();
-        if massless && matches!(given.kind, ast::LoadKind::Gravity) {
+        if massless && matches!(given.kind, ast::LoadKind::Gravity | ast::LoadKind::Inertia(None)) {
             sink.report(without_mass(model, given));
         }
         let kind = kind.unwrap_or_else(|| refused(model, given, id));
-        model.loads.push(Load { name: given.name.clone(), kind });
+        let links = match &given.kind {
+            ast::LoadKind::Inertia(listed) => inertia_of(Scope { model, names }, listed.as_deref(), massless, sink),
+            _ => Vec::new(),
+        };
+        model.loads.push(Load { name: given.name.clone(), kind, links });
     }
 }
 
@@ -44,7 +49,7 @@ fn refused(model: &Model, given: &ast::Load, id: LoadId) -> LoadKind {
         ast::LoadKind::Thrust(_) => ("thrust", None),
         ast::LoadKind::Spring(_, fields) => ("spring", Some(fields)),
         ast::LoadKind::Torsion { fields, .. } => ("torsion", Some(fields)),
-        ast::LoadKind::Planned(word) => (word.text.as_str(), None),
+        ast::LoadKind::Inertia(_) => ("inertia", None),
     };
     stand_in(model, id, word, &|value| match fields {
         Some(fields) => fields.iter().any(|field| field.name.text == value && field.value.is_none()),
@@ -66,12 +71,22 @@ fn stand_in(model: &Model, id: LoadId, word: &str, given: &dyn Fn(&str) -> bool)
         "spring" => {
             let [rate, free, preload] =
                 [(0, "rate"), (1, "free"), (2, "preload")].map(|(part, name)| value(part, name));
-            LoadKind::Spring { ends: [nowhere; 2], rate, free, preload }
+            let damping = given("damping").then(|| value(3, "damping"));
+            LoadKind::Spring { ends: [nowhere; 2], rate, free, preload, damping }
         }
         "torsion" => {
             let near = given("near").then(|| value(2, "near"));
-            LoadKind::Torsion { from: GROUND, on: GROUND, rate: value(0, "rate"), free: value(1, "free"), near }
+            let damping = given("damping").then(|| value(3, "damping"));
+            LoadKind::Torsion {
+                from: GROUND,
+                on: GROUND,
+                rate: value(0, "rate"),
+                free: value(1, "free"),
+                near,
+                damping,
+            }
         }
+        "inertia" => LoadKind::Inertia,
         _ => LoadKind::Force { at: nowhere, force: vector, frame: GROUND },
     }
 }
@@ -88,8 +103,41 @@ fn weightless(model: &Model, ast: &Ast, names: &Names) -> bool {
 
 fn without_mass(model: &Model, given: &ast::Load) -> Diagnostic {
     let link = model.links.get(1).map_or("crank", |link| link.name.text.as_str());
-    Diagnostic::new(given.name.place(), "gravity acts on nothing: no link has a mass")
+    let what = if let ast::LoadKind::Gravity = given.kind { "gravity acts on nothing" } else { "inertia of nothing" };
+    Diagnostic::new(given.name.place(), format!("{what}: no link has a mass"))
         .help(format!("give one to a link, as in `mass {link}: 0.5kg at (0, 0);`, or leave `{}` out", given.name))
+}
+
+/// All links that have mass.
+fn massive(model: &Model) -> Vec<LinkId> {
+    model.moving_links().filter(|link| model.link(*link).mass.is_some()).collect()
+}
+
+/// The links whose inertia is meant: those that are listed, or all that have mass.
+fn inertia_of(scope: Scope<'_>, listed: Option<&[ast::Name]>, massless: bool, sink: &Sink) -> Vec<LinkId> {
+    let model = scope.model;
+    let Some(listed) = listed else { return massive(model) };
+    let mut links = Vec::new();
+    for name in listed {
+        let Some(Some(link)) = sink.absorb(scope.names.find(Role::Link, name)) else { continue };
+        let link = LinkId::new(link);
+        let Some(body) = model.links.get(link.index()) else { continue };
+        if links.contains(&link) {
+            sink.report(
+                Diagnostic::new(name.place(), format!("`{name}` is listed twice")).help("leave one of them out"),
+            );
+        } else if link == GROUND {
+            sink.report(
+                Diagnostic::new(name.place(), "the ground does not move: it has no inertia").help("leave it out"),
+            );
+        } else if body.mass.is_none() && (massless || !massive(model).is_empty()) {
+            let help = format!("give it one, as in `mass {name}: 0.5kg at (0, 0);`, or leave `{name}` out");
+            sink.report(Diagnostic::new(name.place(), format!("the link `{name}` has no mass")).help(help));
+        } else {
+            links.push(link);
+        }
+    }
+    links
 }
 
 fn kind(scope: Scope<'_>, given: &ast::Load, id: LoadId, sink: &Sink) -> Result<Option<LoadKind>, Diagnostic> {
@@ -141,12 +189,12 @@ fn kind(scope: Scope<'_>, given: &ast::Load, id: LoadId, sink: &Sink) -> Result<
         }
         ast::LoadKind::Spring(ends, fields) => {
             let ends = two_points(scope, ends);
-            let [rate, free, preload] = spring_values(scope, given, fields, id, sink)?;
-            Ok(ends?.map(|ends| LoadKind::Spring { ends, rate, free, preload }))
+            let ([rate, free, preload], damping) = spring_values(scope, given, fields, id, sink)?;
+            Ok(ends?.map(|ends| LoadKind::Spring { ends, rate, free, preload, damping }))
         }
         ast::LoadKind::Torsion { from, on, fields } => {
             let links = scope.names.find(Role::Link, from)?.zip(scope.names.find(Role::Link, on)?);
-            let [rate, free, near] = spring_values(scope, given, fields, id, sink)?;
+            let ([rate, free, near], damping) = spring_values(scope, given, fields, id, sink)?;
             if from.text == on.text {
                 return Err(Diagnostic::new(
                     from.place().to(on.place()),
@@ -161,14 +209,9 @@ fn kind(scope: Scope<'_>, given: &ast::Load, id: LoadId, sink: &Sink) -> Result<
                 return Err(Diagnostic::new(field.name.place(), problem).help("leave `near` out"));
             }
             let near = fields.iter().any(|field| field.name.text == "near").then_some(near);
-            Ok(Some(LoadKind::Torsion { from, on, rate, free, near }))
+            Ok(Some(LoadKind::Torsion { from, on, rate, free, near, damping }))
         }
-        ast::LoadKind::Planned(word) => {
-            let name = &given.name;
-            Err(Diagnostic::new(word.place(), "inertia forces are not supported yet").help(format!(
-                "until then give each as a force at the centre of mass and a moment: `load {name}1: force(…);`"
-            )))
-        }
+        ast::LoadKind::Inertia(_) => Ok(Some(LoadKind::Inertia)),
     }
 }
 
@@ -186,21 +229,26 @@ pub(super) fn two_points(scope: Scope<'_>, ends: &[ast::End; 2]) -> Result<Optio
     Ok(Some([first, second]))
 }
 
-/// Rate, free length or angle, and preload or turn of a spring.
+/// Rate, free length or angle, and preload or turn of a spring; its damping if it has one.
 fn spring_values(
     scope: Scope<'_>,
     given: &ast::Load,
     fields: &[ast::SpringField],
     id: LoadId,
     sink: &Sink,
-) -> Result<[NodeId; 3], Diagnostic> {
+) -> Result<([NodeId; 3], Option<NodeId>), Diagnostic> {
     let turns = matches!(given.kind, ast::LoadKind::Torsion { .. });
     let known: &[(&str, Kind)] = if turns {
-        &[("rate", Kind::TorsionStiffness), ("free", Kind::Angle), ("near", Kind::Angle)]
+        &[
+            ("rate", Kind::TorsionStiffness),
+            ("free", Kind::Angle),
+            ("near", Kind::Angle),
+            ("damping", Kind::TorsionDamping),
+        ]
     } else {
-        &[("rate", Kind::Stiffness), ("free", Kind::Length), ("preload", Kind::Force)]
+        &[("rate", Kind::Stiffness), ("free", Kind::Length), ("preload", Kind::Force), ("damping", Kind::Damping)]
     };
-    let mut values: [Option<NodeId>; 3] = [None; 3];
+    let mut values: [Option<NodeId>; 4] = [None; 4];
     for field in fields {
         let name = &field.name;
         let Some(part) = known.iter().position(|(word, _)| *word == name.text) else {
@@ -212,12 +260,17 @@ fn spring_values(
             continue;
         }
         let value = match &field.value {
-            None => Some(scope.model.graph.symbol(Symbol::Load(id, [0, 1, 2][part]))),
+            None => Some(scope.model.graph.symbol(Symbol::Load(id, [0, 1, 2, 3][part]))),
             Some(value) => {
                 let found = sink.absorb(scope.scalar(value, known[part].1));
                 let negative = found.is_some_and(|found| found.sign() == Some(-1));
-                if negative && (name.text == "rate" || !turns && name.text == "free") {
-                    let what = if name.text == "rate" { "the rate of a spring" } else { "a free length" };
+                let what = match name.text.as_str() {
+                    "rate" => Some("the rate of a spring"),
+                    "damping" => Some("a damping"),
+                    "free" if !turns => Some("a free length"),
+                    _ => None,
+                };
+                if let Some(what) = what.filter(|_| negative) {
                     sink.report(Diagnostic::new(value.place, format!("{what} cannot be negative")));
                 }
                 found
@@ -229,10 +282,13 @@ fn spring_values(
     let broken = fields.iter().any(|field| known.iter().all(|(word, _)| *word != field.name.text));
     let name = &given.name;
     let missing = |problem: String, help: &str| Err(Diagnostic::new(name.place(), problem).help(help));
+    let zero = scope.model.graph.zero().id();
     match values {
-        [Some(rate), Some(free), preload] => Ok([rate, free, preload.unwrap_or(scope.model.graph.zero().id())]),
+        [Some(rate), Some(free), preload, damping] => Ok(([rate, free, preload.unwrap_or(zero)], damping)),
+        // Nothing but a damper.
+        [None, None, None, Some(damping)] => Ok(([zero; 3], Some(damping))),
         // A field that was meant to be this one has been reported.
-        _ if broken => Ok([scope.model.graph.one().id(); 3]),
+        _ if broken => Ok(([scope.model.graph.one().id(); 3], None)),
         [None, ..] if turns => missing(format!("the torsion spring `{name}` has no rate"), "say it: `rate: 3N*m/rad`"),
         [None, ..] => missing(format!("the spring `{name}` has no rate"), "say it: `rate: 2N/mm`"),
         _ if turns => missing(
@@ -248,8 +304,6 @@ fn spring_values(
 
 fn unknown_field(name: &ast::Name, turns: bool, known: &[(&str, Kind)]) -> Diagnostic {
     match name.text.as_str() {
-        "damping" => Diagnostic::new(name.place(), "dampers are not supported yet")
-            .help("leave it out: in statics, where nothing moves, a damper exerts nothing"),
         "preload" if turns => Diagnostic::new(name.place(), "a torsion spring has no preload of its own")
             .help("let its free angle say so: it is where the moment is zero"),
         other => Diagnostic::new(name.place(), format!("a spring has no `{name}`"))
@@ -286,6 +340,10 @@ fn scalar<'m>(scope: Scope<'m>, given: &ast::Load, id: LoadId, kind: Kind) -> Re
     }
 }
 
+fn said<const N: usize>(values: [(&'static str, Option<NodeId>); N]) -> Vec<(&'static str, NodeId)> {
+    values.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
+}
+
 impl LoadKind {
     /// Its values, each with its name behind that of the load: none where there is only one.
     #[must_use]
@@ -295,12 +353,42 @@ impl LoadKind {
                 vec![("x", x), ("y", y)]
             }
             Self::Moment { moment: value, .. } | Self::Thrust { force: value, .. } => vec![("", value)],
-            Self::Spring { rate, free, preload, .. } => vec![("rate", rate), ("free", free), ("preload", preload)],
-            Self::Torsion { rate, free, near, .. } => [("rate", Some(rate)), ("free", Some(free)), ("near", near)]
-                .into_iter()
-                .filter_map(|(name, value)| Some((name, value?)))
-                .collect(),
+            Self::Spring { rate, free, preload, damping, .. } => {
+                said([("rate", Some(rate)), ("free", Some(free)), ("preload", Some(preload)), ("damping", damping)])
+            }
+            Self::Torsion { rate, free, near, damping, .. } => {
+                said([("rate", Some(rate)), ("free", Some(free)), ("near", near), ("damping", damping)])
+            }
+            Self::Inertia => Vec::new(),
         }
+    }
+
+    /// The name of the value with this number among those that are given at run time.
+    #[must_use]
+    pub fn value_name(&self, part: u8) -> &'static str {
+        let names: &[&str] = match self {
+            Self::Force { .. } | Self::Gravity { .. } => &["x", "y"],
+            Self::Moment { .. } | Self::Thrust { .. } | Self::Inertia => &[],
+            Self::Spring { .. } => &["rate", "free", "preload", "damping"],
+            Self::Torsion { .. } => &["rate", "free", "near", "damping"],
+        };
+        names.get(usize::from(part)).copied().unwrap_or("")
+    }
+
+    /// Whether it depends on velocities or accelerations.
+    #[must_use]
+    pub fn depends_on_motion(&self) -> bool {
+        match self {
+            Self::Inertia => true,
+            Self::Spring { damping, .. } | Self::Torsion { damping, .. } => damping.is_some(),
+            Self::Force { .. } | Self::Moment { .. } | Self::Gravity { .. } | Self::Thrust { .. } => false,
+        }
+    }
+
+    /// Whether it has a part for each of some links: weights, inertia.
+    #[must_use]
+    pub fn is_per_link(&self) -> bool {
+        matches!(self, Self::Gravity { .. } | Self::Inertia)
     }
 
     /// The values that are given at run time.

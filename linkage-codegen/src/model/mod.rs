@@ -18,7 +18,7 @@ pub mod units;
 use proc_macro2::TokenStream;
 
 use crate::diagnostics::{Diagnostic, Place, Sink};
-use crate::graph::{Expr, Graph, NodeId, Scalar, Symbol, Vector};
+use crate::graph::{Expr, Graph, NodeId, Order, Scalar, Symbol, Vector};
 use crate::syntax::ast::{Ast, Name};
 use ids::{ClosureId, DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
 use units::{Kind, Units};
@@ -317,8 +317,41 @@ pub struct Drive {
     pub joint: JointId,
     /// Whether that is the angle between its links; otherwise it is the travel along its line.
     pub turns: bool,
+    /// The rate at which it changes: declared, or a symbol.
+    pub rate: NodeId,
+    /// Its acceleration likewise.
+    pub acceleration: NodeId,
     /// Its value where links start that are placed by iteration, and where that was declared.
     pub start: Option<(NodeId, Place)>,
+}
+
+impl Drive {
+    /// What its rate or its acceleration is called where it is given at run time.
+    #[must_use]
+    pub fn motion_name(&self, order: Order) -> String {
+        match order {
+            Order::Rate => format!("{}_rate", self.name),
+            Order::Acceleration => format!("{}_acceleration", self.name),
+        }
+    }
+
+    /// The dimension of the rate or the acceleration of a coordinate that is an angle or a travel.
+    #[must_use]
+    pub fn kind_of(order: Order, turns: bool) -> Kind {
+        match (order, turns) {
+            (Order::Rate, true) => Kind::AngularRate,
+            (Order::Rate, false) => Kind::Velocity,
+            (Order::Acceleration, true) => Kind::AngularAcceleration,
+            (Order::Acceleration, false) => Kind::Acceleration,
+        }
+    }
+
+    /// What of its motion is given at run time.
+    pub fn given_motion(&self, graph: &Graph) -> impl Iterator<Item = Order> {
+        let symbol = |id| matches!(graph.op(id), crate::graph::Op::Symbol(Symbol::Driven(..)));
+        let orders = [(Order::Rate, symbol(self.rate)), (Order::Acceleration, symbol(self.acceleration))];
+        orders.into_iter().filter(|(_, given)| *given).map(|(order, _)| order)
+    }
 }
 
 /// Where a link starts that is placed by iteration.
@@ -434,6 +467,8 @@ pub struct Load {
     pub name: Name,
     /// What it is.
     pub kind: LoadKind,
+    /// Of inertia the links whose it is.
+    pub links: Vec<LinkId>,
 }
 
 impl Load {
@@ -493,6 +528,8 @@ pub enum LoadKind {
         free: NodeId,
         /// The tension at that length.
         preload: NodeId,
+        /// Force per rate of the length, if it damps.
+        damping: Option<NodeId>,
     },
     /// A torsion spring between two links: on the second `−rate (angle − free)`, with its angle from the first.
     Torsion {
@@ -506,7 +543,11 @@ pub enum LoadKind {
         free: NodeId,
         /// Which turn is meant, if that is said: near to which angle the second link stands while the drives are zero.
         near: Option<NodeId>,
+        /// Moment per rate of the angle, if it damps.
+        damping: Option<NodeId>,
     },
+    /// D'Alembert's forces and couples of links that have mass.
+    Inertia,
 }
 
 /// What is wanted.
@@ -529,6 +570,10 @@ pub struct Scene {
 pub enum Method {
     /// Where everything is.
     Position,
+    /// How fast everything moves.
+    Velocity,
+    /// How that changes.
+    Acceleration,
     /// All loads at once.
     Equilibrium,
     /// Every load by itself.
@@ -537,6 +582,14 @@ pub enum Method {
     VirtualWork,
     /// All of these against the general solution.
     Verify,
+}
+
+impl Method {
+    /// Whether its results depend on loads.
+    #[must_use]
+    pub fn has_loads(self) -> bool {
+        !matches!(self, Self::Position | Self::Velocity | Self::Acceleration)
+    }
 }
 
 /// A wanted result.
@@ -556,6 +609,30 @@ pub enum Wanted {
     Along(JointId, LinkId),
     /// The couple of a joint about a point.
     About(JointId, End),
+    /// The velocity or the acceleration of a joint or a point along and across the x axis of a link, or along and across its path.
+    Resolved(Spot, Along),
+    /// D'Alembert's force and couple of a link.
+    Inertia(LinkId),
+    /// Where a single force is equivalent to them.
+    Offset(LinkId),
+}
+
+/// What moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spot {
+    /// A joint.
+    Joint(JointId),
+    /// A point of a link.
+    Point(End),
+}
+
+/// Along what a vector is resolved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Along {
+    /// The x axis of a link.
+    Link(LinkId),
+    /// The path of the point.
+    Path,
 }
 
 impl Model {
@@ -606,10 +683,10 @@ impl Model {
         &self.unknowns[id.index()]
     }
 
-    /// The links on which an unknown acts.
+    /// The links on which an effort acts.
     #[must_use]
-    pub fn links_of(&self, unknown: UnknownId) -> Vec<LinkId> {
-        match self.unknown(unknown).kind {
+    pub fn links_of(&self, effort: UnknownKind) -> Vec<LinkId> {
+        match effort {
             UnknownKind::Drive(drive) => self.joint(self.drive(drive).joint).ends().map(|end| end.link).to_vec(),
             UnknownKind::Torque(from, to) => vec![from, to],
             UnknownKind::Force { at, .. } => vec![at.link],
@@ -637,6 +714,18 @@ impl Model {
             Wanted::Angle(id) => format!("{}_angle", link(id)?),
             Wanted::Along(id, along) => format!("{}_along_{}", joint(id)?, link(along)?),
             Wanted::About(id, end) => format!("{}_about_{}", joint(id)?, point(end)?),
+            Wanted::Resolved(spot, along) => {
+                let spot = match spot {
+                    Spot::Joint(id) => joint(id)?.text.clone(),
+                    Spot::Point(end) => point(end)?,
+                };
+                match along {
+                    Along::Link(id) => format!("{spot}_along_{}", link(id)?),
+                    Along::Path => format!("{spot}_along_path"),
+                }
+            }
+            Wanted::Inertia(id) => format!("{}_inertia", link(id)?),
+            Wanted::Offset(id) => format!("{}_offset", link(id)?),
         })
     }
 
@@ -666,6 +755,28 @@ impl Model {
             Some((.., distance)) => self.graph.expr(*distance),
             None => (self.local(End { link, point: b }) - self.local(End { link, point: a })).size(),
         }
+    }
+
+    /// Whether anything is asked for that depends on velocities.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.accelerates()
+            || self.scenes.iter().any(|scene| scene.method == Method::Velocity)
+            || self.loads.iter().any(|load| load.kind.depends_on_motion())
+    }
+
+    /// Whether the results of a scene depend on velocities.
+    #[must_use]
+    pub fn scene_moves(&self, scene: &Scene) -> bool {
+        let load = |load: &LoadId| self.loads.get(load.index()).is_some_and(|load| load.kind.depends_on_motion());
+        matches!(scene.method, Method::Velocity | Method::Acceleration) || scene.loads.iter().any(load)
+    }
+
+    /// Whether anything is asked for that depends on accelerations.
+    #[must_use]
+    pub fn accelerates(&self) -> bool {
+        self.scenes.iter().any(|scene| scene.method == Method::Acceleration)
+            || self.loads.iter().any(|load| matches!(load.kind, LoadKind::Inertia))
     }
 
     /// All links but the ground.

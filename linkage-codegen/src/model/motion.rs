@@ -8,6 +8,7 @@ use super::names::{Names, Role, unread};
 use super::units::Kind;
 use super::{Closure, Drive, JointKind, Model, Side, Start, Unknown, UnknownKind};
 use crate::diagnostics::{Diagnostic, Sink};
+use crate::graph::{Expr, NodeId, Order, Symbol};
 use crate::syntax::ast::{self, Ast, Effort, Item, Name, StartFrom};
 
 /// Drives: each at a joint of its own.
@@ -15,21 +16,35 @@ pub(super) fn drives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
     for item in &ast.items {
         if let Some((_, name)) = unread(item, Role::Drive) {
             let joint = JointId::new(model.joints.len());
-            model.drives.push(Drive { name: name.clone(), joint, turns: true, start: None });
+            let [rate, acceleration] = ORDERS.map(|order| given_motion(model, order));
+            model.drives.push(Drive { name: name.clone(), joint, turns: true, rate, acceleration, start: None });
         }
         let Item::Drive(given) = item else { continue };
         let joint = sink.absorb(names.find(Role::Joint, &given.joint)).flatten().map(JointId::new);
         let turns = joint.is_none_or(|joint| turns(model, given, joint, sink));
-        if let Some(place) = given.motion {
-            sink.report(
-                Diagnostic::new(place, "a motion that is known at compile time is not supported yet")
-                    .help("leave it out: statics needs no rates"),
-            );
-        }
+        let scope = Scope { model, names };
+        let [rate, acceleration] = ORDERS.map(|order| motion(scope, given, turns, order, sink));
         // No joint, if none could be found: no other drive is on the same one.
         let joint = joint.unwrap_or(JointId::new(model.joints.len()));
-        model.drives.push(Drive { name: given.name.clone(), joint, turns, start: None });
+        model.drives.push(Drive { name: given.name.clone(), joint, turns, rate, acceleration, start: None });
     }
+}
+
+const ORDERS: [Order; 2] = [Order::Rate, Order::Acceleration];
+
+/// The rate or the acceleration of the next drive, given at run time.
+fn given_motion(model: &Model, order: Order) -> NodeId {
+    model.graph.symbol(Symbol::Driven(DriveId::new(model.drives.len()), order)).id()
+}
+
+/// The same, as it is declared or given at run time.
+fn motion(scope: Scope<'_>, drive: &ast::Drive, turns: bool, order: Order, sink: &Sink) -> NodeId {
+    let declared = match order {
+        Order::Rate => &drive.motion.rate,
+        Order::Acceleration => &drive.motion.acceleration,
+    };
+    let value = declared.as_ref().and_then(|value| sink.absorb(scope.scalar(value, Drive::kind_of(order, turns))));
+    value.map_or_else(|| given_motion(scope.model, order), Expr::id)
 }
 
 /// Whether the coordinate of a drive is an angle.

@@ -6,7 +6,7 @@ use super::evaluate::Scope;
 use super::ids::{GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
-use super::{End, LoadKind, Method, Model, Scene, Wanted};
+use super::{Along, End, Method, Model, Scene, Spot, Wanted};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
 use crate::syntax::{METHODS, PLANNED_METHODS};
@@ -24,11 +24,11 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         let method = sink.absorb(method(given)).unwrap_or_else(|| likely_method(&given.method.text));
         let loads = loads(model, given, method, names, sink);
         let (results, refused) = results(model, given, method, &loads, names, sink);
-        if unloaded && method != Method::Position && !told {
+        if unloaded && method.has_loads() && !told {
             told = true;
             sink.report(
                 Diagnostic::new(given.name.place().to(given.method.place()), "there is no load to balance")
-                    .help("declare one, as in `load F: force(coupler.C);`; only `position` scenes need none"),
+                    .help("declare one, as in `load F: force(coupler.C);`; only `position`, `velocity` and `acceleration` scenes need none"),
             );
         }
         model.scenes.push(Scene { name: given.name.clone(), method, loads, results, refused });
@@ -41,7 +41,9 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
 /// The method that a refused one is most like.
 fn likely_method(word: &str) -> Method {
     match word {
-        "velocity" | "acceleration" | "inverse" | "position" => Method::Position,
+        "velocity" => Method::Velocity,
+        "acceleration" => Method::Acceleration,
+        "inverse" | "position" => Method::Position,
         "verify" => Method::Verify,
         _ => Method::Equilibrium,
     }
@@ -55,7 +57,7 @@ fn stand_in(model: &Model, broken: &ast::Broken, name: &Name) -> Scene {
         "virtual_work" => Method::VirtualWork,
         other => likely_method(other),
     });
-    let all = if method == Method::Position { 0 } else { model.loads.len() };
+    let all = if method.has_loads() { model.loads.len() } else { 0 };
     let named: Vec<LoadId> = (0..all)
         .map(LoadId::new)
         .filter(|load| words.iter().any(|word| word.text == model.load(*load).name.text))
@@ -68,6 +70,8 @@ fn stand_in(model: &Model, broken: &ast::Broken, name: &Name) -> Scene {
 fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
     match given.method.text.as_str() {
         "position" => Ok(Method::Position),
+        "velocity" => Ok(Method::Velocity),
+        "acceleration" => Ok(Method::Acceleration),
         "equilibrium" => Ok(Method::Equilibrium),
         "superposition" => Ok(Method::Superposition),
         "virtual_work" => Ok(Method::VirtualWork),
@@ -88,12 +92,17 @@ fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
 
 fn loads(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink: &Sink) -> Vec<LoadId> {
     let Some(listed) = &given.loads else {
-        let all = if method == Method::Position { 0 } else { model.loads.len() };
+        let all = if method.has_loads() { model.loads.len() } else { 0 };
         return (0..all).map(LoadId::new).collect();
     };
-    if method == Method::Position {
+    if !method.has_loads() {
+        let what = match method {
+            Method::Velocity => "velocities do",
+            Method::Acceleration => "accelerations do",
+            _ => "positions do",
+        };
         sink.report(
-            Diagnostic::new(given.method.place(), "positions do not depend on loads")
+            Diagnostic::new(given.method.place(), format!("{what} not depend on loads"))
                 .help("leave the list of loads out"),
         );
         return Vec::new();
@@ -181,6 +190,7 @@ fn end_of(item: &ResultItem) -> ast::End {
         ResultItem::Name(name) => ast::End { link: name.clone(), point: None },
         ResultItem::Point(link, point) => ast::End { link: link.clone(), point: Some(point.clone()) },
         ResultItem::Along(joint, _) | ResultItem::About(joint, _) => joint.clone(),
+        ResultItem::OfLink(what, _) => ast::End { link: what.clone(), point: None },
         ResultItem::Planned { of, .. } => of.clone(),
     }
 }
@@ -189,9 +199,17 @@ fn end_of(item: &ResultItem) -> ast::End {
 fn likely(model: &Model, names: &Names, item: &ResultItem) -> (String, Option<Wanted>) {
     let near = |joint: &Name| JointId::new(names.near(Role::Joint, &joint.text).unwrap_or(0));
     match item {
-        ResultItem::Along(joint, link) => {
-            let joint = &joint.link;
+        ResultItem::Along(of, link) if of.point.is_none() => {
+            let joint = &of.link;
             return (format!("{joint}_along_{link}"), Some(Wanted::Along(near(joint), GROUND)));
+        }
+        ResultItem::Along(of, link) => {
+            let name = format!("{}_along_{link}", of.written().replace('.', "_"));
+            return (name, Some(Wanted::Resolved(Spot::Joint(JointId::new(0)), Along::Path)));
+        }
+        ResultItem::OfLink(what, link) => {
+            let like = if what.text == "offset" { Wanted::Offset(GROUND) } else { Wanted::Inertia(GROUND) };
+            return (format!("{link}_{what}"), Some(like));
         }
         ResultItem::About(joint, ast::End { link, point }) => {
             let point = point.as_ref().map_or("", |point| point.text.as_str());
@@ -228,7 +246,7 @@ fn all_results(model: &Model, method: Method, loads: &[LoadId]) -> Vec<Wanted> {
     let joints = (0..model.joints.len()).map(|j| Wanted::Joint(JointId::new(j)));
     let unknowns = (0..model.unknowns.len()).map(|u| Wanted::Unknown(UnknownId::new(u)));
     match method {
-        Method::Position => {
+        Method::Position | Method::Velocity | Method::Acceleration => {
             let jointed = |end: End| model.joints.iter().any(|j| j.ends().contains(&end));
             let points = model
                 .moving_links()
@@ -262,25 +280,38 @@ fn result(
         ResultItem::Point(link, point) => {
             let place = link.place().to(point.place());
             let Some(id) = names.find(Role::Link, link)?.map(LinkId::new) else { return Ok(None) };
-            if method != Method::Position {
+            if method.has_loads() {
                 let what = if point.text == "angle" { "the angle of a link" } else { "the place of a point" };
                 return Err(cannot(given, place, &format!("{link}.{point}"), what).help("`position` gives it"));
             }
             if point.text == "angle" {
                 return Ok(Some(Wanted::Angle(id)));
             }
-            let Some(body) = model.links.get(id.index()) else { return Ok(None) };
-            match body.points.iter().position(|p| p.name.text == point.text) {
-                Some(index) => Ok(Some(Wanted::Point(End { link: id, point: PointId::new(index) }))),
-                None if body.unread => Ok(None),
-                None => {
-                    let known = body.points.iter().map(|p| p.name.text.as_str()).chain(["angle"]);
-                    let problem = format!("the link `{link}` has no point `{point}`");
-                    Err(Diagnostic::new(point.place(), problem).suggest(&point.text, known))
-                }
-            }
+            Ok(point_of(model, id, link, point)?.map(Wanted::Point))
         }
         ResultItem::Name(name) => named_result(model, given, method, name, names),
+        ResultItem::Along(of, link) if matches!(method, Method::Velocity | Method::Acceleration) => {
+            let spot = match &of.point {
+                Some(point) => {
+                    let Some(id) = names.find(Role::Link, &of.link)?.map(LinkId::new) else { return Ok(None) };
+                    point_of(model, id, &of.link, point)?.map(Spot::Point)
+                }
+                None => names.find(Role::Joint, &of.link)?.map(|joint| Spot::Joint(JointId::new(joint))),
+            };
+            let link_called_so = names.entry("path").is_some_and(|entry| entry.role == Role::Link);
+            if link.text == "path" && !link_called_so {
+                if method == Method::Velocity {
+                    let problem = "a velocity is along the path: across it there is nothing";
+                    return Err(
+                        Diagnostic::new(link.place(), problem).help("resolve it along a link, or ask for the vector")
+                    );
+                }
+                return Ok(spot.map(|spot| Wanted::Resolved(spot, Along::Path)));
+            }
+            let along = names.find(Role::Link, link)?.map(|link| Along::Link(LinkId::new(link)));
+            Ok(spot.zip(along).map(|(spot, along)| Wanted::Resolved(spot, along)))
+        }
+        ResultItem::OfLink(what, link) => of_link(model, given, method, (what, link), names),
         ResultItem::Along(joint, link) => {
             let link_id = names.find(Role::Link, link)?.map(LinkId::new);
             let joint_id = reaction_of(given, method, (joint, "along"), names, joint.place().to(link.place()))?;
@@ -299,6 +330,54 @@ fn result(
             Ok(at.map(|at| Wanted::About(id, at)))
         }
     }
+}
+
+/// A point of a link by its name.
+fn point_of(model: &Model, id: LinkId, link: &Name, point: &Name) -> Result<Option<End>, Diagnostic> {
+    let Some(body) = model.links.get(id.index()) else { return Ok(None) };
+    match body.points.iter().position(|p| p.name.text == point.text) {
+        Some(index) => Ok(Some(End { link: id, point: PointId::new(index) })),
+        None if body.unread => Ok(None),
+        None => {
+            let known = body.points.iter().map(|p| p.name.text.as_str()).chain(["angle"]);
+            let problem = format!("the link `{link}` has no point `{point}`");
+            Err(Diagnostic::new(point.place(), problem).suggest(&point.text, known))
+        }
+    }
+}
+
+/// `inertia(rod)`, `offset(rod)`
+fn of_link(
+    model: &Model,
+    given: &ast::Scene,
+    method: Method,
+    (what, link): (&Name, &Name),
+    names: &Names,
+) -> Result<Option<Wanted>, Diagnostic> {
+    let place = what.place().to(link.place());
+    let shown = format!("{what}({link})");
+    let wanted: fn(LinkId) -> Wanted = match what.text.as_str() {
+        "inertia" => Wanted::Inertia,
+        "offset" => Wanted::Offset,
+        other => {
+            return Err(Diagnostic::new(what.place(), format!("there is no result `{shown}`"))
+                .suggest(other, ["inertia", "offset"]));
+        }
+    };
+    if method != Method::Acceleration {
+        return Err(cannot(given, place, &shown, "what the inertia of a link exerts").help("`acceleration` gives it"));
+    }
+    let Some(id) = names.find(Role::Link, link)?.map(LinkId::new) else { return Ok(None) };
+    let Some(body) = model.links.get(id.index()) else { return Ok(None) };
+    if id == GROUND {
+        return Err(Diagnostic::new(link.place(), "the ground does not move: it has no inertia")
+            .help("ask for that of a moving link"));
+    }
+    if body.mass.is_none() {
+        return Err(Diagnostic::new(link.place(), format!("the link `{link}` has no mass"))
+            .help(format!("give it one, as in `mass {link}: 0.5kg at (0, 0);`, or leave the result out")));
+    }
+    Ok(Some(wanted(id)))
 }
 
 /// The joint whose reaction is wanted in some form.
@@ -324,6 +403,8 @@ fn reaction_of(
 fn word(method: Method) -> &'static str {
     match method {
         Method::Position => "position",
+        Method::Velocity => "velocity",
+        Method::Acceleration => "acceleration",
         Method::Equilibrium => "equilibrium",
         Method::Superposition => "superposition",
         Method::VirtualWork => "virtual_work",
@@ -340,7 +421,7 @@ fn named_result(
 ) -> Result<Option<Wanted>, Diagnostic> {
     if let Some(index) = model.unknowns.iter().position(|u| u.name == name.text) {
         return match method {
-            Method::Position => {
+            Method::Position | Method::Velocity | Method::Acceleration => {
                 Err(cannot(given, name.place(), &name.text, "an effort")
                     .help("`equilibrium` and `virtual_work` give it"))
             }
@@ -369,7 +450,7 @@ fn named_result(
             }
             Ok(Some(Wanted::Load(load)))
         }
-        Some((Role::Link, index)) if method == Method::Position => {
+        Some((Role::Link, index)) if !method.has_loads() => {
             let points = model.links.get(index).map_or(&[][..], |link| &link.points);
             let point = points.last().map_or("P", |point| point.name.text.as_str());
             Err(Diagnostic::new(name.place(), format!("of the link `{name}`, its angle or a point?"))
@@ -378,7 +459,7 @@ fn named_result(
         None if names.may_be(Role::Joint) || names.may_be(Role::Load) || names.may_be(Role::Unknown) => Ok(None),
         _ => {
             let known: Vec<&str> = match method {
-                Method::Position => names.of(Role::Joint).collect(),
+                Method::Position | Method::Velocity | Method::Acceleration => names.of(Role::Joint).collect(),
                 Method::VirtualWork => {
                     model.unknowns.iter().map(|u| u.name.as_str()).chain(names.of(Role::Load)).collect()
                 }
@@ -406,8 +487,9 @@ pub fn type_name(name: &str) -> String {
 }
 
 /// Types of the generated module and names that it takes from elsewhere.
-pub(crate) const OWN_TYPES: [&str; 13] = [
+pub(crate) const OWN_TYPES: [&str; 14] = [
     "Pose",
+    "Motion",
     "Loads",
     "Params",
     "Linkage",
@@ -428,6 +510,9 @@ const FURTHER_TYPES: [&str; 5] = ["Default", "Verification", "Closures", "Side",
 fn check_values(model: &Model, sink: &Sink) {
     let mut values: BTreeMap<String, String> = BTreeMap::new();
     values.insert("loads".into(), "holds the loads".into());
+    if model.moves() {
+        values.insert("motion".into(), "holds the rates of the drives".into());
+    }
     values.insert("linkage".into(), "holds what is prepared from the parameters".into());
     for (_, closure) in model.given_closures() {
         values.insert("closures".into(), "holds the closures that are chosen at run time".into());
@@ -445,7 +530,11 @@ fn check_values(model: &Model, sink: &Sink) {
         values.insert(format!("travel_{}_before", joint.name), format!("is a travel of `{}`", joint.name));
     }
     let params = model.params.iter().map(|param| (&param.name, vec![param.name.text.clone()]));
-    let drives = model.drives.iter().map(|drive| (&drive.name, vec![drive.name.text.clone()]));
+    let drives = model.drives.iter().map(|drive| {
+        let motion = drive.given_motion(&model.graph).filter(|_| model.moves());
+        let motion = motion.map(|order| drive.motion_name(order));
+        (&drive.name, core::iter::once(drive.name.text.clone()).chain(motion).collect::<Vec<_>>())
+    });
     let loads = model.loads.iter().map(|load| {
         let values = load.kind.given(model).map(|value| load.value_name(value));
         (&load.name, values.collect())
@@ -533,13 +622,18 @@ fn check_generated_names(model: &Model, sink: &Sink) {
 /// The types that a scene brings.
 fn types_of(model: &Model, scene: &Scene) -> Vec<String> {
     let base = type_name(&scene.name.text);
-    let gravity = |load: &LoadId| matches!(model.load(*load).kind, LoadKind::Gravity { .. });
+    let per_link = |load: &LoadId| model.load(*load).kind.is_per_link();
     let records = scene.loads.iter().filter(|load| match scene.method {
-        Method::VirtualWork => gravity(load) || model.unknowns.len() > 1,
-        Method::Superposition => gravity(load),
+        Method::VirtualWork => per_link(load) || model.unknowns.len() > 1,
+        Method::Superposition => per_link(load),
         _ => false,
     });
     let records = records.map(|load| format!("{base}{}", type_name(&model.load(*load).name.text)));
+    let resolved = scene.results.iter().filter_map(|wanted| match wanted {
+        Wanted::Resolved(..) | Wanted::Inertia(_) | Wanted::Offset(_) => model.result_name(*wanted),
+        _ => None,
+    });
+    let records = records.chain(resolved.map(|name| format!("{base}{}", type_name(&name))));
     let parts = (scene.method == Method::Superposition).then(|| format!("{base}Contribution"));
     core::iter::once(base.clone()).chain(parts).chain(records).collect()
 }

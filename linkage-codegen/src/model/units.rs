@@ -100,8 +100,14 @@ pub enum Kind {
     Force,
     /// A moment of force.
     Moment,
+    /// A velocity.
+    Velocity,
     /// An acceleration.
     Acceleration,
+    /// An angular velocity.
+    AngularRate,
+    /// An angular acceleration.
+    AngularAcceleration,
     /// Force per length.
     Stiffness,
     /// Moment per angle.
@@ -140,7 +146,10 @@ impl Kind {
             Self::Inertia => base(2, 1, 0, 0, 0),
             Self::Force => base(0, 0, 0, 0, 1),
             Self::Moment => base(1, 0, 0, 0, 1),
+            Self::Velocity => base(1, 0, -1, 0, 0),
             Self::Acceleration => base(1, 0, -2, 0, 0),
+            Self::AngularRate => base(0, 0, -1, 1, 0),
+            Self::AngularAcceleration => base(0, 0, -2, 1, 0),
             Self::Stiffness => base(-1, 0, 0, 0, 1),
             Self::TorsionStiffness => base(1, 0, 0, -1, 1),
             Self::Damping => base(-1, 0, 1, 0, 1),
@@ -152,9 +161,12 @@ impl Kind {
     #[must_use]
     pub fn factor_from(self, found: Dimension, units: &Units) -> Option<Number> {
         let wanted = self.dimension();
-        // An angle may be left out of a torsional stiffness or damping.
-        let torsional = matches!(self, Self::TorsionStiffness | Self::TorsionDamping);
-        let same = |d: Dimension| d == wanted || torsional && d == Dimension { angle: 0, ..wanted };
+        // An angle may be left out of a rate of rotation, and of a torsional stiffness or damping.
+        let turning = matches!(
+            self,
+            Self::AngularRate | Self::AngularAcceleration | Self::TorsionStiffness | Self::TorsionDamping
+        );
+        let same = |d: Dimension| d == wanted || turning && d == Dimension { angle: 0, ..wanted };
         if same(found) {
             return Some(Number::one());
         }
@@ -174,7 +186,10 @@ impl Kind {
             Self::Inertia => "a moment of inertia",
             Self::Force => "a force",
             Self::Moment => "a moment",
+            Self::Velocity => "a velocity",
             Self::Acceleration => "an acceleration",
+            Self::AngularRate => "an angular rate",
+            Self::AngularAcceleration => "an angular acceleration",
             Self::Stiffness => "a stiffness",
             Self::TorsionStiffness => "a torsional stiffness",
             Self::Damping => "a damping",
@@ -194,7 +209,10 @@ impl Kind {
             Self::Inertia => format!("kg·{length}²"),
             Self::Force => force.into(),
             Self::Moment => format!("{force}·{length}"),
+            Self::Velocity => format!("{length}/s"),
             Self::Acceleration => format!("{length}/s²"),
+            Self::AngularRate => "rad/s".into(),
+            Self::AngularAcceleration => "rad/s²".into(),
             Self::Stiffness => format!("{force}/{length}"),
             Self::TorsionStiffness => format!("{force}·{length}/rad"),
             Self::Damping => format!("{force}·s/{length}"),
@@ -214,7 +232,10 @@ impl Kind {
             Self::Inertia => format!("120kg*{length}^2"),
             Self::Force => format!("50{force}"),
             Self::Moment => format!("5{force}*{length}"),
+            Self::Velocity => "0.5m/s".into(),
             Self::Acceleration => "9.81m/s^2".into(),
+            Self::AngularRate => "3000rpm".into(),
+            Self::AngularAcceleration => "20rad/s^2".into(),
             Self::Stiffness => format!("2{force}/{length}"),
             Self::TorsionStiffness => format!("2{force}*{length}/rad"),
             Self::Damping => format!("2{force}*s/{length}"),
@@ -225,7 +246,8 @@ impl Kind {
 
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let known = PARAMETER_KINDS.iter().map(|(_, kind)| *kind).chain([Kind::Acceleration]);
+        let moving = [Kind::Velocity, Kind::Acceleration, Kind::AngularRate, Kind::AngularAcceleration];
+        let known = PARAMETER_KINDS.iter().map(|(_, kind)| *kind).chain(moving);
         if let Some(kind) = known.into_iter().find(|kind| kind.dimension() == *self) {
             return f.write_str(kind.name());
         }

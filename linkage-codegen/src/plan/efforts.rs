@@ -3,11 +3,13 @@
 use super::balance::Balance;
 use super::framed::Framed;
 use super::placement::Placement;
+use super::posed::Posed;
 use super::velocities::Motion;
 use crate::equations::loads::Line;
 use crate::graph::{Expr, Vector};
-use crate::model::ids::{GROUND, LinkId, UnknownId};
+use crate::model::ids::{GROUND, LinkId};
 use crate::model::{End, Model, UnknownKind};
+use crate::topology::Input;
 
 /// A force or a couple on a link.
 #[derive(Clone, Copy, Debug)]
@@ -56,25 +58,26 @@ pub struct Unit<'m> {
 }
 
 impl<'m> Unit<'m> {
-    /// Of an unknown.
+    /// Of an unknown, or of what a drive needs.
     #[must_use]
-    pub fn of(placement: &Placement<'m>, unknown: UnknownId) -> Self {
+    pub fn of(placement: &Placement<'m>, input: impl Into<Input>) -> Self {
+        let input = input.into();
         let (model, graph) = (placement.model, placement.graph());
         let one = graph.one();
         let pair = |[first, second]: [(LinkId, Vector<'m>); 2], force: Framed<'m>| {
             vec![Act::Force(second.0, second.1, force), Act::Force(first.0, first.1, force.opposite())]
         };
-        if let Some((from, to)) = torque_links(model, unknown) {
+        if let Some((from, to)) = torque_links(model, input) {
             return Self { acts: vec![Act::Couple(to, one), Act::Couple(from, -one)], spread: one };
         }
-        match model.unknown(unknown).kind {
+        match input.effort(model) {
             UnknownKind::Force { at, along, frame } => {
                 let components = placement.carried(frame, along.vector(graph));
                 let force = Framed { components, axes: placement.direction(frame) };
                 Self { acts: vec![Act::Force(at.link, placement.point(at), force)], spread: one }
             }
             UnknownKind::Thrust(ends) => {
-                let line = Line::between(placement, &model.unknown(unknown).name, ends);
+                let line = Line::between(&Posed::at_rest(placement), input.name(model), ends);
                 let direction = line.direction();
                 let components = Vector::new(line.checked(direction.x), line.checked(direction.y));
                 let force = Framed { components, axes: placement.direction(GROUND) };
@@ -112,6 +115,12 @@ impl<'m> Unit<'m> {
         self.on(link).fold(placement.graph().zero(), |sum, act| sum + act.moment(placement, about))
     }
 
+    /// Its power on a link.
+    #[must_use]
+    pub fn power_on(&self, motion: &Motion<'m, '_>, link: LinkId) -> Expr<'m> {
+        self.on(link).fold(motion.graph().zero(), |sum, act| sum + act.power(motion))
+    }
+
     /// Its power on all links but these and the ground.
     #[must_use]
     pub fn power_outside(&self, motion: &Motion<'m, '_>, links: &[LinkId]) -> Expr<'m> {
@@ -134,8 +143,8 @@ impl<'m> Unit<'m> {
 
 /// The point of a link at which an unknown force acts.
 #[must_use]
-pub(super) fn point_on(model: &Model, unknown: UnknownId, link: LinkId) -> Option<End> {
-    match model.unknown(unknown).kind {
+pub(super) fn point_on(model: &Model, input: Input, link: LinkId) -> Option<End> {
+    match input.effort(model) {
         UnknownKind::Force { at, .. } => Some(at).filter(|end| end.link == link),
         UnknownKind::Thrust(ends) => ends.into_iter().find(|end| end.link == link),
         UnknownKind::Drive(_) | UnknownKind::Torque(..) => None,
@@ -143,8 +152,8 @@ pub(super) fn point_on(model: &Model, unknown: UnknownId, link: LinkId) -> Optio
 }
 
 /// The links between which an unknown torque acts.
-fn torque_links(model: &Model, unknown: UnknownId) -> Option<(LinkId, LinkId)> {
-    match model.unknown(unknown).kind {
+fn torque_links(model: &Model, input: Input) -> Option<(LinkId, LinkId)> {
+    match input.effort(model) {
         UnknownKind::Torque(from, to) => Some((from, to)),
         UnknownKind::Drive(drive) => {
             let joint = model.joint(model.drive(drive).joint);

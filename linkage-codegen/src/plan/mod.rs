@@ -12,6 +12,7 @@ mod linear;
 mod output;
 mod pivots;
 mod placement;
+mod posed;
 mod reactions;
 pub mod rules;
 pub(crate) mod scenes;
@@ -25,14 +26,16 @@ pub use placement::Placement;
 pub(crate) use scenes::reaction_type;
 pub use velocities::Motion;
 
+use posed::Posed;
+
 use std::collections::{BTreeSet, HashMap};
 
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::equations::System;
-use crate::graph::{Coordinate, Expr, NodeId, Op, Symbol};
+use crate::graph::{Coordinate, Expr, NodeId, Op, Order, Symbol};
 use crate::model::ids::{DriveId, JointId, LinkId, ParamId};
 use crate::model::units::Kind;
-use crate::model::{End, Model, Pair};
+use crate::model::{Along, End, Model, Pair, Scene, Wanted};
 use crate::topology::{Group, Input, Topology};
 
 /// The solution of a linkage.
@@ -61,9 +64,27 @@ pub struct PlacedLink {
     pub direction: Pair,
     /// The angle of its x axis.
     pub angle: NodeId,
+    /// Of a linkage whose motion anything depends on: rate and acceleration of the origin's coordinates and of the angle.
+    pub motion: Option<[[NodeId; 3]; 2]>,
 }
 
 impl PlacedLink {
+    /// The node of the rate or the acceleration of a coordinate.
+    #[must_use]
+    pub fn moving(&self, which: Coordinate, order: Order) -> Option<NodeId> {
+        let [rates, accelerations] = self.motion?;
+        let [x, y, angle] = match order {
+            Order::Rate => rates,
+            Order::Acceleration => accelerations,
+        };
+        match which {
+            Coordinate::X => Some(x),
+            Coordinate::Y => Some(y),
+            Coordinate::Angle => Some(angle),
+            Coordinate::Cos | Coordinate::Sin => None,
+        }
+    }
+
     /// The node of a coordinate.
     #[must_use]
     pub fn coordinate(&self, which: Coordinate) -> NodeId {
@@ -128,11 +149,24 @@ impl Plan {
         if !sink.is_clean() {
             return None;
         }
-        let links = placed_links(&assembly);
+        let velocities = model.moves().then(|| {
+            let motion = Motion::velocities(&assembly.placement, &assembly.pivots);
+            motion.through(&topology.motion, &motion_rules, sink)
+        });
+        let accelerations = velocities
+            .as_ref()
+            .filter(|_| model.accelerates())
+            .map(|velocities| Motion::accelerations(velocities).through(&topology.motion, &motion_rules, sink));
+        let posed = Posed {
+            placement: &assembly.placement,
+            velocities: velocities.as_ref(),
+            accelerations: accelerations.as_ref(),
+        };
+        let links = placed_links(posed);
         let plan = Self {
             pose: kept(&assembly),
             accessors: accessors(&assembly),
-            scenes: scenes::outputs(&assembly, &force_rules, (system, &links), sink),
+            scenes: scenes::outputs(&assembly, posed, &force_rules, (system, &links), sink),
             links,
             motion_rules: motion_rules.iter().map(|rule| rule.class()).collect(),
             force_rules: force_rules.iter().map(|rule| rule.class()).collect(),
@@ -199,14 +233,21 @@ fn heading(model: &Model, index: usize, group: &Group, class: &str, what: &str) 
     format!("Group {}, {class}: {} ({joints}): {what}", index + 1, model.link_names(&group.links))
 }
 
-fn placed_links(assembly: &Assembly<'_>) -> Vec<PlacedLink> {
-    let placement = &assembly.placement;
+fn placed_links(posed: Posed<'_, '_>) -> Vec<PlacedLink> {
+    let placement = posed.placement;
+    let zero = placement.graph().zero();
+    let moving = |motion: Option<&Motion<'_, '_>>, link: LinkId| {
+        let Some(motion) = motion else { return [zero.id(); 3] };
+        let origin = motion.of_place(link, placement.graph().zero_vector()).ground();
+        [origin.x.id(), origin.y.id(), motion.rate(link).id()]
+    };
     let place = |link: LinkId| PlacedLink {
         origin: placement.origin(link).into(),
         direction: placement.frame(link).into(),
         angle: placement.angle(link).id(),
+        motion: posed.velocities.map(|_| [posed.velocities, posed.accelerations].map(|motion| moving(motion, link))),
     };
-    (0..assembly.model().links.len()).map(LinkId::new).map(place).collect()
+    (0..placement.model.links.len()).map(LinkId::new).map(place).collect()
 }
 
 /// Directions, travels and pivots, each once; what is constant is not kept.
@@ -318,6 +359,16 @@ fn check_possible(model: &Model, sink: &Sink) {
             )
             .note("the unknown does no work on the motion that the loads drive, whatever the pose")
             .help("let it act on a coordinate that changes when the drive moves"),
+            Failure::NoDirection { of } => {
+                let asks = |scene: &&Scene| {
+                    let directed =
+                        |wanted: &Wanted| matches!(wanted, Wanted::Offset(_) | Wanted::Resolved(_, Along::Path));
+                    scene.results.iter().any(directed)
+                };
+                let place = model.scenes.iter().find(asks).map_or(model.name.place(), |scene| scene.name.place());
+                Diagnostic::new(place, format!("{of} vanishes at every pose: it has no direction"))
+                    .help("leave out the result that asks for it")
+            }
             Failure::CoincidentEnds { of } => {
                 let load = model.loads.iter().find(|load| load.name.text == *of).map(|load| load.name.place());
                 let unknown = model.unknowns.iter().find(|unknown| unknown.name == *of).map(|unknown| unknown.place);

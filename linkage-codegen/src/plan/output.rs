@@ -25,6 +25,14 @@ pub enum Meaning {
     ForceTerm,
     /// A term of virtual work of a moment.
     MomentTerm,
+    /// A velocity.
+    Velocity,
+    /// An acceleration.
+    Acceleration,
+    /// A rate of rotation.
+    AngularRate,
+    /// An angular acceleration.
+    AngularAcceleration,
     /// A plain number.
     Number,
 }

@@ -5,7 +5,6 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use crate::equations::loads::Posture;
 use crate::graph::{Expr, Graph, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{End, Gear, JointKind, Model};
@@ -534,29 +533,6 @@ impl<'m> Placement<'m> {
         }
         route.reverse();
         route
-    }
-}
-
-impl<'m> Posture<'m> for Placement<'m> {
-    fn model(&self) -> &'m Model {
-        self.model
-    }
-
-    fn span(&self, [from, to]: [End; 2]) -> (Vector<'m>, Option<Expr<'m>>) {
-        let way = self.way(from, to);
-        (way.vector(), Some(way.length()))
-    }
-
-    fn frame(&self, link: LinkId) -> Vector<'m> {
-        self.frame(link)
-    }
-
-    fn angle(&self, link: LinkId) -> Expr<'m> {
-        self.angle(link)
-    }
-
-    fn is_geared(&self, link: LinkId) -> bool {
-        self.unwrapped_angle(link).is_some() && self.model.driven_angle(GROUND, link).is_none()
     }
 }
 

@@ -1,15 +1,17 @@
 //! The results of every scene, by its method.
 
+use super::framed::Framed;
+use super::posed::Posed;
 use super::rules::{Rule, RuleResult};
 use super::{Assembly, Balance, Comparison, Meaning, Motion, Output, PlacedLink, heading, joint_name};
 use crate::diagnostics::Sink;
 use crate::equations::joints::Component;
 use crate::equations::loads::{Action, Case, Line, cases_of};
 use crate::equations::{Exerted, Source, System};
-use crate::graph::{Expr, Symbol};
+use crate::graph::{Expr, Failure, Order, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, LoadId, UnknownId};
 use crate::model::units::Kind;
-use crate::model::{End, JointKind, LoadKind, Method, Model, Scene, UnknownKind, Wanted};
+use crate::model::{Along, Drive, End, JointKind, LoadKind, Method, Model, Scene, Spot, UnknownKind, Wanted};
 use crate::plan::output::Field;
 use crate::topology::Group;
 
@@ -19,14 +21,16 @@ struct Forces<'a, 'm> {
     groups: &'a [Group],
     rules: &'a [&'static dyn Rule],
     assembly: &'a Assembly<'m>,
+    posed: Posed<'m, 'a>,
     /// The cases of each load.
     cases: Vec<Vec<(Case, Vec<Action>)>>,
     sink: &'a Sink,
 }
 
 /// The results of all scenes.
-pub(super) fn outputs(
-    assembly: &Assembly<'_>,
+pub(super) fn outputs<'m>(
+    assembly: &Assembly<'m>,
+    posed: Posed<'m, '_>,
     rules: &[&'static dyn Rule],
     equations: (&System, &[PlacedLink]),
     sink: &Sink,
@@ -34,15 +38,17 @@ pub(super) fn outputs(
     let model = assembly.model();
     let cases = (0..model.loads.len()).map(LoadId::new).map(|load| {
         model.graph.begin_section(format!("Load {}", model.load(load).name));
-        cases_of(&assembly.placement, load)
+        cases_of(&posed, load)
     });
     let cases = cases.collect();
-    let forces = Forces { model, groups: &assembly.topology.forces, rules, assembly, cases, sink };
+    let forces = Forces { model, groups: &assembly.topology.forces, rules, assembly, posed, cases, sink };
     model
         .scenes
         .iter()
         .map(|scene| match scene.method {
             Method::Position => position(&forces, scene),
+            Method::Velocity => motion(&forces, scene, posed.velocities, Order::Rate),
+            Method::Acceleration => motion(&forces, scene, posed.accelerations, Order::Acceleration),
             Method::Equilibrium => forces.equilibrium(scene),
             Method::Superposition => forces.superposition(scene),
             Method::VirtualWork => forces.virtual_work(scene),
@@ -74,9 +80,129 @@ fn position(forces: &Forces<'_, '_>, scene: &Scene) -> Output {
             ),
             value: Output::scalar(placement.angle(link), Meaning::Angle),
         }),
-        Wanted::Unknown(_) | Wanted::Load(_) | Wanted::Along(..) | Wanted::About(..) => None,
+        _ => None,
     });
     Output::Record(fields.collect())
+}
+
+/// The velocities or the accelerations that a scene asks for.
+fn motion(forces: &Forces<'_, '_>, scene: &Scene, motion: Option<&Motion<'_, '_>>, order: Order) -> Output {
+    let Some(motion) = motion else { return Output::Record(Vec::new()) };
+    let model = forces.model;
+    let wanted = Moved { model, motion, velocities: forces.posed.velocities, order };
+    model.graph.begin_section(match order {
+        Order::Rate => "Velocities",
+        Order::Acceleration => "Accelerations",
+    });
+    let fields = scene.results.iter().filter_map(|result| {
+        let (doc, value) = match *result {
+            Wanted::Joint(joint) => wanted.vector(Spot::Joint(joint)),
+            Wanted::Point(end) => wanted.vector(Spot::Point(end)),
+            Wanted::Angle(link) => wanted.turning(link),
+            Wanted::Resolved(spot, Along::Link(link)) => wanted.along_link(spot, link),
+            Wanted::Resolved(spot, Along::Path) => wanted.along_path(spot),
+            Wanted::Inertia(link) => forces.inertia(link),
+            Wanted::Offset(link) => forces.offset(link),
+            _ => return None,
+        };
+        Some(Field { name: model.result_name(*result)?, doc, value })
+    });
+    Output::Record(fields.collect())
+}
+
+/// Velocities or accelerations as results.
+struct Moved<'a, 'm> {
+    model: &'m Model,
+    motion: &'a Motion<'m, 'a>,
+    velocities: Option<&'a Motion<'m, 'a>>,
+    order: Order,
+}
+
+impl<'m> Moved<'_, 'm> {
+    /// `Velocity` or `Acceleration`, with its letter, its unit and its meaning.
+    fn words(&self) -> (&'static str, char, String, Meaning) {
+        let kind = Drive::kind_of(self.order, false);
+        let unit = kind.unit(&self.model.units);
+        match self.order {
+            Order::Rate => ("Velocity", 'v', unit, Meaning::Velocity),
+            Order::Acceleration => ("Acceleration", 'a', unit, Meaning::Acceleration),
+        }
+    }
+
+    /// What moves, in words, and its name among values.
+    fn of(&self, spot: Spot) -> (String, String) {
+        match spot {
+            Spot::Joint(joint) => {
+                let name = joint_name(self.model, joint);
+                (format!("the joint `{name}`"), name.to_owned())
+            }
+            Spot::Point(end) => {
+                let name = self.model.end_name(end);
+                (format!("the point `{name}`"), name.replace('.', "_"))
+            }
+        }
+    }
+
+    fn vector(&self, spot: Spot) -> (String, Output) {
+        let (what, letter, unit, meaning) = self.words();
+        let (of, name) = self.of(spot);
+        let vector = of_spot(self.motion, spot).ground();
+        let vector = vector.named(&format!("{letter}_{name}"), &format!("{} of {name}", what.to_lowercase()));
+        (format!("{what} of {of}, {unit}, ground axes."), Output::vector(vector, meaning))
+    }
+
+    fn turning(&self, link: LinkId) -> (String, Output) {
+        let (what, meaning) = match self.order {
+            Order::Rate => ("Angular velocity", Meaning::AngularRate),
+            Order::Acceleration => ("Angular acceleration", Meaning::AngularAcceleration),
+        };
+        let unit = Drive::kind_of(self.order, true).unit(&self.model.units);
+        let doc = format!("{what} of `{}`, {unit}, counter-clockwise.", self.model.link(link).name);
+        (doc, Output::scalar(self.motion.rate(link), meaning))
+    }
+
+    fn along_link(&self, spot: Spot, link: LinkId) -> (String, Output) {
+        let (what, _, unit, meaning) = self.words();
+        let (of, _) = self.of(spot);
+        let resolved = of_spot(self.motion, spot).along(self.motion.placement.frame(link));
+        let name = &self.model.link(link).name;
+        let field = |part: &str, how: &str, value| Field {
+            name: part.to_owned(),
+            doc: format!("Along the x axis of the frame of `{name}`{how}, {unit}."),
+            value: Output::scalar(value, meaning),
+        };
+        let fields = vec![field("axial", "", resolved.x), field("transverse", " turned by +90°", resolved.y)];
+        (format!("{what} of {of}, along and across `{name}`."), Output::Record(fields))
+    }
+
+    /// Along and across the velocity: where that vanishes, there is no such direction.
+    fn along_path(&self, spot: Spot) -> (String, Output) {
+        let (_, _, unit, meaning) = self.words();
+        let (of, name) = self.of(spot);
+        let graph = &self.model.graph;
+        let Some(velocities) = self.velocities else { return (String::new(), Output::Record(Vec::new())) };
+        let velocity = of_spot(velocities, spot).ground();
+        let velocity = velocity.named(&format!("v_{name}"), &format!("velocity of {name}"));
+        let direction = graph.unit(velocity).named_direction(&format!("path_{name}"), &format!("v_{name}/|v_{name}|"));
+        let shown = match spot {
+            Spot::Joint(joint) => joint_name(self.model, joint).to_owned(),
+            Spot::Point(end) => self.model.end_name(end),
+        };
+        let failure = Failure::NoDirection { of: format!("the velocity of {shown}") };
+        let (speed, rounding) = (direction.dot(velocity), rounding_of(velocity));
+        let checked = |value: Expr<'m>| value.require_above(speed, rounding, failure.clone());
+        let acceleration = of_spot(self.motion, spot).ground().resolved_along(direction);
+        let field = |part: &str, doc: &str, value| Field {
+            name: part.to_owned(),
+            doc: format!("{doc}, {unit}."),
+            value: Output::scalar(checked(value), meaning),
+        };
+        let fields = vec![
+            field("tangential", "Along its velocity", acceleration.x),
+            field("normal", "Along its velocity turned by +90°", acceleration.y),
+        ];
+        (format!("Acceleration of {of}, along and across its path."), Output::Record(fields))
+    }
 }
 
 impl<'m> Forces<'_, 'm> {
@@ -160,10 +286,10 @@ impl<'m> Forces<'_, 'm> {
                 Output::Record(self.results(&balance, &scene.results))
             };
             let value = match self.model.load(*load).kind {
-                LoadKind::Gravity { .. } => {
+                kind if kind.is_per_link() => {
                     let weights = cases.iter().filter_map(|(case, actions)| {
                         let link = &self.model.link(case.link?).name;
-                        let doc = format!("By the weight of `{link}`.");
+                        let doc = format!("By the {} of `{link}`.", part_of(kind));
                         Some(Field { name: link.text.clone(), doc, value: one(case, actions) })
                     });
                     Output::Record(weights.collect())
@@ -175,13 +301,13 @@ impl<'m> Forces<'_, 'm> {
         Output::Record(fields.collect())
     }
 
-    /// The virtual motion of every unknown.
-    fn motions(&self) -> Vec<Motion<'m, '_>> {
+    /// The virtual motion of every unknown, each with the unknown.
+    fn motions(&self) -> Vec<(UnknownId, Motion<'m, '_>)> {
         let unknowns = (0..self.model.unknowns.len()).map(UnknownId::new);
         let single = self.model.unknowns.len() == 1;
         let prefix =
             |unknown: UnknownId| if single { String::new() } else { format!("{}_", self.model.unknown(unknown).name) };
-        unknowns.map(|unknown| self.motion(unknown, prefix(unknown))).collect()
+        unknowns.map(|unknown| (unknown, self.motion(unknown, prefix(unknown)))).collect()
     }
 
     /// Some loads on the links, nothing solved.
@@ -194,6 +320,81 @@ impl<'m> Forces<'_, 'm> {
         -self.model.moving_links().fold(self.model.graph.zero(), |sum, link| sum + motion.power_of(loads, link))
     }
 
+    /// D'Alembert's force and couple of a link, and the acceleration that makes them.
+    fn inertia(&self, link: LinkId) -> (String, Output) {
+        let model = self.model;
+        let name = &model.link(link).name;
+        let (acceleration, force, couple) = self.inertia_of(link);
+        let (force_unit, moment_unit) = (Kind::Force.unit(&model.units), Kind::Moment.unit(&model.units));
+        let field = |name: &str, doc: String, value| Field { name: name.to_owned(), doc, value };
+        let unit = Kind::Acceleration.unit(&model.units);
+        let fields = vec![
+            field(
+                "acceleration",
+                format!("Acceleration of the centre of mass, {unit}, ground axes."),
+                Output::vector(acceleration, Meaning::Acceleration),
+            ),
+            field("force", format!("−m a, {force_unit}, ground axes."), Output::vector(force, Meaning::Force)),
+            field(
+                "couple",
+                format!("−I α, {moment_unit}, counter-clockwise."),
+                Output::scalar(couple, Meaning::Moment),
+            ),
+        ];
+        (format!("Inertia of `{name}` by D'Alembert."), Output::Record(fields))
+    }
+
+    /// Acceleration of the centre of mass, force and couple, ground axes.
+    fn inertia_of(&self, link: LinkId) -> (Vector<'m>, Vector<'m>, Expr<'m>) {
+        let (model, graph) = (self.model, &self.model.graph);
+        let zero = graph.zero();
+        let (Some(mass), Some(motion)) = (model.link(link).mass, self.posed.accelerations) else {
+            return (graph.zero_vector(), graph.zero_vector(), zero);
+        };
+        let name = &model.link(link).name;
+        let conversion = graph.constant(&model.units.force_per_mass_acceleration());
+        let at = self.posed.placement.carried(link, mass.centroid.vector(graph));
+        let acceleration = motion.of_place(link, at).ground();
+        let meaning = format!("acceleration of the centre of mass of {name}");
+        let acceleration = acceleration.named(&format!("a_G_{name}"), &meaning);
+        let force = -acceleration.scaled(conversion * graph.expr(mass.mass));
+        let couple = -(conversion * graph.expr(mass.inertia) * motion.rate(link));
+        (acceleration, force, couple)
+    }
+
+    /// Where the force `−m a` alone does what force and couple do together: `h = I α/(m |a|)`, to the right of a where α is positive.
+    fn offset(&self, link: LinkId) -> (String, Output) {
+        let (model, graph) = (self.model, &self.model.graph);
+        let name = &model.link(link).name;
+        let unit = Kind::Length.unit(&model.units);
+        let (acceleration, ..) = self.inertia_of(link);
+        let (Some(mass), Some(motion)) = (model.link(link).mass, self.posed.accelerations) else {
+            return (String::new(), Output::Record(Vec::new()));
+        };
+        let direction = graph.unit(acceleration).named_direction(&format!("a_G_{name}"), "");
+        let failure = Failure::NoDirection { of: format!("the acceleration of the centre of mass of {name}") };
+        let size = direction.dot(acceleration);
+        let radius = graph.expr(mass.inertia) / graph.expr(mass.mass);
+        let size = size.require_above(size, rounding_of(acceleration), failure);
+        let distance = radius * motion.rate(link) / size;
+        let distance = distance.named(format!("h_{name}"), format!("I α/(m |a|) of {name}"));
+        let vector = -direction.perp().scaled(distance);
+        let field = |name: &str, doc: String, value| Field { name: name.to_owned(), doc, value };
+        let fields = vec![
+            field(
+                "distance",
+                format!("I α/(m |a|), {unit}: positive to the right of the acceleration."),
+                Output::scalar(distance, Meaning::Length),
+            ),
+            field(
+                "vector",
+                format!("From the centre of mass to the line of the force, {unit}, ground axes."),
+                Output::vector(vector, Meaning::Length),
+            ),
+        ];
+        (format!("Line of the single force that is equivalent to the inertia of `{name}`."), Output::Record(fields))
+    }
+
     fn virtual_work(&self, scene: &Scene) -> Output {
         let motions = self.motions();
         let single = motions.len() == 1;
@@ -202,7 +403,7 @@ impl<'m> Forces<'_, 'm> {
         let fields = scene.results.iter().filter_map(|wanted| match *wanted {
             Wanted::Unknown(unknown) => {
                 let name = &self.model.unknown(unknown).name;
-                let effort = self.effort_by_work(&motions[unknown.index()], &loads);
+                let effort = self.effort_by_work(&motions[unknown.index()].1, &loads);
                 let effort = effort.named(name.clone(), "−(Σ F·v + Σ M ω), at unit rate of its own coordinate");
                 let value = Output::scalar(effort, unknown_meaning(self.model, unknown));
                 Some(Field { name: name.clone(), doc: unknown_doc(self.model, unknown), value })
@@ -211,10 +412,10 @@ impl<'m> Forces<'_, 'm> {
                 let name = self.model.load(load).name.text.clone();
                 let doc = format!("Term of `{name}`: velocity along it for unit rate, and the work.");
                 let value = if single {
-                    self.terms(&motions[0], load)
+                    self.terms(&motions[0].1, load)
                 } else {
-                    let each = motions.iter().map(|motion| {
-                        let unknown = &self.model.unknown(motion.unknown).name;
+                    let each = motions.iter().map(|(unknown, motion)| {
+                        let unknown = &self.model.unknown(*unknown).name;
                         let doc = format!("In the motion at unit rate of the coordinate of `{unknown}`.");
                         Field { name: unknown.clone(), doc, value: self.terms(motion, load) }
                     });
@@ -242,11 +443,12 @@ impl<'m> Forces<'_, 'm> {
         }
         let motions = self.motions();
         let loads = self.applied(&scene.loads);
-        let virtual_work = motions.iter().map(|motion| self.effort_by_work(motion, &loads).id()).collect();
+        let virtual_work = motions.iter().map(|(_, motion)| self.effort_by_work(motion, &loads).id()).collect();
         // The symbols of the equations are the coordinates that the pose gives.
         graph.begin_section("General equations");
         let placed = |symbol: Symbol| match symbol {
             Symbol::Coordinate(link, which) => Some(graph.expr(links[link.index()].coordinate(which))),
+            Symbol::Moving(link, which, order) => Some(graph.expr(links[link.index()].moving(which, order)?)),
             _ => None,
         };
         let value = |node| graph.substituted(graph.expr(node), &placed);
@@ -282,12 +484,8 @@ impl<'m> Forces<'_, 'm> {
     }
 
     fn motion(&self, unknown: UnknownId, prefix: String) -> Motion<'m, '_> {
-        let mut motion = Motion::new(&self.assembly.placement, &self.assembly.pivots, unknown, prefix);
-        for (index, (group, rule)) in self.groups.iter().zip(self.rules).enumerate() {
-            self.model.graph.begin_section(heading(self.model, index, group, rule.class(), "virtual velocities"));
-            self.report(rule.follow(&mut motion, group));
-        }
-        motion
+        let motion = Motion::of_unknown(&self.assembly.placement, &self.assembly.pivots, unknown, prefix);
+        motion.through(self.groups, self.rules, self.sink)
     }
 
     /// The term of a load; of gravity one for each link.
@@ -296,10 +494,10 @@ impl<'m> Forces<'_, 'm> {
         let load_name = &self.model.load(load).name;
         let kind = self.model.load(load).kind;
         match kind {
-            LoadKind::Gravity { .. } => {
+            kind if kind.is_per_link() => {
                 let each = cases.iter().filter_map(|(case, actions)| {
                     let link = &self.model.link(case.link?).name;
-                    let doc = format!("Term of the weight of `{link}`.");
+                    let doc = format!("Term of the {} of `{link}`.", part_of(kind));
                     Some(Field {
                         name: link.text.clone(),
                         doc,
@@ -316,6 +514,23 @@ impl<'m> Forces<'_, 'm> {
     }
 }
 
+fn of_spot<'m>(motion: &Motion<'m, '_>, spot: Spot) -> Framed<'m> {
+    match spot {
+        Spot::Joint(joint) => motion.of_joint(joint),
+        Spot::Point(end) => motion.of_point(end),
+    }
+}
+
+/// What the rounding of a vector may come to.
+fn rounding_of(vector: Vector<'_>) -> Expr<'_> {
+    vector.graph().epsilons(8) * (vector.x.magnitude() + vector.y.magnitude())
+}
+
+/// What a link has of a load that acts on each link.
+fn part_of(kind: LoadKind) -> &'static str {
+    if let LoadKind::Inertia = kind { "inertia" } else { "weight" }
+}
+
 /// Velocity along the load, and the work: `v = v·F/|F|`, `F v`; between two points the rate of their distance; of a moment the relative
 /// rate of rotation, `M ω`.
 fn term(motion: &Motion<'_, '_>, load: &str, kind: LoadKind, actions: &[Action]) -> Output {
@@ -323,20 +538,24 @@ fn term(motion: &Motion<'_, '_>, load: &str, kind: LoadKind, actions: &[Action])
     let name = format!("{}{load}", motion.prefix);
     let work = || actions.iter().fold(graph.zero(), |sum, action| sum + motion.power(action));
     match (kind, actions) {
-        (LoadKind::Force { .. } | LoadKind::Gravity { .. }, [Action::Force { link, at, force, frame }]) => {
+        (
+            LoadKind::Force { .. } | LoadKind::Gravity { .. } | LoadKind::Inertia,
+            [Action::Force { link, at, force, frame }, couple @ ..],
+        ) => {
             let velocity = motion.of_place(*link, motion.placement.carried(*link, at.vector(graph)));
             let velocity = velocity.along(motion.placement.direction(*frame));
             let velocity = velocity.named(&format!("v_{name}"), "velocity of its point, at unit rate");
             let force = motion.placement.carried(*frame, force.vector(graph));
             let along = velocity.dot(graph.unit(force));
-            Output::Term { velocity: along.id(), work: velocity.dot(force).id(), meaning: Meaning::ForceTerm }
+            let work = couple.iter().fold(velocity.dot(force), |sum, couple| sum + motion.power(couple));
+            Output::Term { velocity: along.id(), work: work.id(), meaning: Meaning::ForceTerm }
         }
         (LoadKind::Thrust { ends, .. } | LoadKind::Spring { ends, .. }, _) => {
             let [first, second] = ends.map(|end| motion.of_point(end));
             let velocity = motion.difference(&second, &first).ground();
             let velocity =
                 velocity.named(&format!("v_{name}"), "velocity of its second point from the first, at unit rate");
-            let along = velocity.dot(Line::between(motion.placement, load, ends).direction());
+            let along = velocity.dot(Line::between(&Posed::at_rest(motion.placement), load, ends).direction());
             // The force on one of the points, taken for the second; on the ground there is no action.
             let force = actions.iter().find_map(|action| match *action {
                 Action::Force { link, force, .. } if link == ends[1].link => Some(force.vector(graph)),
@@ -354,7 +573,7 @@ fn term(motion: &Motion<'_, '_>, load: &str, kind: LoadKind, actions: &[Action])
             let rate = motion.rate(on) - motion.rate(from);
             Output::Term { velocity: rate.id(), work: work().id(), meaning: Meaning::MomentTerm }
         }
-        (LoadKind::Force { .. } | LoadKind::Gravity { .. }, _) => {
+        (LoadKind::Force { .. } | LoadKind::Gravity { .. } | LoadKind::Inertia, _) => {
             Output::Term { velocity: graph.zero().id(), work: work().id(), meaning: Meaning::ForceTerm }
         }
     }

@@ -1,17 +1,30 @@
-//! A virtual motion: the velocities of the links when the coordinate of one unknown changes at unit rate and the others rest.
+//! Motion: how the links move, found group by group in one way for three purposes.
 //!
-//! It is the transpose of equilibrium: the same groups, the same pivots, in the order from the unknowns outwards.
+//! * **Virtual**: the velocities of the links when the coordinate of one unknown changes at unit rate and the others rest. It is the
+//!   transpose of equilibrium: the groups of forces, in the order from the unknowns outwards.
+//! * **Velocities**: the drives move at their rates; the groups of motion, in their order.
+//! * **Accelerations**: the same groups again. What is found is the acceleration of material places, so that a place of a turning link has
+//!   `a + α r⊥ − ω² r` where velocities have `v + ω r⊥`; where links slide along each other, Coriolis' acceleration stands between them.
+//!
+//! A rule first supposes that its links do not turn or slide by themselves, reads what is missing at its inner joint, and divides it by
+//! its pivot: the same for all three.
+
+use std::collections::BTreeMap;
 
 use super::balance::Balance;
 use super::framed::Framed;
+use super::heading;
 use super::pivots::Pivots;
-use super::placement::Placement;
+use super::placement::{Placement, Spot};
+use super::rules::Rule;
+use crate::diagnostics::Sink;
 use crate::equations::loads::Action;
 use crate::graph::{Expr, Graph, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
-use crate::model::{End, JointKind, Model};
+use crate::model::{JointKind, Model, UnknownKind};
+use crate::topology::{Group, Input};
 
-/// The motion of a link: its rate of rotation, and the velocity of one of its places.
+/// The motion of a link: its rate of rotation, and the velocity of one of its places. Of accelerations the same with one dot more.
 #[derive(Clone, Copy, Debug)]
 pub struct Twist<'m> {
     /// Rate of rotation.
@@ -22,28 +35,81 @@ pub struct Twist<'m> {
     pub velocity: Framed<'m>,
 }
 
-/// The velocities of a virtual motion.
+/// What a motion is.
+#[derive(Clone, Copy, Debug)]
+enum Purpose<'m, 'p> {
+    /// The coordinate of one unknown changes at unit rate.
+    Virtual(UnknownId),
+    /// The drives move at their rates.
+    Velocity,
+    /// The drives' accelerations, at these velocities.
+    Acceleration(&'p Motion<'m, 'p>),
+}
+
+/// The velocities or the accelerations of all links.
 #[derive(Debug)]
 pub struct Motion<'m, 'p> {
     /// Where the links are.
     pub placement: &'p Placement<'m>,
     /// Known angles.
     pub pivots: &'p Pivots<'m>,
-    /// The unknown whose coordinate changes.
-    pub unknown: UnknownId,
     /// What distinguishes the names of this motion.
     pub prefix: String,
+    purpose: Purpose<'m, 'p>,
     twists: Vec<Twist<'m>>,
+    /// Of slides: how fast the second link slides along the first one.
+    sliding: BTreeMap<JointId, Expr<'m>>,
 }
 
 impl<'m, 'p> Motion<'m, 'p> {
-    /// Before any group is solved.
-    #[must_use]
-    pub fn new(placement: &'p Placement<'m>, pivots: &'p Pivots<'m>, unknown: UnknownId, prefix: String) -> Self {
+    fn new(placement: &'p Placement<'m>, pivots: &'p Pivots<'m>, purpose: Purpose<'m, 'p>, prefix: String) -> Self {
         let graph = placement.graph();
         let rest = Framed { components: graph.zero_vector(), axes: placement.direction(GROUND) };
         let still = Twist { rate: graph.zero(), at: graph.zero_vector(), velocity: rest };
-        Self { placement, pivots, unknown, prefix, twists: vec![still; placement.model.links.len()] }
+        let twists = vec![still; placement.model.links.len()];
+        Self { placement, pivots, prefix, purpose, twists, sliding: BTreeMap::new() }
+    }
+
+    /// The virtual motion of an unknown, before any group is solved.
+    #[must_use]
+    pub fn of_unknown(
+        placement: &'p Placement<'m>,
+        pivots: &'p Pivots<'m>,
+        unknown: UnknownId,
+        prefix: String,
+    ) -> Self {
+        Self::new(placement, pivots, Purpose::Virtual(unknown), prefix)
+    }
+
+    /// The velocities, before any group is solved.
+    #[must_use]
+    pub fn velocities(placement: &'p Placement<'m>, pivots: &'p Pivots<'m>) -> Self {
+        Self::new(placement, pivots, Purpose::Velocity, String::new())
+    }
+
+    /// The accelerations at these velocities, before any group is solved.
+    #[must_use]
+    pub fn accelerations(velocities: &'p Motion<'m, 'p>) -> Self {
+        let Motion { placement, pivots, .. } = *velocities;
+        Self::new(placement, pivots, Purpose::Acceleration(velocities), String::new())
+    }
+
+    /// The same, once all groups are solved, each by its rule.
+    #[must_use]
+    pub fn through(mut self, groups: &[Group], rules: &[&dyn Rule], sink: &Sink) -> Self {
+        let what = match self.purpose {
+            Purpose::Virtual(_) => "virtual velocities",
+            Purpose::Velocity => "velocities",
+            Purpose::Acceleration(_) => "accelerations",
+        };
+        for (index, (group, rule)) in groups.iter().zip(rules).enumerate() {
+            self.graph().begin_section(heading(self.model(), index, group, rule.class(), what));
+            // An error of a rule is the same in every scene: once is enough.
+            if let (Err(error), true) = (rule.follow(&mut self, group), sink.is_clean()) {
+                sink.report(error);
+            }
+        }
+        self
     }
 
     /// The linkage.
@@ -58,69 +124,186 @@ impl<'m, 'p> Motion<'m, 'p> {
         self.placement.graph()
     }
 
-    /// The motion of a link is found.
+    /// The motion of a link is found, or supposed until it is.
     pub fn found(&mut self, link: LinkId, twist: Twist<'m>) {
         self.twists[link.index()] = twist;
     }
 
-    /// A link's rate of rotation.
+    /// A link's rate of rotation; of accelerations its angular acceleration.
     #[must_use]
     pub fn rate(&self, link: LinkId) -> Expr<'m> {
         self.twists[link.index()].rate
     }
 
-    /// The rate at which an unknown's coordinate changes: one or zero.
-    #[must_use]
-    pub fn rate_of(&self, unknown: UnknownId) -> Expr<'m> {
-        if unknown == self.unknown { self.graph().one() } else { self.graph().zero() }
+    /// `ω²` of a link, if these are accelerations and it turns.
+    fn angular_velocity_squared(&self, link: LinkId) -> Option<Expr<'m>> {
+        let Purpose::Acceleration(velocities) = self.purpose else { return None };
+        let omega = velocities.rate(link);
+        let name = &self.model().link(link).name;
+        (!omega.is_zero()).then(|| omega.squared().named(format!("omega2_{name}"), format!("ω² of {name}")))
     }
 
-    /// The velocity of a joint's point on a link.
+    /// The rate at which the coordinate of a drive or an unknown changes: of a virtual motion one or zero.
     #[must_use]
-    pub fn of_point(&self, end: End) -> Framed<'m> {
-        self.of_place(end.link, self.placement.point(end))
-    }
-
-    /// The velocity of a place along and across a link's direction: `v + ω r⊥`.
-    #[must_use]
-    pub fn of_place(&self, link: LinkId, at: Vector<'m>) -> Framed<'m> {
-        let twist = &self.twists[link.index()];
-        let direction = self.placement.direction(link);
-        let turning = (at - twist.at).perp().scaled(twist.rate);
-        let turning = Framed { components: turning, axes: direction };
-        turning.plus(&twist.velocity, self.placement.direction(GROUND))
-    }
-
-    /// The velocity of a joint's place on one of its links as the other link has it there: with what a drive along a slot adds.
-    #[must_use]
-    pub fn across(&self, joint: JointId, from: LinkId) -> Framed<'m> {
-        let place = self.of_place(from, self.placement.slide_point(joint, from));
-        match self.model().joint(joint).kind {
-            JointKind::Slot { .. } => place.plus(&self.driven_sliding(joint, from), self.placement.direction(GROUND)),
-            _ => place,
+    pub fn rate_of(&self, input: Input) -> Expr<'m> {
+        let (model, graph) = (self.model(), self.graph());
+        match (self.purpose, input) {
+            (Purpose::Virtual(own), _) => {
+                let same = match (input, model.unknown(own).kind) {
+                    (Input::Unknown(unknown), _) => unknown == own,
+                    (Input::Drive(drive), UnknownKind::Drive(driven)) => drive == driven,
+                    (Input::Drive(_), _) => false,
+                };
+                if same { graph.one() } else { graph.zero() }
+            }
+            (Purpose::Velocity, Input::Drive(drive)) => graph.expr(model.drive(drive).rate),
+            (Purpose::Acceleration(_), Input::Drive(drive)) => graph.expr(model.drive(drive).acceleration),
+            // Real motion is driven.
+            (Purpose::Velocity | Purpose::Acceleration(_), Input::Unknown(_)) => graph.zero(),
         }
     }
 
-    /// The rate of rotation of the other link of a slide: that of this one, and what a drive in a slot adds.
+    /// The velocity of a joint's place on a link.
     #[must_use]
-    pub fn rate_across(&self, slide: JointId, from: LinkId) -> Expr<'m> {
-        self.rate(from) + self.driven_rate(slide, from)
+    pub fn of_point(&self, at: impl Into<Spot>) -> Framed<'m> {
+        let at = at.into();
+        self.of_place(at.end.link, self.placement.point(at))
     }
 
-    /// The rate at which a drive turns the other link of a joint against this one.
+    /// The velocity of a joint: of its point, of a gear pair where the wheels touch, as a place of the link that keeps them apart.
     #[must_use]
-    pub fn driven_rate(&self, joint: JointId, from: LinkId) -> Expr<'m> {
-        let rate = self.model().effort_of(joint, true).map_or(self.graph().zero(), |effort| self.rate_of(effort));
-        if self.model().joint(joint).from.link == from { rate } else { -rate }
+    pub fn of_joint(&self, joint: JointId) -> Framed<'m> {
+        let data = self.model().joint(joint);
+        let JointKind::Gear(gear) = data.kind else { return self.of_point(data.place()) };
+        let (arm, placement) = (gear.arm[1], self.placement);
+        let [_, radius] = gear.rolling_radii(self.model());
+        let towards = placement.carried(arm.link, gear.centres(self.model()));
+        self.of_place(arm.link, placement.point(arm) - towards.scaled(radius))
     }
 
-    /// The velocity at which a drive slides the other link of a joint along this one.
+    /// The velocity of a place along and across a link's direction: `v + ω r⊥`. Its acceleration is `a + α r⊥ − ω² r`.
     #[must_use]
-    pub fn driven_sliding(&self, joint: JointId, from: LinkId) -> Framed<'m> {
+    pub fn of_place(&self, link: LinkId, at: Vector<'m>) -> Framed<'m> {
+        let twist = &self.twists[link.index()];
+        let arm = at - twist.at;
+        let turning = arm.perp().scaled(twist.rate);
+        let turning = match self.angular_velocity_squared(link) {
+            Some(squared) => turning - arm.scaled(squared),
+            None => turning,
+        };
+        let turning = Framed { components: turning, axes: self.placement.direction(link) };
+        turning.plus(&twist.velocity, self.placement.direction(GROUND))
+    }
+
+    /// The motion of a link that a slide guides along another one, as if it did not slide.
+    #[must_use]
+    pub fn carried(&self, slide: JointId, link: LinkId) -> Twist<'m> {
+        let far = self.other(slide, link);
+        let guided = self.of_place(far, self.placement.slide_point(slide, far));
+        let velocity = guided.plus(&self.coriolis(slide, link), self.placement.direction(GROUND));
+        Twist {
+            rate: self.rate(far) + self.driven_rate(slide, far),
+            at: self.placement.slide_point(slide, link),
+            velocity,
+        }
+    }
+
+    /// The velocity of a joint's place on a link as the other link has it there: of a pin that is driven along a slot with what that adds.
+    #[must_use]
+    pub fn passed_on(&self, joint: JointId, link: LinkId) -> Framed<'m> {
+        let (far, ground) = (self.other(joint, link), self.placement.direction(GROUND));
+        let place = self.of_place(far, self.placement.slide_point(joint, far));
+        match self.driven_sliding(joint, link) {
+            Some(sliding) => {
+                place.plus(&self.along_slide(joint, sliding), ground).plus(&self.coriolis(joint, link), ground)
+            }
+            None => place,
+        }
+    }
+
+    /// How fast a drive slides a link along the other link of a slot.
+    fn driven_sliding(&self, slot: JointId, link: LinkId) -> Option<Expr<'m>> {
+        let joint = self.model().joint(slot);
+        let is_slot = matches!(joint.kind, JointKind::Slot { .. });
+        let rate = self.rate_of(Input::Drive(self.model().drive_of(slot, false).filter(|_| is_slot)?));
+        Some(if joint.to.link == link { rate } else { -rate })
+    }
+
+    /// The rate at which a drive turns the other link of a slot against this one.
+    #[must_use]
+    pub fn driven_rate(&self, slot: JointId, from: LinkId) -> Expr<'m> {
+        let joint = self.model().joint(slot);
+        let is_slot = matches!(joint.kind, JointKind::Slot { .. });
+        let drive = self.model().drive_of(slot, true).filter(|_| is_slot);
+        let rate = drive.map_or(self.graph().zero(), |drive| self.rate_of(Input::Drive(drive)));
+        if joint.from.link == from { rate } else { -rate }
+    }
+
+    /// A link that was carried along a slide also slides.
+    pub fn slides(&mut self, slide: JointId, link: LinkId, sliding: Expr<'m>) {
+        let along = self.along_slide(slide, sliding);
+        let ground = self.placement.direction(GROUND);
+        let twist = &mut self.twists[link.index()];
+        twist.velocity = twist.velocity.plus(&along, ground);
+        self.records(slide, link, sliding);
+    }
+
+    /// How fast a link slides along the other one.
+    pub fn records(&mut self, slide: JointId, link: LinkId, sliding: Expr<'m>) {
+        let forwards = self.model().joint(slide).to.link == link;
+        self.sliding.insert(slide, if forwards { sliding } else { -sliding });
+    }
+
+    /// A velocity along a slide.
+    #[must_use]
+    pub fn along_slide(&self, slide: JointId, sliding: Expr<'m>) -> Framed<'m> {
+        let axes = self.placement.slide_direction(slide);
+        Framed { components: Vector::new(sliding, self.graph().zero()), axes }
+    }
+
+    /// How fast a link slides along the other link of a slide or a slot.
+    fn sliding(&self, joint: JointId, link: LinkId) -> Expr<'m> {
+        if let Some(sliding) = self.sliding.get(&joint) {
+            return if self.model().joint(joint).to.link == link { *sliding } else { -*sliding };
+        }
+        if let Some(driven) = self.driven_sliding(joint, link) {
+            return driven;
+        }
+        let far = self.other(joint, link);
+        let [own, its] = [link, far].map(|link| self.of_place(link, self.placement.slide_point(joint, link)));
+        self.part(&self.difference(&own, &its), self.placement.slide_direction(joint))
+    }
+
+    /// What the acceleration of a link at a slide or a slot is beyond that of the other link there and its own sliding: Coriolis' `2 ω v`
+    /// across the line, with ω of the link that carries the line. None of a velocity.
+    #[must_use]
+    pub fn coriolis(&self, joint: JointId, link: LinkId) -> Framed<'m> {
         let graph = self.graph();
-        let rate = self.model().effort_of(joint, false).map_or(graph.zero(), |effort| self.rate_of(effort));
-        let rate = if self.model().joint(joint).from.link == from { rate } else { -rate };
-        Framed { components: Vector::new(rate, graph.zero()), axes: self.placement.slide_direction(joint) }
+        let nothing = Framed { components: graph.zero_vector(), axes: self.placement.direction(GROUND) };
+        let (Purpose::Acceleration(velocities), Some((carrier, _))) =
+            (self.purpose, self.model().joint(joint).kind.line())
+        else {
+            return nothing;
+        };
+        let omega = velocities.rate(carrier);
+        if omega.is_zero() {
+            return nothing;
+        }
+        let name = &self.model().joint(joint).name;
+        let across = (2 * graph.one()) * (omega * velocities.sliding(joint, link));
+        let across = across.named(format!("coriolis_{name}"), "Coriolis: 2 ω times the speed of sliding");
+        Framed { components: Vector::new(graph.zero(), across), axes: self.placement.slide_direction(joint) }
+    }
+
+    /// The acceleration by which a place of a link is drawn towards another one, times their distance: `ω² r`. None of a velocity.
+    #[must_use]
+    pub fn centripetal(&self, link: LinkId, distance: Expr<'m>) -> Expr<'m> {
+        self.angular_velocity_squared(link).map_or_else(|| self.graph().zero(), |squared| squared * distance)
+    }
+
+    fn other(&self, joint: JointId, link: LinkId) -> LinkId {
+        let data = self.model().joint(joint);
+        if data.to.link == link { data.from.link } else { data.to.link }
     }
 
     /// The difference of two velocities.
@@ -129,12 +312,29 @@ impl<'m, 'p> Motion<'m, 'p> {
         of.plus(&from.opposite(), self.placement.direction(GROUND))
     }
 
+    /// What a link lacks of the velocity that it must have at a joint, as long as it does not turn or slide by itself.
+    #[must_use]
+    pub fn lacking(&self, joint: JointId, needed: &Framed<'m>, has: &Framed<'m>) -> Framed<'m> {
+        let gap = self.difference(needed, has);
+        let (letter, what) = match self.purpose {
+            Purpose::Virtual(_) => return gap,
+            Purpose::Velocity => ('v', "velocity"),
+            Purpose::Acceleration(_) => ('a', "acceleration"),
+        };
+        let joint = &self.model().joint(joint).name;
+        let meaning = format!("relative {what} at {joint} as long as its links do not turn or slide by themselves");
+        Framed { components: gap.components.named(&format!("d{letter}_{joint}"), &meaning), axes: gap.axes }
+    }
+
     /// A velocity's part along a direction.
     #[must_use]
     pub fn part(&self, velocity: &Framed<'m>, along: Vector<'m>) -> Expr<'m> {
         let Framed { components, axes } = *velocity;
         if axes == along {
             return components.x;
+        }
+        if axes.perp() == along {
+            return components.y;
         }
         // a x·d + b x⊥·d, and x⊥·d = x × d.
         let mut sum = self.graph().zero();
@@ -174,5 +374,37 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn name(&self, name: &str) -> String {
         format!("{}{name}", self.prefix)
+    }
+
+    /// A link's rate of rotation, or its angular acceleration, as a named quantity; how it comes about is said with `{velocity}` for
+    /// what these are.
+    #[must_use]
+    pub fn named_rate(&self, rate: Expr<'m>, of: &str, how: &str) -> Expr<'m> {
+        let (name, what) = match self.purpose {
+            Purpose::Virtual(_) => ("rate", "rate of rotation"),
+            Purpose::Velocity => ("omega", "angular velocity"),
+            Purpose::Acceleration(_) => ("alpha", "angular acceleration"),
+        };
+        let how = self.in_words(how);
+        rate.named(self.name(&format!("{name}_{}", of.replace(" + ", "_"))), format!("{what} of {of}{how}"))
+    }
+
+    /// The speed, or the acceleration, along a slide as a named quantity.
+    #[must_use]
+    pub fn named_sliding(&self, sliding: Expr<'m>, slide: JointId, of: &str, how: &str) -> Expr<'m> {
+        let what = match self.purpose {
+            Purpose::Virtual(_) | Purpose::Velocity => "speed",
+            Purpose::Acceleration(_) => "acceleration",
+        };
+        let (how, slide) = (self.in_words(how), &self.model().joint(slide).name);
+        sliding.named(self.name(&format!("{what}_{slide}")), format!("{what} of {of} along the slide {slide}{how}"))
+    }
+
+    fn in_words(&self, how: &str) -> String {
+        let word = match self.purpose {
+            Purpose::Virtual(_) | Purpose::Velocity => "velocity",
+            Purpose::Acceleration(_) => "acceleration",
+        };
+        how.replace("{velocity}", word)
     }
 }

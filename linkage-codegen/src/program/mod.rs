@@ -128,6 +128,12 @@ impl Program {
         self.inputs().any(|(_, input)| matches!(input, Input::Symbol(Symbol::Load(..))))
     }
 
+    /// Whether any rate or acceleration of a drive is read.
+    #[must_use]
+    pub fn reads_motion(&self) -> bool {
+        self.inputs().any(|(_, input)| matches!(input, Input::Symbol(Symbol::Driven(..))))
+    }
+
     /// How often each value is read: by other values, by checks, and as a result.
     #[must_use]
     pub fn uses(&self) -> Vec<usize> {

@@ -391,7 +391,16 @@ pub struct Drive {
     /// `.angle` or `.travel`
     pub coordinate: Option<Name>,
     /// `{ … }`
-    pub motion: Option<Place>,
+    pub motion: DriveMotion,
+}
+
+/// `{ rate: 3000rpm, acceleration: 0 }`
+#[derive(Clone, Debug, Default)]
+pub struct DriveMotion {
+    /// `rate: …`
+    pub rate: Option<Value>,
+    /// `acceleration: …`
+    pub acceleration: Option<Value>,
 }
 
 /// `assemble JOINT: side;`
@@ -505,8 +514,8 @@ pub enum LoadKind {
         /// What is said of it.
         fields: Vec<SpringField>,
     },
-    /// A kind that is not carried out yet, by its keyword.
-    Planned(Name),
+    /// `inertia` or `inertia(rod, piston)`
+    Inertia(Option<Vec<Name>>),
 }
 
 /// `rate: 2N/mm` of a spring.
@@ -542,6 +551,8 @@ pub enum ResultItem {
     Along(End, Name),
     /// `S about rail.P`
     About(End, End),
+    /// `inertia(rod)` or `offset(rod)`
+    OfLink(Name, Name),
     /// A form that is not carried out yet.
     Planned {
         /// What it is about.

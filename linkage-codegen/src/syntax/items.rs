@@ -7,8 +7,8 @@ use syn::{Error, Result, Token};
 
 use super::ast::Magnitude;
 use super::ast::{
-    Assemble, Distances, Drive, Effort, End, Gear, Item, Joint, Link, Mass, Name, Param, PointPlace, PointRef, Smooth,
-    Start, StartFrom, Unknown, words,
+    Assemble, Distances, Drive, DriveMotion, Effort, End, Gear, Item, Joint, Link, Mass, Name, Param, PointPlace,
+    PointRef, Smooth, Start, StartFrom, Unknown, Value, words,
 };
 use super::quantity::{at_pair, direction, magnitude, value, vector};
 use super::tokens::{at_word, between, comma_list, eat_word, expect_word, name, peek_word, place_of, take};
@@ -278,8 +278,39 @@ fn drive(input: ParseStream<'_>) -> Result<Item> {
     } else {
         None
     };
-    let motion = if input.peek(Brace) { take(input).and_then(|braces| place_of(&[braces])) } else { None };
+    let mut motion = DriveMotion::default();
+    if input.peek(Brace) {
+        let content;
+        let _ = syn::braced!(content in input);
+        for (name, value) in comma_list(&content, field)? {
+            put_motion(&mut motion, &name, value)?;
+        }
+    }
     Ok(Item::Drive(Drive { name: name_, joint, coordinate, motion }))
+}
+
+/// `rate: 3000rpm`
+fn field(input: ParseStream<'_>) -> Result<(Name, Value)> {
+    let name = colon_name(input)?;
+    Ok((name, value(input)?))
+}
+
+fn put_motion(motion: &mut DriveMotion, name: &Name, value: Value) -> Result<()> {
+    const FIELDS: [&str; 2] = ["rate", "acceleration"];
+    let field = match name.text.as_str() {
+        "rate" => &mut motion.rate,
+        "acceleration" => &mut motion.acceleration,
+        other => {
+            let help = closest(other, FIELDS)
+                .map_or_else(|| format!("it has {}", FIELDS.join(" and ")), |meant| format!("did you mean `{meant}`?"));
+            return Err(Error::new(name.span, format!("the motion of a drive has no `{name}`\nhelp: {help}")));
+        }
+    };
+    if field.is_some() {
+        return Err(Error::new(name.span, format!("the {name} is said twice\nhelp: keep one of the two")));
+    }
+    *field = Some(value);
+    Ok(())
 }
 
 fn assemble(input: ParseStream<'_>, keyword: &Name) -> Result<Item> {

@@ -6,7 +6,7 @@ use syn::token::{Brace, Paren};
 use syn::{Error, Result, Token};
 
 use super::ast::{End, Item, Load, LoadKind, Name, SpringField, words};
-use super::items::{end, rest};
+use super::items::end;
 use super::quantity::{magnitude, value};
 use super::tokens::{comma_list, eat_word, name, peek_word, take};
 use crate::diagnostics::{Diagnostic, Sink, closest};
@@ -45,8 +45,16 @@ pub(super) fn load(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
             return Ok(Item::Load(Load { name: name_, kind: LoadKind::Torsion { from, on, fields }, magnitude: None }));
         }
         _ => {
-            rest(input);
-            return Ok(Item::Load(Load { name: name_, kind: LoadKind::Planned(word), magnitude: None }));
+            let links = if input.peek(Paren) {
+                Some(in_parentheses(input, "inertia(rod, piston)", |input| comma_list(input, name))?)
+            } else {
+                None
+            };
+            if input.peek(Token![=]) {
+                let help = "masses and accelerations say how large it is: leave the value out";
+                return Err(Error::new(word.span, format!("the inertia of links is not given\nhelp: {help}")));
+            }
+            return Ok(Item::Load(Load { name: name_, kind: LoadKind::Inertia(links), magnitude: None }));
         }
     };
     let magnitude = if input.peek(Token![=]) {

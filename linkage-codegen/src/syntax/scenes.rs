@@ -10,9 +10,10 @@ use super::tokens::{between, comma_list, eat_word, name, place_of, take};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
 /// The methods that are carried out.
-pub(crate) const METHODS: [&str; 5] = ["position", "equilibrium", "superposition", "virtual_work", "verify"];
+pub(crate) const METHODS: [&str; 7] =
+    ["position", "velocity", "acceleration", "equilibrium", "superposition", "virtual_work", "verify"];
 /// The methods that are not carried out yet.
-pub(crate) const PLANNED: [&str; 6] = ["velocity", "acceleration", "motion", "sweep", "derivative", "inverse"];
+pub(crate) const PLANNED: [&str; 4] = ["motion", "sweep", "derivative", "inverse"];
 
 pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let name_ = name(input)?;
@@ -26,7 +27,7 @@ pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         slips.report(Diagnostic::new(method.place(), problem).help(format!("did you mean `{meant}`?")));
         meant.clone_into(&mut method.text);
     }
-    if !METHODS.contains(&method.text.as_str()) && !matches!(method.text.as_str(), "velocity" | "acceleration") {
+    if !METHODS.contains(&method.text.as_str()) {
         // Whether planned or unknown, the model says what is wrong with it.
         rest(input);
         return Ok(Item::Scene(Scene { name: name_, method, loads: None, results: None }));
@@ -74,12 +75,23 @@ fn shown(result: &ResultItem) -> String {
         ResultItem::Point(link, point) => format!("{link}.{point}"),
         ResultItem::Along(joint, link) => format!("{} along {link}", joint.written()),
         ResultItem::About(joint, point) => format!("{} about {}", joint.written(), point.written()),
+        ResultItem::OfLink(what, link) => format!("{what}({link})"),
         ResultItem::Planned { .. } => "…".into(),
     }
 }
 
 fn result(input: ParseStream<'_>) -> Result<ResultItem> {
     let item = end(input)?;
+    if item.point.is_none() && input.peek(Paren) {
+        let content;
+        let _ = syn::parenthesized!(content in input);
+        let link = name(&content)?;
+        return if content.is_empty() {
+            Ok(ResultItem::OfLink(item.link, link))
+        } else {
+            Err(content.error("expected `)`"))
+        };
+    }
     if eat_word(input, "along") {
         return Ok(ResultItem::Along(item, name(input)?));
     }

@@ -26,6 +26,32 @@ pub enum Input {
     Unknown(UnknownId),
 }
 
+impl From<UnknownId> for Input {
+    fn from(unknown: UnknownId) -> Self {
+        Self::Unknown(unknown)
+    }
+}
+
+impl Input {
+    /// The effort that it is, or that a drive needs.
+    #[must_use]
+    pub fn effort(self, model: &Model) -> UnknownKind {
+        match self {
+            Self::Drive(drive) => UnknownKind::Drive(drive),
+            Self::Unknown(unknown) => model.unknown(unknown).kind,
+        }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self, model: &Model) -> &str {
+        match self {
+            Self::Drive(drive) => &model.drive(drive).name.text,
+            Self::Unknown(unknown) => &model.unknown(unknown).name,
+        }
+    }
+}
+
 /// What a joint leaves its links, the drives of its group counted in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Freedom {
@@ -208,11 +234,7 @@ fn constraints(model: &Model, inputs: &[Input]) -> Vec<Constraint> {
 
 /// The links on which a drive or an unknown acts.
 fn links_of(model: &Model, input: Input) -> Vec<LinkId> {
-    let driven = |drive: DriveId| model.joint(model.drive(drive).joint).ends().map(|end| end.link).to_vec();
-    match input {
-        Input::Drive(drive) => driven(drive),
-        Input::Unknown(unknown) => model.links_of(unknown),
-    }
+    model.links_of(input.effort(model))
 }
 
 fn decompose(model: &Model, inputs: &[Input], sink: &Sink) -> Option<Vec<Group>> {

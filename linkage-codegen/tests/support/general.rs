@@ -8,7 +8,7 @@ use linkage_codegen::equations::loads::Case;
 use linkage_codegen::equations::{Declared, Exerted, Source, drive_row};
 use linkage_codegen::graph::number::Number as Exact;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{NodeId, Symbol};
+use linkage_codegen::graph::{NodeId, Order, Symbol};
 use linkage_codegen::model::JointKind;
 use linkage_codegen::model::ids::DriveId;
 use linkage_codegen::program::Fault;
@@ -35,19 +35,9 @@ pub fn equations<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<
 /// The unreduced equations of a linkage at a pose, from what it keeps.
 pub fn equations_at<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &HashMap<NodeId, T>) -> General<T> {
     let graph = &linkage.model.graph;
-    let mut placed: HashMap<NodeId, T> = kept.clone();
-    let known = |symbol: Symbol| T::exactly(arguments.of(symbol));
-    let mut coordinates: HashMap<Symbol, T> = HashMap::new();
-    for (index, link) in linkage.plan.links.iter().enumerate() {
-        use linkage_codegen::graph::Coordinate::{Angle, Cos, Sin, X, Y};
-        for which in [X, Y, Cos, Sin, Angle] {
-            let value = graph.evaluate(link.coordinate(which), &known, &mut placed);
-            let link = linkage_codegen::model::ids::LinkId::new(index);
-            coordinates.insert(Symbol::Coordinate(link, which), value);
-        }
-    }
+    let coordinates = coordinates(linkage, arguments, kept);
     let known = |symbol: Symbol| match symbol {
-        Symbol::Coordinate(..) => coordinates[&symbol].clone(),
+        Symbol::Coordinate(..) | Symbol::Moving(..) => coordinates[&symbol].clone(),
         _ => T::exactly(arguments.of(symbol)),
     };
     let mut done: HashMap<NodeId, T> = HashMap::new();
@@ -90,6 +80,55 @@ pub fn equations_at<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &
     let matrix = (0..lines).map(|line| columns.iter().map(|column| column[line].clone()).collect()).collect();
     let sources = linkage.system.rows.iter().map(|row| row.source).collect();
     General { matrix, cases, residuals, sources }
+}
+
+/// The coordinates of all links at a pose, and if anything depends on them their rates and accelerations.
+pub fn coordinates<T: Number>(
+    linkage: &Linkage,
+    arguments: &Arguments,
+    kept: &HashMap<NodeId, T>,
+) -> HashMap<Symbol, T> {
+    use linkage_codegen::graph::Coordinate::{Angle, Cos, Sin, X, Y};
+    let graph = &linkage.model.graph;
+    let mut placed: HashMap<NodeId, T> = kept.clone();
+    let known = |symbol: Symbol| T::exactly(arguments.of(symbol));
+    let mut coordinates: HashMap<Symbol, T> = HashMap::new();
+    for (index, link) in linkage.plan.links.iter().enumerate() {
+        let id = linkage_codegen::model::ids::LinkId::new(index);
+        for which in [X, Y, Cos, Sin, Angle] {
+            let value = graph.evaluate(link.coordinate(which), &known, &mut placed);
+            coordinates.insert(Symbol::Coordinate(id, which), value);
+            for order in [Order::Rate, Order::Acceleration] {
+                if let Some(node) = link.moving(which, order) {
+                    let value = graph.evaluate(node, &known, &mut placed);
+                    coordinates.insert(Symbol::Moving(id, which, order), value);
+                }
+            }
+        }
+    }
+    coordinates
+}
+
+/// What the motion leaves open of every joint and drive: how fast its residual changes, and how fast that does. Of drives the residual is
+/// the coordinate less the given one.
+pub fn open_motion<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<Vec<(Source, [T; 2])>, Fault> {
+    let (model, graph) = (&linkage.model, &linkage.model.graph);
+    let coordinates = coordinates(linkage, arguments, &pose::<T>(linkage, arguments)?);
+    let known = |symbol: Symbol| match symbol {
+        Symbol::Coordinate(..) | Symbol::Moving(..) => coordinates[&symbol].clone(),
+        _ => T::exactly(arguments.of(symbol)),
+    };
+    let joints = linkage.system.rows.iter().filter_map(|row| Some((row.source, graph.expr(row.residual?))));
+    let drives = (0..model.drives.len()).map(DriveId::new).filter_map(|drive| {
+        let row = drive_row(model, graph, &Declared(model), drive);
+        Some((row.source, graph.expr(row.residual?) - graph.symbol(Symbol::Drive(drive))))
+    });
+    let open = joints.chain(drives).map(|(source, residual)| {
+        let rate = graph.rate(residual);
+        let both = [rate, graph.rate(rate)].map(|of| graph.evaluate(of.id(), &known, &mut HashMap::new()));
+        (source, both)
+    });
+    Ok(open.collect())
 }
 
 /// What is left of an arc when whole turns of its circle are taken off.

@@ -96,6 +96,8 @@ pub struct Kind {
     pub joints: bool,
     /// Whether the unknown may act elsewhere than at the driven joint.
     pub unknown_anywhere: bool,
+    /// Whether it has inertia and dampers, and scenes with velocities and accelerations.
+    pub moving: bool,
     /// Whether dimensions are parameters.
     pub params: bool,
     /// `f32` or `f64`.
@@ -171,8 +173,9 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
         }
     }
     builder.masses();
-    let loads = builder.loads(kind.unknown_anywhere);
-    builder.finish(loads, kind)
+    let mut loads = builder.loads(kind.unknown_anywhere);
+    let motion = if kind.moving { builder.motion(&mut loads) } else { Vec::new() };
+    builder.finish(loads, motion, kind)
 }
 
 /// The same with a group that has no closed form at its end, its start somewhat off: a triad, of which a leg may be a slider, or a
@@ -208,11 +211,12 @@ pub fn sample_with_search(seed: u64, kind: Kind) -> Sample {
         builder.ring();
     }
     builder.masses();
-    let loads = builder.loads(kind.unknown_anywhere);
+    let mut loads = builder.loads(kind.unknown_anywhere);
+    let motion = if kind.moving { builder.motion(&mut loads) } else { Vec::new() };
     let (joint, at) = &builder.drives[0];
     let unit = if builder.items.contains(&format!("prismatic {joint}:")) { "m" } else { "rad" };
     let start = format!("start q0: {at:?}{unit};\n");
-    let mut sample = builder.finish(loads, kind);
+    let mut sample = builder.finish(loads, motion, kind);
     sample.text.push_str(&start);
     sample
 }
@@ -995,7 +999,38 @@ impl Builder {
         (format!("load B{number}: spring({}) {{ {fields} }};\n", self.two_points()), [rate, free])
     }
 
-    fn finish(self, loads: Vec<[f64; 2]>, kind: Kind) -> Sample {
+    /// Inertia and dampers; rate and acceleration of each drive.
+    fn motion(&mut self, loads: &mut Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+        if self.bodies.iter().any(|body| body.mass.is_some()) {
+            self.items.push_str("load I: inertia;\n");
+            loads.push([0.0; 2]);
+        }
+        let moving = self.bodies.len() - 1;
+        let (rate, damping) = (self.random.range(1.0, 50.0), self.random.range(0.5, 9.0));
+        let free = self.random.range(0.0, 3.0);
+        let line = match self.random.below(4) {
+            0 => format!("spring({}) {{ damping: {damping:?}N*s/m }}", self.two_points()),
+            1 => format!("spring({}) {{ rate: {rate:?}N/m, free: 0, damping: _ }}", self.two_points()),
+            2 => {
+                let fields = format!("rate: _, free: {free:?}m, damping: {damping:?}N*s/m");
+                format!("spring({}) {{ {fields} }}", self.two_points())
+            }
+            _ => {
+                let link = 1 + self.random.below(moving);
+                let other = self.random.below(link);
+                let (from, on) = self.arrow(link, other);
+                let (from, on) = (&self.bodies[from].name, &self.bodies[on].name);
+                let fields = format!("rate: {rate:?}N*m/rad, free: {free:?}rad, damping: {damping:?}N*m*s/rad");
+                format!("torsion({from} -> {on}) {{ {fields} }}")
+            }
+        };
+        let _ = writeln!(self.items, "load D: {line};");
+        loads.push([rate, damping]);
+        self.items.push_str("scene speeds: velocity;\nscene accelerations: acceleration;\n");
+        self.drives.iter().map(|_| [self.random.range(-3.0, 3.0), self.random.range(-5.0, 5.0)]).collect()
+    }
+
+    fn finish(self, loads: Vec<[f64; 2]>, motion: Vec<[f64; 2]>, kind: Kind) -> Sample {
         let mut text = format!("pub mod sample;\nscalar {};\n", kind.scalar);
         let mut params = self.radii.clone().unwrap_or_default();
         for index in 0..params.len() {
@@ -1044,7 +1079,7 @@ impl Builder {
             moving.flat_map(|b| b.points.iter().flat_map(|p| b.points.iter().map(move |q| minus(p.1, q.1))));
         let longest = distances.map(size).fold(0.0, f64::max);
         let drives = self.drives.iter().map(|(_, at)| *at).collect();
-        let arguments = Arguments { drives, loads, params, sides: self.sides };
+        let arguments = Arguments { drives, loads, params, sides: self.sides, motion };
         Sample { text, arguments, places: self.places, longest }
     }
 }

@@ -13,7 +13,7 @@ use std::collections::HashMap;
 
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{NodeId, Sought, Symbol};
+use linkage_codegen::graph::{NodeId, Order, Sought, Symbol};
 use linkage_codegen::program::{Fault, Input, Program, Run};
 
 /// A declaration's linkage; its errors make the test fail.
@@ -40,21 +40,31 @@ pub fn compile_if_it_closes(declaration: &str) -> Option<Linkage> {
 #[derive(Clone, Debug, Default)]
 pub struct Arguments {
     pub drives: Vec<f64>,
-    /// The components of each load, zeros where it is constant.
+    /// The components of each load, zeros where it is constant; of a spring's further values, the third is the first again.
     pub loads: Vec<[f64; 2]>,
     pub params: Vec<f64>,
     /// 1 or −1 for each closure that is chosen at run time, in the order of all closures.
     pub sides: Vec<f64>,
+    /// Rate and acceleration of each drive.
+    pub motion: Vec<[f64; 2]>,
 }
 
 impl Arguments {
     pub fn of(&self, symbol: Symbol) -> f64 {
         match symbol {
             Symbol::Drive(drive) => self.drives[drive.index()],
-            Symbol::Load(load, part) => self.loads[load.index()][usize::from(part)],
+            Symbol::Load(load, part) => self.loads[load.index()][usize::from(part) % 2],
             Symbol::Side(closure) => self.sides[closure.index()],
             Symbol::Parameter(param) => self.params[param.index()],
-            Symbol::Coordinate(..) | Symbol::Dimension(_) | Symbol::Sought(..) | Symbol::Start(..) => f64::NAN,
+            Symbol::Driven(drive, order) => self.motion.get(drive.index()).map_or(f64::NAN, |motion| match order {
+                Order::Rate => motion[0],
+                Order::Acceleration => motion[1],
+            }),
+            Symbol::Coordinate(..)
+            | Symbol::Moving(..)
+            | Symbol::Dimension(_)
+            | Symbol::Sought(..)
+            | Symbol::Start(..) => f64::NAN,
         }
     }
 }

@@ -25,7 +25,7 @@ linkage! {
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
 
-    scene speed: velocity -> (B, coupler.C, coupler.angle);
+    scene control: motion;
     scene cycle: sweep(statics);
 }
 
@@ -35,5 +35,4 @@ fn main() {
     let all = pose.statics(&loads).unwrap();
     println!("{} {} {}", all.T12, all.B.norm(), pose.coupler_C());
     println!("{}", four_bar::torque_at(1.0, &loads).unwrap().T12);
-    println!("{}", pose.speed().unwrap().coupler_C);
 }

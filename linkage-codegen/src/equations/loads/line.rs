@@ -42,6 +42,14 @@ impl<'m> Line<'m> {
         self.direction().dot(self.span).named(format!("{}_length", self.name), format!("distance {}", self.meaning))
     }
 
+    /// How fast the distance grows.
+    #[must_use]
+    pub fn stretching(&self, posture: &dyn Posture<'m>) -> Expr<'m> {
+        let velocity = posture.velocity(self.ends);
+        let stretching = self.direction().dot(velocity);
+        stretching.named(format!("{}_stretching", self.name), format!("rate of the distance {}", self.meaning))
+    }
+
     /// How much larger than that of a declared direction the rounding of its direction may be: it grows where the points come near each
     /// other.
     #[must_use]

@@ -2,6 +2,7 @@
 
 mod force;
 mod gravity;
+mod inertia;
 mod line;
 mod moment;
 mod posture;
@@ -13,16 +14,16 @@ pub use line::Line;
 pub use posture::{Posture, Symbolic};
 
 use super::{Body, Exerted};
-use crate::graph::{NodeId, Vector};
+use crate::graph::{NodeId, Order, Vector};
 use crate::model::ids::{LinkId, LoadId};
 use crate::model::{LoadKind, Pair};
 
-/// A load that is solved by itself: the whole load, or of gravity the weight of one link.
+/// A load that is solved by itself: the whole load, or of gravity and inertia the part of one link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Case {
     /// The declared load.
     pub load: LoadId,
-    /// The link whose weight it is.
+    /// The link whose weight or inertia it is.
     pub link: Option<LinkId>,
 }
 
@@ -69,21 +70,31 @@ pub fn cases_of(posture: &dyn Posture<'_>, load: LoadId) -> Vec<(Case, Vec<Actio
             let line = Line::between(posture, name, ends);
             vec![(whole, thrust::actions(&line, graph.expr(force)))]
         }
-        LoadKind::Spring { ends, rate, free, preload } => {
+        LoadKind::Spring { ends, rate, free, preload, damping } => {
             let line = Line::between(posture, name, ends);
             let [rate, free, preload] = [rate, free, preload].map(|value| graph.expr(value));
-            vec![(whole, spring::actions(&line, rate, free, preload))]
+            let damped = damping.map(|damping| graph.expr(damping) * line.stretching(posture));
+            vec![(whole, spring::actions(&line, rate, free, preload, damped))]
         }
-        LoadKind::Torsion { from, on, rate, free, near } => {
+        LoadKind::Torsion { from, on, rate, free, near, damping } => {
             let meaning = format!("angle of {} from {} − free angle", model.link(on).name, model.link(from).name);
             let wound = posture::wound(posture, [from, on], graph.expr(free), near.map(|near| graph.expr(near)));
             let wound = wound.named(format!("{name}_wound"), meaning);
-            vec![(whole, torsion::actions(from, on, graph.expr(rate), wound))]
+            let damped = damping.map(|damping| {
+                let turning = posture.turning(on, Order::Rate) - posture.turning(from, Order::Rate);
+                graph.expr(damping) * turning
+            });
+            vec![(whole, torsion::actions(from, on, graph.expr(rate) * wound, damped))]
         }
         LoadKind::Gravity { acceleration } => gravity::weights(model, acceleration)
             .into_iter()
             .map(|(link, action)| (Case { load, link: Some(link) }, vec![action]))
             .collect(),
+        LoadKind::Inertia => {
+            let massive = model.load(load).links.iter().filter_map(|link| Some((*link, model.link(*link).mass?)));
+            let of = |(link, mass)| (Case { load, link: Some(link) }, inertia::actions(posture, link, mass));
+            massive.map(of).collect()
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Where points and links are, as loads see them.
 
 use crate::equations::Body;
-use crate::graph::{Expr, Vector};
+use crate::graph::{Coordinate, Expr, Order, Symbol, Vector};
 use crate::model::ids::{GROUND, LinkId};
 use crate::model::{End, Model};
 use crate::topology::Topology;
@@ -22,6 +22,15 @@ pub trait Posture<'m> {
 
     /// Whether gears tell the angle of a link, with all its turns.
     fn is_geared(&self, link: LinkId) -> bool;
+
+    /// The velocity of the second point as seen from the first, ground axes.
+    fn velocity(&self, ends: [End; 2]) -> Vector<'m>;
+
+    /// The rate of a link's angle, or its acceleration.
+    fn turning(&self, link: LinkId, order: Order) -> Expr<'m>;
+
+    /// The acceleration of a place in a link's frame, in the axes of the frame of one of the links.
+    fn acceleration(&self, link: LinkId, at: Vector<'m>) -> (Vector<'m>, LinkId);
 }
 
 /// In the symbols of the unreduced equations.
@@ -54,6 +63,36 @@ impl<'m> Posture<'m> for Symbolic<'m> {
 
     fn is_geared(&self, link: LinkId) -> bool {
         self.topology.geared(self.model).contains(&link)
+    }
+
+    fn velocity(&self, ends: [End; 2]) -> Vector<'m> {
+        let [first, second] = ends.map(|end| {
+            let arm = Body::symbolic(&self.model.graph, end.link).turned(self.model.local(end));
+            self.of_origin(end.link, Order::Rate) + arm.perp().scaled(self.turning(end.link, Order::Rate))
+        });
+        second - first
+    }
+
+    fn turning(&self, link: LinkId, order: Order) -> Expr<'m> {
+        self.moving(link, Coordinate::Angle, order)
+    }
+
+    fn acceleration(&self, link: LinkId, at: Vector<'m>) -> (Vector<'m>, LinkId) {
+        let arm = Body::symbolic(&self.model.graph, link).turned(at);
+        let [rate, acceleration] = [Order::Rate, Order::Acceleration].map(|order| self.turning(link, order));
+        let turning = arm.perp().scaled(acceleration) - arm.scaled(rate.squared());
+        (self.of_origin(link, Order::Acceleration) + turning, GROUND)
+    }
+}
+
+impl<'m> Symbolic<'m> {
+    fn moving(self, link: LinkId, which: Coordinate, order: Order) -> Expr<'m> {
+        let graph = &self.model.graph;
+        if link == GROUND { graph.zero() } else { graph.symbol(Symbol::Moving(link, which, order)) }
+    }
+
+    fn of_origin(self, link: LinkId, order: Order) -> Vector<'m> {
+        Vector::new(self.moving(link, Coordinate::X, order), self.moving(link, Coordinate::Y, order))
     }
 }
 

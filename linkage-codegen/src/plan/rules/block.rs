@@ -11,8 +11,9 @@
 
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
+use crate::equations::joints::Component;
 use crate::graph::{Expr, Vector};
-use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
+use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model};
 use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
@@ -45,7 +46,7 @@ enum Unknown {
     /// A component of the reaction of a joint that no member has, in the order of [`reactions::parts`].
     Joint(JointId, usize),
     /// An effort.
-    Effort(UnknownId),
+    Effort(Input),
 }
 
 /// What has equations.
@@ -103,11 +104,7 @@ impl<'p, 'm> Parts<'p, 'm> {
                 _ => {}
             }
         }
-        for input in &group.inputs {
-            if let Input::Unknown(unknown) = input {
-                unknowns.push(Unknown::Effort(*unknown));
-            }
-        }
+        unknowns.extend(group.inputs.iter().copied().map(Unknown::Effort));
         Self { placement, model, members, unknowns, free }
     }
 
@@ -209,7 +206,7 @@ impl<'p, 'm> Parts<'p, 'm> {
         }
     }
 
-    fn unit_of_effort(&self, effort: UnknownId) -> Unit<'m> {
+    fn unit_of_effort(&self, effort: Input) -> Unit<'m> {
         Unit::of(self.placement, effort)
     }
 
@@ -220,6 +217,38 @@ impl<'p, 'm> Parts<'p, 'm> {
             Unknown::Effort(effort) => spread * self.unit_of_effort(*effort).spread,
             _ => spread,
         })
+    }
+
+    /// The power of an unknown's unit if the motion keeps the joints: none of a velocity. Of an acceleration it is what curved paths and
+    /// sliding along turning lines bring.
+    fn beyond(&self, motion: &Motion<'m, '_>, unknown: Unknown) -> Expr<'m> {
+        let zero = self.placement.graph().zero();
+        match unknown {
+            Unknown::Member(index) => {
+                let member = &self.members[index];
+                if self.is_slide(member.far) {
+                    // n·(a_pin − a_guide) − α x = 2 ω ṡ − ω² y at the pin (x, y) from the runner.
+                    let coriolis = motion.coriolis(member.far, member.link).components.y;
+                    return motion.centripetal(member.link, self.slide_arm(member).y) - coriolis;
+                }
+                // u·(a_near − a_far) = −ω² r.
+                motion.centripetal(member.link, self.rod(member).0)
+            }
+            Unknown::Joint(joint, part) => {
+                let component = reactions::parts(self.placement, joint).get(part).map(|part| part.component);
+                let data = self.model.joint(joint);
+                match (component, data.kind) {
+                    (Some(Component::Normal), _) => motion.coriolis(joint, data.to.link).components.y,
+                    // The centres turn about each other.
+                    (Some(Component::Tangential), JointKind::Gear(gear)) => {
+                        let incline = self.placement.graph().expr(gear.incline);
+                        -(incline * motion.centripetal(gear.arm[0].link, gear.distance(self.model)))
+                    }
+                    _ => zero,
+                }
+            }
+            Unknown::Effort(_) => zero,
+        }
     }
 
     /// Of a carrier that hangs on members alone, the pin of one of them and the direction of its number.
@@ -322,10 +351,7 @@ fn members(model: &Model, group: &Group) -> Vec<Member> {
             .copied()
             .filter(|joint| model.joint(*joint).end_on(*link).is_some())
             .collect();
-        let acted_on = group.inputs.iter().any(|input| match input {
-            Input::Unknown(unknown) => model.links_of(*unknown).contains(link),
-            Input::Drive(_) => false,
-        });
+        let acted_on = group.inputs.iter().any(|input| model.links_of(input.effort(model)).contains(link));
         let [a, b] = joints.as_slice() else { continue };
         if acted_on || ![a, b].into_iter().all(|joint| slides(joint) || pins(joint)) {
             continue;
@@ -393,13 +419,14 @@ impl Rule for Block {
                     let own = own.filter(|(unknown, _)| matches!(unknown, Unknown::Joint(of, _) if *of == joint));
                     put_joint(balance, joint, &own.map(|(_, value)| *value).collect::<Vec<_>>(), &links);
                 }
-                Unknown::Joint(..) => {}
-                Unknown::Effort(effort) => {
+                Unknown::Effort(Input::Unknown(effort)) => {
                     let name = &model.unknown(effort).name;
                     let value = value.named(balance.name(name), format!("from the equilibrium of {links}"));
                     balance.found(effort, value);
-                    parts.unit_of_effort(effort).exert_outside(balance, value, &group.links);
+                    parts.unit_of_effort(effort.into()).exert_outside(balance, value, &group.links);
                 }
+                // A joint is recorded with its first component; forces know no drives.
+                Unknown::Joint(..) | Unknown::Effort(Input::Drive(_)) => {}
             }
         }
         Ok(())
@@ -410,16 +437,27 @@ impl Rule for Block {
         let (determinant, links) = parts.names(group);
         let graph = motion.graph();
         let columns = parts.matrix();
-        // The power of a unit of each unknown on all links is the rate of its coordinate: one, or zero.
+        // If the carriers neither moved nor turned.
+        for free in &parts.free {
+            if let Free::Carrier(link) = free {
+                let velocity = Framed { components: graph.zero_vector(), axes: parts.ground() };
+                motion.found(*link, Twist { rate: graph.zero(), at: parts.centre(*link), velocity });
+            }
+        }
+        // The power of a unit of each unknown on all links is the rate of its coordinate: of an unknown of the joints zero, but for what
+        // an acceleration has beyond a velocity.
         let equations = parts
             .unknowns
             .iter()
             .zip(&columns)
             .map(|(unknown, column)| {
-                let own = if let Unknown::Effort(effort) = unknown { motion.rate_of(*effort) } else { graph.zero() };
-                let outside =
-                    parts.unit(*unknown).iter().fold(graph.zero(), |sum, act| sum + power_outside(motion, group, act));
-                Equation { coefficients: column.clone(), right: own - outside }
+                let own = match *unknown {
+                    Unknown::Effort(effort) => motion.rate_of(effort),
+                    _ => parts.beyond(motion, *unknown),
+                };
+                let supposed =
+                    parts.unit(*unknown).iter().fold(graph.zero(), |sum, act| sum + power(motion, &parts, act));
+                Equation { coefficients: column.clone(), right: own - supposed }
             })
             .collect();
         let values = solve(graph, equations, Core { name: &determinant, group: &links, spread: parts.spread() })
@@ -431,8 +469,7 @@ impl Rule for Block {
             match free {
                 Free::Carrier(link) => {
                     let name = &parts.model.link(*link).name;
-                    let rate = values[row + 2]
-                        .named(motion.name(&format!("rate_{name}")), format!("rate of rotation of {name}"));
+                    let rate = motion.named_rate(values[row + 2], &name.text, "");
                     motion.found(*link, Twist { rate, at: parts.centre(*link), velocity });
                     row += 3;
                 }
@@ -461,7 +498,7 @@ impl Rule for Block {
                 motion.part(&gap, direction.perp()) / length
             };
             let name = &parts.model.link(member.link).name;
-            let rate = rate.named(motion.name(&format!("rate_{name}")), format!("rate of rotation of {name}"));
+            let rate = motion.named_rate(rate, &name.text, "");
             motion.found(member.link, Twist { rate, at, velocity });
         }
         Ok(())
@@ -473,14 +510,14 @@ fn too_large(model: &Model, group: &Group, size: usize) -> Diagnostic {
         .note(format!("its equilibrium equations leave a core of {size}; up to {CORE} are supported"))
 }
 
-/// The power of an act on links outside the group.
-fn power_outside<'m>(motion: &Motion<'m, '_>, group: &Group, act: &Act<'m>) -> Expr<'m> {
-    let outside = |link: LinkId| link != GROUND && !group.links.contains(&link);
+/// The power of an act on a link. Members have no motion before their ends have one.
+fn power<'m>(motion: &Motion<'m, '_>, parts: &Parts<'_, 'm>, act: &Act<'m>) -> Expr<'m> {
+    let moves = |link: LinkId| link != GROUND && !parts.is_member(link);
     match act {
-        Act::Force(link, at, force) if outside(*link) => {
+        Act::Force(link, at, force) if moves(*link) => {
             motion.of_place(*link, *at).along(force.axes).dot(force.components)
         }
-        Act::Couple(link, moment) if outside(*link) => *moment * motion.rate(*link),
+        Act::Couple(link, moment) if moves(*link) => *moment * motion.rate(*link),
         _ => motion.graph().zero(),
     }
 }
@@ -573,4 +610,89 @@ fn put_joint<'m>(balance: &mut Balance<'m, '_>, joint: JointId, values: &[Expr<'
     });
     let values: Vec<Expr<'m>> = values.collect();
     balance.react(joint, &values);
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::Block;
+    use crate::diagnostics::Sink;
+    use crate::graph::{Order, Symbol};
+    use crate::model::{self, Model};
+    use crate::plan::assembly::Assembly;
+    use crate::plan::rules::{Rule, rule_of};
+    use crate::plan::velocities::Motion;
+    use crate::syntax;
+    use crate::topology::Topology;
+
+    /// Groups that the closed forms of other rules move, too: members between pins, on a slide, on each other; carriers with slots,
+    /// slides and welds.
+    const CASES: [&str; 6] = [
+        "link b { A -> B: 3m, P: (1m, 1m) } link c { Q -> B: 2.5m } revolute A: crank -> b; revolute B: b -> c; revolute Q: ground -> c;
+         assemble B: left(A -> Q);",
+        "link rod { A -> B: 3m } link piston { B: (0.1m, 0.3m), G: (0.4m, 0.2m) } revolute A: crank -> rod; revolute B: rod -> piston;
+         prismatic G: piston -> arm.Q along 10deg of piston, angle 25deg; assemble B: ahead(A);",
+        "link rod { A: (0.1m, 0.2m), S: (0.5m, 0.3m) } link block { Q: (0.2m, 0.1m), S: (-0.1m, 0.3m) } revolute A: rod -> crank;
+         revolute Q: arm -> block; prismatic S: block -> rod along 25deg of rod, angle 40deg; assemble S: behind(Q);",
+        "link lever { Q: (0.2m, 0.3m), S: (3m, 2m) } revolute Q: lever -> ground; slot S: crank.A -> lever.S along 70deg of lever;
+         assemble S: behind(Q);",
+        "link runner { A: (0.2m, 0.3m), S: (1m, 2m), W: (1m, 0) } link tip { W: (0.2m, 0.1m) } revolute A: runner -> crank;
+         slot S: runner.S -> arm.Q along 70deg of arm; weld W: tip -> runner, angle 40deg; assemble S: behind(A);",
+        "link slider { G: (0.2m, 0.3m), S: (1m, 2m) } prismatic G: slider -> crank.A along 20deg of slider, angle 65deg;
+         slot S: arm.Q -> slider.S along -30deg of slider;",
+    ];
+
+    /// Rates of all links, and how fast their origins move, one motion after another.
+    fn moved(model: &Model, topology: &Topology, assembly: &Assembly<'_>, rules: &[&dyn Rule]) -> Vec<f64> {
+        let sink = Sink::default();
+        let velocities = Motion::velocities(&assembly.placement, &assembly.pivots);
+        let velocities = velocities.through(&topology.motion, rules, &sink);
+        let accelerations = Motion::accelerations(&velocities).through(&topology.motion, rules, &sink);
+        assert!(sink.is_clean());
+        let known = |symbol: Symbol| match symbol {
+            Symbol::Drive(drive) => [0.4, 1.1][drive.index()],
+            Symbol::Driven(drive, Order::Rate) => [1.3, -0.6][drive.index()],
+            Symbol::Driven(drive, Order::Acceleration) => [0.7, 2.1][drive.index()],
+            _ => f64::NAN,
+        };
+        let mut done = HashMap::new();
+        let mut all = Vec::new();
+        for motion in [&velocities, &accelerations] {
+            for link in model.moving_links() {
+                let origin = motion.of_place(link, model.graph.zero_vector()).ground();
+                let values = [origin.x, origin.y, motion.rate(link)];
+                all.extend(values.map(|value| model.graph.evaluate(value.id(), &known, &mut done)));
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn elimination_moves_links_as_closed_forms_do() {
+        for items in CASES {
+            let text = format!(
+                "mod sample; ground {{ O: (0, 0), Q: (3m, 0.5m) }} link crank {{ O -> A: 1m }} link arm {{ Q: (0.2m, 0) , R: (0.1m, 0.4m) }}
+                 revolute O: ground -> crank; revolute R: ground.Q -> arm; drive q: O; drive r: R; {items}
+                 scene speeds: acceleration;"
+            );
+            let sink = Sink::default();
+            let ast = syntax::parse(text.parse().expect("tokens"), &sink).expect("a declaration");
+            let model = model::resolve(&ast, &sink);
+            let topology = Topology::of(&model, &sink).expect("groups");
+            let rules: Vec<&dyn Rule> =
+                topology.motion.iter().map(|group| rule_of(&model, group).expect("a rule")).collect();
+            let mut assembly = Assembly::new(&model, &topology);
+            for (group, rule) in topology.motion.iter().zip(&rules) {
+                assert!(rule.place(&mut assembly, group).is_ok(), "{text}");
+            }
+            let blocks: Vec<&dyn Rule> = topology.motion.iter().map(|_| &Block as &dyn Rule).collect();
+            let closed = moved(&model, &topology, &assembly, &rules);
+            let eliminated = moved(&model, &topology, &assembly, &blocks);
+            for (index, (own, other)) in closed.iter().zip(&eliminated).enumerate() {
+                let size = own.abs().max(1.0);
+                assert!((own - other).abs() <= 1e-11 * size, "{index}: {own} and {other}\n{text}");
+            }
+        }
+    }
 }

@@ -5,7 +5,7 @@
 
 use super::{Rule, RuleResult};
 use crate::graph::Expr;
-use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
+use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model};
 use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
@@ -75,7 +75,7 @@ impl Rule for Crank {
         let effort = &model.unknown(unknown).name;
         let total = balance.total(link);
         let unit = Unit::of(balance.placement, unknown);
-        let arm = significant_arm(balance.placement, unknown, &unit, pin, link);
+        let arm = significant_arm(balance.placement, unknown.into(), &unit, pin, link);
         let (sign, over) = match arm.sign() {
             None => ("−", "/arm"),
             Some(sign) => (if sign > 0 { "−" } else { "" }, ""),
@@ -93,19 +93,19 @@ impl Rule for Crank {
 
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let model = motion.model();
-        let Some((link, pin, Input::Unknown(unknown))) = parts(model, group) else { return Ok(()) };
+        let Some((link, pin, input)) = parts(model, group) else { return Ok(()) };
         let data = model.joint(pin);
         let (Some(near), Some(far)) = (data.end_on(link), data.end_off(link)) else { return Ok(()) };
         let about = motion.placement.point(near);
         let velocity = motion.of_point(far);
         let name = &model.link(link).name;
-        let unit = Unit::of(motion.placement, unknown);
-        let arm = significant_arm(motion.placement, unknown, &unit, pin, link);
+        let unit = Unit::of(motion.placement, input);
+        let arm = significant_arm(motion.placement, input, &unit, pin, link);
         // The power of the unit on all links is the rate of its coordinate.
         let own = unit.force_on(link, motion.placement.direction(GROUND));
         let carried = velocity.along(own.axes).dot(own.components);
-        let rate = (motion.rate_of(unknown) - unit.power_outside(motion, &[link]) - carried) / arm;
-        let rate = rate.named(motion.name(&format!("rate_{name}")), format!("rate of rotation of {name}"));
+        let rate = (motion.rate_of(input) - unit.power_outside(motion, &[link]) - carried) / arm;
+        let rate = motion.named_rate(rate, &name.text, "");
         motion.found(link, Twist { rate, at: about, velocity });
         Ok(())
     }
@@ -114,7 +114,7 @@ impl Rule for Crank {
 /// The moment of the unit about the pin as a divisor. A lever arm that is too small beside the distance of its points is none.
 fn significant_arm<'m>(
     placement: &Placement<'m>,
-    unknown: UnknownId,
+    input: Input,
     unit: &Unit<'m>,
     pin: JointId,
     link: LinkId,
@@ -122,8 +122,8 @@ fn significant_arm<'m>(
     let model = placement.model;
     let near = model.joint(pin).end_on(link).unwrap_or(model.joint(pin).from);
     let arm = unit.moment_on(link, placement, placement.point(near));
-    let Some(at) = point_on(model, unknown, link) else { return arm };
-    let (effort, point) = (&model.unknown(unknown).name, &model.joint(pin).name);
+    let Some(at) = point_on(model, input, link) else { return arm };
+    let (effort, point) = (input.name(model), &model.joint(pin).name);
     let name = format!("arm_{effort}");
     let arm = arm.named(name.clone(), format!("lever arm of {effort} about {point}"));
     let size = model.distance(link, near.point, at.point);

@@ -14,15 +14,14 @@ use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Symbol, Vector};
-use crate::model::ids::GROUND;
-use crate::model::ids::{DriveId, JointId, LinkId, UnknownId};
+use crate::model::ids::{DriveId, GROUND, JointId, LinkId, UnknownId};
 use crate::model::{JointKind, Model};
 use crate::plan::assembly::{Assembly, DyadPivot};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::pivots::{divisor, significant};
 use crate::plan::placement::{Orientation, Placement, Spot, Way};
-use crate::plan::velocities::Motion;
+use crate::plan::velocities::{Motion, Twist};
 use crate::topology::{Freedom, Group, Input};
 
 /// A body of a dyad.
@@ -369,51 +368,6 @@ impl<'a> Dyad<'a> {
         Ok(())
     }
 
-    /// The velocity of a leg's inner joint, if a place of its first link has this one and the link turns at this rate.
-    pub(super) fn velocity_of_tip(
-        &self,
-        motion: &Motion<'a, '_>,
-        leg: &Leg,
-        (at, velocity): (Vector<'a>, Framed<'a>),
-        rate: Expr<'a>,
-    ) -> Framed<'a> {
-        let (placement, ground) = (motion.placement, motion.placement.direction(GROUND));
-        let arm = if leg.is_single() {
-            placement.point(self.meeting(leg)) - at
-        } else {
-            let direction = placement.direction(leg.link());
-            placement.point(leg.near) - at + placement.way(leg.near, self.meeting(leg)).resolved_along(direction)
-        };
-        let turning = Framed { components: arm.perp().scaled(rate), axes: placement.direction(leg.link()) };
-        velocity.plus(&turning, ground).plus(&self.driven_velocity(motion, leg), ground)
-    }
-
-    /// The velocity of a leg's outer joint on it, if its inner joint has this one and its first link turns at this rate.
-    pub(super) fn velocity_from_tip(
-        &self,
-        motion: &Motion<'a, '_>,
-        leg: &Leg,
-        velocity: Framed<'a>,
-        rate: Expr<'a>,
-    ) -> Framed<'a> {
-        let still = Framed { components: motion.graph().zero_vector(), axes: motion.placement.direction(GROUND) };
-        let near = motion.placement.point(leg.near);
-        motion.difference(&velocity, &self.velocity_of_tip(motion, leg, (near, still), rate))
-    }
-
-    /// How much faster than its first link the drives within a leg turn the link of its inner joint.
-    pub(super) fn driven_turning(&self, motion: &Motion<'a, '_>, leg: &Leg) -> Expr<'a> {
-        let mut rates = vec![(leg.link(), motion.graph().zero())];
-        for (joint, link) in leg.joined_to(self.model, leg.link()) {
-            let before =
-                rates.iter().find(|(near, _)| self.model.joint(joint).end_on(*near).is_some() && *near != link);
-            let Some((near, rate)) = before.copied() else { continue };
-            rates.push((link, rate + motion.driven_rate(joint, near)));
-        }
-        let tip = rates.iter().find(|(link, _)| *link == leg.tip.end.link);
-        tip.map_or(motion.graph().zero(), |(_, rate)| *rate)
-    }
-
     /// Where the links of the inner joint meet, on a leg: at the pin, or at the runner of the slide.
     fn meeting(&self, leg: &Leg) -> Spot {
         if self.pinned {
@@ -424,38 +378,25 @@ impl<'a> Dyad<'a> {
         Spot { end: leg.tip.end, slot: carries.then_some(self.inner) }
     }
 
-    /// The velocity of a leg's inner joint that its drives give it while its first link rests.
-    pub(super) fn driven_velocity(&self, motion: &Motion<'a, '_>, leg: &Leg) -> Framed<'a> {
-        let (graph, placement) = (motion.graph(), motion.placement);
-        let ground = placement.direction(GROUND);
-        let still = Framed { components: graph.zero_vector(), axes: ground };
-        let within = leg.joined_to(self.model, leg.link()).into_iter().fold(still, |sum, (joint, link)| {
-            let near = if self.model.joint(joint).to.link == link {
-                self.model.joint(joint).from
-            } else {
-                self.model.joint(joint).to
-            };
-            let turning = motion.driven_rate(joint, near.link);
-            let turning = if turning.is_zero() {
-                still
-            } else {
-                let pin = Spot::of_pin(self.model, joint, link).unwrap_or(near.into());
-                let arm = placement.way(pin, self.meeting(leg)).vector();
-                Framed { components: arm.perp().scaled(turning), axes: ground }
-            };
-            sum.plus(&motion.driven_sliding(joint, near.link), ground).plus(&turning, ground)
-        });
-        // The pin in a slot that the leg carries.
-        match leg.tip.slot {
-            Some(slot) => within.plus(&motion.driven_sliding(slot, leg.tip.end.link), ground),
-            None => within,
+    /// The velocity of the inner pin as a leg has it: of one that is driven along a slot of the leg, with what that adds.
+    pub(super) fn velocity_of_pin(&self, motion: &Motion<'a, '_>, leg: &Leg) -> Framed<'a> {
+        let joint = self.model.joint(self.inner);
+        match (leg.tip.slot, joint.end_off(leg.tip.end.link)) {
+            (Some(_), Some(pin)) => motion.passed_on(self.inner, pin.link),
+            _ => motion.of_point(leg.tip.end),
         }
     }
 
-    /// The virtual velocities of the other links of a leg, once that of its first one is found.
-    pub(super) fn follow_rest(&self, motion: &mut Motion<'a, '_>, leg: &Leg) -> RuleResult {
-        let effort = |drive: DriveId| Input::Unknown(UnknownId::new(drive.index()));
-        self.joined(leg, leg.link(), effort).iter().try_for_each(|(rule, group)| rule.follow(motion, group))
+    /// Moves a leg about its outer joint: its first link turns at this rate, the others as their drives say.
+    pub(super) fn turn(&self, motion: &mut Motion<'a, '_>, leg: &Leg, rate: Expr<'a>) -> RuleResult {
+        let (at, velocity) = (motion.placement.point(leg.near), motion.passed_on(leg.outer, leg.link()));
+        motion.found(leg.link(), Twist { rate, at, velocity });
+        self.follow_rest(motion, leg, leg.link())
+    }
+
+    /// The motion of the other links of a leg, once that of one of them is found.
+    pub(super) fn follow_rest(&self, motion: &mut Motion<'a, '_>, leg: &Leg, found: LinkId) -> RuleResult {
+        self.joined(leg, found, Input::Drive).iter().try_for_each(|(rule, group)| rule.follow(motion, group))
     }
 
     pub(super) fn pivot_name(&self) -> String {

@@ -119,14 +119,12 @@ impl Rule for Prp {
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let Some(dyad) = sliders(motion.model(), group) else { return Ok(()) };
         let [first, second] = &dyad.legs;
-        let ground = motion.placement.direction(GROUND);
-        let rates = dyad.legs.each_ref().map(|leg| motion.rate_across(leg.outer, leg.far.end.link));
-        let carried = [0, 1].map(|index| {
-            let leg = &dyad.legs[index];
-            let carried = super::slide::carried(motion, leg.outer, leg.link());
-            dyad.velocity_of_tip(motion, leg, carried, rates[index])
-        });
-        let gap = motion.difference(&carried[1], &carried[0]);
+        for leg in &dyad.legs {
+            motion.found(leg.link(), motion.carried(leg.outer, leg.link()));
+            dyad.follow_rest(motion, leg, leg.link())?;
+        }
+        let carried = dyad.legs.each_ref().map(|leg| dyad.velocity_of_pin(motion, leg));
+        let gap = motion.lacking(dyad.inner, &carried[1], &carried[0]);
         let across = -motion.part(&gap, motion.placement.slide_direction(second.outer).perp());
         let speed = if across.is_zero() {
             across
@@ -134,27 +132,21 @@ impl Rule for Prp {
             across
                 / motion.pivots.dividing_slides(motion.placement, slides(&dyad), &dyad.pivot_name(), &dyad.group_name())
         };
-        let slide = dyad.joint_name(first.outer);
-        let speed = speed.named(
-            motion.name(&format!("speed_{slide}")),
-            format!(
-                "speed of {} along the slide {slide}: the guides' relative velocity across the other slide over {}",
-                dyad.link_name(first),
-                dyad.pivot_name()
-            ),
-        );
-        let axes = motion.placement.slide_direction(first.outer);
-        let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes };
-        let velocity = carried[0].plus(&sliding, ground);
-        for (leg, rate) in dyad.legs.iter().zip(rates) {
-            let (at, velocity) = if leg.is_single() && leg.tip.slot.is_none() {
-                (motion.placement.point(leg.tip), velocity)
-            } else {
-                (motion.placement.point(leg.near), dyad.velocity_from_tip(motion, leg, velocity, rate))
-            };
-            motion.found(leg.link(), Twist { rate, at, velocity });
-            dyad.follow_rest(motion, leg)?;
-        }
-        Ok(())
+        let how = format!(": the guides' relative {{velocity}} across the other slide over {}", dyad.pivot_name());
+        let speed = motion.named_sliding(speed, first.outer, &dyad.link_name(first), &how);
+        motion.records(first.outer, first.link(), speed);
+        let sliding = motion.along_slide(first.outer, speed);
+        let velocity = carried[0].plus(&sliding, motion.placement.direction(GROUND));
+        // The pin's own link first: of a slot that its pin is driven along, the carrier follows.
+        let legs = || dyad.legs.iter();
+        legs().filter(|leg| leg.tip.slot.is_none()).chain(legs().filter(|leg| leg.tip.slot.is_some())).try_for_each(
+            |leg| {
+                let link = leg.tip.end.link;
+                let velocity = if leg.tip.slot.is_some() { motion.passed_on(dyad.inner, link) } else { velocity };
+                let at = motion.placement.point(leg.tip);
+                motion.found(link, Twist { rate: motion.rate(link), at, velocity });
+                dyad.follow_rest(motion, leg, link)
+            },
+        )
     }
 }

@@ -16,13 +16,11 @@
 
 use super::dyad::{Dyad, dyad};
 use super::{Rule, RuleResult};
-use crate::graph::Vector;
 use crate::model::Model;
 use crate::model::ids::{GROUND, JointId};
 use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
-use crate::plan::framed::Framed;
-use crate::plan::velocities::{Motion, Twist};
+use crate::plan::velocities::Motion;
 use crate::topology::Group;
 
 /// The rule.
@@ -126,26 +124,13 @@ impl Rule for Rpp {
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let Some(dyad) = sliders(motion.model(), group) else { return Ok(()) };
         let [pinned, slider] = &dyad.legs;
-        let ground = motion.placement.direction(GROUND);
-        let rate = motion.rate_across(slider.outer, slider.far.end.link);
-        let (at, guided) = super::slide::carried(motion, slider.outer, slider.link());
-        let pin = motion.across(pinned.outer, pinned.far.end.link);
-        // The place of the second slider's pin as if nothing slid: with the first slider to the inner slide, from there with its own link.
-        let tip = rate + dyad.driven_turning(motion, slider);
-        let own = tip + motion.driven_rate(dyad.inner, slider.tip.end.link) - dyad.driven_turning(motion, pinned);
-        let [first, second] = [slider, pinned].map(|leg| motion.placement.direction(leg.link()));
-        let carried = if slider.is_single() && pinned.is_single() && first == second {
-            // All directions are the outer guide's.
-            let way = motion.placement.slide_point(dyad.inner, slider.link()) - at
-                + motion.placement.point(pinned.near)
-                - motion.placement.slide_point(dyad.inner, pinned.link());
-            let axes = motion.placement.direction(slider.link());
-            guided.plus(&Framed { components: way.perp().scaled(rate), axes }, ground)
-        } else {
-            let inner = dyad.velocity_of_tip(motion, slider, (at, guided), rate);
-            dyad.velocity_from_tip(motion, pinned, inner, own)
-        };
-        let gap = motion.difference(&pin, &carried);
+        let pin = motion.passed_on(pinned.outer, pinned.link());
+        // Neither slides: the way from the outer guide's runner to the pin goes through the inner slide.
+        motion.found(slider.link(), motion.carried(slider.outer, slider.link()));
+        dyad.follow_rest(motion, slider, slider.link())?;
+        motion.found(pinned.tip.end.link, motion.carried(dyad.inner, pinned.tip.end.link));
+        dyad.follow_rest(motion, pinned, pinned.tip.end.link)?;
+        let gap = motion.lacking(pinned.outer, &pin, &motion.of_point(pinned.near));
         let across = -motion.part(&gap, motion.placement.slide_direction(dyad.inner).perp());
         let speed = if across.is_zero() {
             across
@@ -153,19 +138,11 @@ impl Rule for Rpp {
             across
                 / motion.pivots.dividing_slides(motion.placement, slides(&dyad), &dyad.pivot_name(), &dyad.group_name())
         };
-        let slide = dyad.joint_name(slider.outer);
-        let speed = speed.named(
-            motion.name(&format!("speed_{slide}")),
-            format!(
-                "speed of {} along the slide {slide}: relative velocity across the inner slide over {}",
-                dyad.link_name(slider),
-                dyad.pivot_name()
-            ),
-        );
-        let axes = motion.placement.slide_direction(slider.outer);
-        let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes };
-        motion.found(slider.link(), Twist { rate, at, velocity: guided.plus(&sliding, ground) });
-        motion.found(pinned.link(), Twist { rate: own, at: motion.placement.point(pinned.near), velocity: pin });
-        dyad.legs.iter().try_for_each(|leg| dyad.follow_rest(motion, leg))
+        let how = format!(": relative {{velocity}} across the inner slide over {}", dyad.pivot_name());
+        let speed = motion.named_sliding(speed, slider.outer, &dyad.link_name(slider), &how);
+        motion.slides(slider.outer, slider.link(), speed);
+        dyad.follow_rest(motion, slider, slider.link())?;
+        let rate = motion.rate(pinned.link());
+        dyad.turn(motion, pinned, rate)
     }
 }

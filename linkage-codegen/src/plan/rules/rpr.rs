@@ -17,18 +17,18 @@
 //! Velocities: `v_Q − v_P = ω d⊥ + ṡ e`, multiplied by n: `ω = n·(v_Q − v_P)/s`. So s is the pivot: where it vanishes, the line between
 //! the pins is square to the slide.
 
-use super::dyad::{Dyad, dyad, towards_unit};
+use super::dyad::{Dyad, Leg, dyad, towards_unit};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
-use crate::model::ids::JointId;
+use crate::model::ids::{GROUND, JointId};
 use crate::model::{Model, Side};
 use crate::plan::assembly::{Assembly, DyadPivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::pivots::Pivots;
 use crate::plan::placement::Placement;
-use crate::plan::velocities::{Motion, Twist};
+use crate::plan::velocities::Motion;
 use crate::topology::Group;
 
 /// The rule.
@@ -96,7 +96,7 @@ impl Rule for Rpr {
         let loads = balance.total(leg.link());
         dyad.guide_inner(balance, leg, acting);
         if leg.is_single() {
-            let ground = balance.placement.direction(crate::model::ids::GROUND);
+            let ground = balance.placement.direction(GROUND);
             let held = loads.plus(&dyad.guided(balance, leg), ground);
             balance.pin(leg.outer, leg.link(), held.opposite());
         } else {
@@ -110,43 +110,50 @@ impl Rule for Rpr {
         let Some(dyad) = sliding_pair(motion.model(), group) else { return Ok(()) };
         let [first, second] = &dyad.legs;
         let e = motion.placement.slide_direction(dyad.inner);
-        let [p, q] = [first, second].map(|leg| motion.across(leg.outer, leg.far.end.link));
-        // The links of the slide turn together, but for what drives turn one of them against the other, and within the bodies.
-        let carrier = motion.model().joint(dyad.inner).kind.line().map(|(carrier, _)| carrier);
-        let further = [first, second].map(|leg| {
-            let within = dyad.driven_turning(motion, leg);
-            let other = if leg.link() == first.link() { second } else { first };
-            let in_slot = if carrier == Some(leg.tip.end.link) {
-                motion.graph().zero()
-            } else {
-                motion.driven_rate(dyad.inner, other.tip.end.link)
-            };
-            in_slot - within
-        });
-        let ground = motion.placement.direction(crate::model::ids::GROUND);
-        let still = Framed { components: motion.graph().zero_vector(), axes: ground };
-        let driven = [(first, further[0]), (second, further[1])].map(|(leg, further)| {
-            let near = motion.placement.point(leg.near);
-            dyad.velocity_of_tip(motion, leg, (near, still), further)
-        });
-        let gap = motion.difference(&q.plus(&driven[1], ground), &p.plus(&driven[0], ground));
+        // If the bodies that slide along each other did not turn; what drives within the legs turn them by is taken off.
+        let own = turns_within(&dyad, motion)?;
+        let ground = motion.placement.direction(GROUND);
+        let carried = place_on(&dyad, motion, first).plus(&motion.coriolis(dyad.inner, second.tip.end.link), ground);
+        let gap = motion.lacking(dyad.inner, &place_on(&dyad, motion, second), &carried);
         let across = motion.part(&gap, e.perp());
         let rate = if across.is_zero() { across } else { across / reach(&dyad, motion.placement, motion.pivots) };
         let [one, other] = [first, second].map(|leg| dyad.link_name(leg));
-        let rate = rate.named(
-            motion.name(&format!("rate_{one}")),
-            format!(
-                "rate of rotation of {one} and {other}: the pins' relative velocity across the slide over {}",
-                pivot_name(&dyad)
-            ),
-        );
-        for (leg, velocity, further) in [(first, p, further[0]), (second, q, further[1])] {
-            let at = motion.placement.point(leg.near);
-            motion.found(leg.link(), Twist { rate: rate + further, at, velocity });
-            dyad.follow_rest(motion, leg)?;
+        let how = format!(" and {other}: the pins' relative {{velocity}} across the slide over {}", pivot_name(&dyad));
+        let rate = motion.named_rate(rate, &one, &how);
+        if [first, second].into_iter().all(Leg::is_single) && !is_turned(&dyad) {
+            // Turning, the slide's places on the two links move apart along it.
+            let arm =
+                |leg: &Leg| motion.placement.slide_point(dyad.inner, leg.link()) - motion.placement.point(leg.near);
+            let apart = (arm(second) - arm(first)).perp().dot(motion.placement.slide_along(dyad.inner));
+            let sliding = motion.part(&gap, e) + rate * apart;
+            motion.records(dyad.inner, second.link(), sliding);
         }
-        Ok(())
+        let legs = [(first, own[0]), (second, own[1])];
+        legs.into_iter().try_for_each(|(leg, own)| dyad.turn(motion, leg, rate - own))
     }
+}
+
+/// Supposes that the carrier of the slide does not turn, nor the other link against it but for a drive. Gives what their first links must
+/// turn back for that.
+fn turns_within<'m>(dyad: &Dyad<'m>, motion: &mut Motion<'m, '_>) -> Result<[Expr<'m>; 2], Diagnostic> {
+    let mut own = [motion.graph().zero(); 2];
+    for (leg, own) in dyad.legs.iter().zip(&mut own) {
+        dyad.turn(motion, leg, *own)?;
+        // In a slot the drive turns the other link against its carrier.
+        let link = leg.tip.end.link;
+        let carrier = dyad.model.joint(dyad.inner).kind.line().map_or(link, |(carrier, _)| carrier);
+        let wanted = if carrier == link { motion.graph().zero() } else { motion.driven_rate(dyad.inner, carrier) };
+        *own = motion.rate(link) - wanted;
+        if !own.is_zero() {
+            dyad.turn(motion, leg, -*own)?;
+        }
+    }
+    Ok(own)
+}
+
+/// The velocity of the slide's place on a leg.
+fn place_on<'m>(dyad: &Dyad<'m>, motion: &Motion<'m, '_>, leg: &Leg) -> Framed<'m> {
+    motion.of_place(leg.tip.end.link, motion.placement.slide_point(dyad.inner, leg.tip.end.link))
 }
 
 fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> RuleResult {

@@ -23,7 +23,7 @@ use crate::plan::assembly::{Assembly, DyadPivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::placement::Way;
-use crate::plan::velocities::{Motion, Twist};
+use crate::plan::velocities::Motion;
 use crate::topology::Group;
 
 /// The rule.
@@ -110,34 +110,27 @@ impl Rule for Rrp {
         let u = dyad.direction(motion.placement, rod_leg);
         // The slider turns with the link that guides it, and B moves with that link but for the sliding:
         // v_A + ω r u⊥ = v_C + ṡ e, multiplied by n and by u.
-        let slider_rate = motion.rate_across(slide, slider_leg.far.end.link);
-        let (at, guided) = super::slide::carried(motion, slide, slider_leg.link());
-        let ground = motion.placement.direction(GROUND);
-        let carried = dyad.velocity_of_tip(motion, slider_leg, (at, guided), slider_rate);
-        let outer = motion.across(rod_leg.outer, rod_leg.far.end.link);
-        let gap = motion.difference(&carried, &outer.plus(&dyad.driven_velocity(motion, rod_leg), ground));
+        motion.found(slider_leg.link(), motion.carried(slide, slider_leg.link()));
+        dyad.follow_rest(motion, slider_leg, slider_leg.link())?;
+        dyad.turn(motion, rod_leg, motion.graph().zero())?;
+        let gap = motion.lacking(
+            dyad.inner,
+            &dyad.velocity_of_pin(motion, slider_leg),
+            &dyad.velocity_of_pin(motion, rod_leg),
+        );
         let cosine = motion.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
         let rod = dyad.link_name(rod_leg);
         let across = motion.part(&gap, e.perp());
         let rate = if across.is_zero() { across } else { (across / cosine) / dyad.length(rod_leg) };
-        let rate = rate.named(
-            motion.name(&format!("rate_{rod}")),
-            format!("rate of rotation of {rod}: the pins' relative velocity across the slide over length times u·e"),
-        );
+        let how = ": the pins' relative {velocity} across the slide over length times u·e";
+        let rate = motion.named_rate(rate, &rod, how);
         let along = motion.part(&gap, u);
         let speed = if along.is_zero() { along } else { -(along / cosine) };
-        let speed = speed.named(
-            motion.name(&format!("speed_{}", dyad.joint_name(slide))),
-            format!(
-                "speed of {} along the slide: the pins' relative velocity along {rod} over u·e",
-                dyad.link_name(slider_leg)
-            ),
-        );
-        let rod_at = motion.placement.point(rod_leg.near);
-        motion.found(rod_leg.link(), Twist { rate, at: rod_at, velocity: outer });
-        let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes: e };
-        motion.found(slider_leg.link(), Twist { rate: slider_rate, at, velocity: guided.plus(&sliding, ground) });
-        dyad.legs.iter().try_for_each(|leg| dyad.follow_rest(motion, leg))
+        let how = format!(": the pins' relative {{velocity}} along {rod} over u·e");
+        let speed = motion.named_sliding(speed, slide, &dyad.link_name(slider_leg), &how);
+        dyad.turn(motion, rod_leg, rate)?;
+        motion.slides(slide, slider_leg.link(), speed);
+        dyad.follow_rest(motion, slider_leg, slider_leg.link())
     }
 }
 

@@ -25,7 +25,7 @@ use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::half_angle::{HalfAngle, first_dyad_on};
 use crate::plan::placement::{Spot, Way};
-use crate::plan::velocities::{Motion, Twist};
+use crate::plan::velocities::Motion;
 use crate::topology::Group;
 
 /// The rule.
@@ -151,31 +151,20 @@ impl Rule for Rrr {
         let model = motion.model();
         let Some(dyad) = pinned_dyad(model, group) else { return Ok(()) };
         let [u1, u2] = dyad.legs.each_ref().map(|leg| dyad.direction(motion.placement, leg));
-        let [p, q] = dyad.legs.each_ref().map(|leg| motion.across(leg.outer, leg.far.end.link));
-        // v_P + ω₁ r₁ u₁⊥ = v_Q + ω₂ r₂ u₂⊥, multiplied by u₂ and by u₁; what drives within the legs give their ends comes on top.
-        let ground = motion.placement.direction(crate::model::ids::GROUND);
-        let [first, second] = dyad.legs.each_ref().map(|leg| dyad.driven_velocity(motion, leg));
-        let gap = motion.difference(&q.plus(&second, ground), &p.plus(&first, ground));
+        // Where the inner pin would be if the legs' first links did not turn: v_P + ω₁ r₁ u₁⊥ = v_Q + ω₂ r₂ u₂⊥, multiplied by u₂ and by
+        // u₁.
+        dyad.legs.iter().try_for_each(|leg| dyad.turn(motion, leg, motion.graph().zero()))?;
+        let [first, second] = dyad.legs.each_ref().map(|leg| dyad.velocity_of_pin(motion, leg));
+        let gap = motion.lacking(dyad.inner, &second, &first);
         let sine = motion.pivots.dividing_sine(u1, u2, &dyad.pivot_name(), &dyad.group_name());
-        let rates = [(u2, &dyad.legs[0], p), (u1, &dyad.legs[1], q)].map(|(along, leg, velocity)| {
+        let rates = [(u2, &dyad.legs[0]), (u1, &dyad.legs[1])].map(|(along, leg)| {
             let part = motion.part(&gap, along);
             let rate = if part.is_zero() { part } else { (part / sine) / dyad.length(leg) };
-            let name = dyad.link_name(leg);
             let other = dyad.link_name(dyad.other(leg));
-            let rate = rate.named(
-                motion.name(&format!("rate_{name}")),
-                format!(
-                    "rate of rotation of {name}: the pins' relative velocity along {other} over length times sin μ"
-                ),
-            );
-            (leg, rate, velocity)
+            let how = format!(": the pins' relative {{velocity}} along {other} over length times sin μ");
+            (leg, motion.named_rate(rate, &dyad.link_name(leg), &how))
         });
-        for (leg, rate, velocity) in rates {
-            let at = motion.placement.point(leg.near);
-            motion.found(leg.link(), Twist { rate, at, velocity });
-            dyad.follow_rest(motion, leg)?;
-        }
-        Ok(())
+        rates.into_iter().try_for_each(|(leg, rate)| dyad.turn(motion, leg, rate))
     }
 }
 

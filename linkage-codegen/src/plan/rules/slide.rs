@@ -5,15 +5,15 @@
 
 use super::{Rule, RuleResult};
 use crate::graph::{Expr, Vector};
-use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
+use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model, UnknownKind};
 use crate::plan::assembly::Assembly;
 use crate::plan::balance::Balance;
-use crate::plan::efforts::{Act, Unit};
+use crate::plan::efforts::Unit;
 use crate::plan::framed::Framed;
 use crate::plan::pivots::Pivots;
 use crate::plan::placement::Placement;
-use crate::plan::velocities::{Motion, Twist};
+use crate::plan::velocities::Motion;
 use crate::topology::{Freedom, Group, Input};
 
 /// The rule.
@@ -68,7 +68,7 @@ impl Rule for Slide {
             total.y
         } else {
             let along = unit.force_on(link, balance.placement.direction(GROUND));
-            let cosine = dividing_cosine(balance.placement, balance.pivots, unknown, &unit, slide, link);
+            let cosine = dividing_cosine(balance.placement, balance.pivots, unknown.into(), &unit, slide, link);
             let value = (-total.x / cosine).named(balance.name(effort), format!("−{sum}, over the cosine"));
             balance.found(unknown, value);
             unit.exert_outside(balance, value, &[]);
@@ -82,36 +82,20 @@ impl Rule for Slide {
 
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let model = motion.model();
-        let Some((link, slide, Input::Unknown(unknown))) = parts(model, group) else { return Ok(()) };
-        let joint = model.joint(slide);
-        let far = if joint.to.link == link { joint.from.link } else { joint.to.link };
-        let direction = motion.placement.slide_direction(slide);
-        let at = motion.placement.slide_point(slide, link);
+        let Some((link, slide, input)) = parts(model, group) else { return Ok(()) };
         // The link moves with the other one, and along it.
-        let rate = motion.rate_across(slide, far);
-        let carried = motion.of_place(far, motion.placement.slide_point(slide, far));
-        let own = motion.rate_of(unknown);
-        let ground = motion.placement.direction(GROUND);
-        let unit = Unit::of(motion.placement, unknown);
-        let sliding = if let UnknownKind::Drive(_) = model.unknown(unknown).kind {
-            if joint.to.link == link { own } else { -own }
+        motion.found(link, motion.carried(slide, link));
+        let own = motion.rate_of(input);
+        let unit = Unit::of(motion.placement, input);
+        let sliding = if let UnknownKind::Drive(_) = input.effort(model) {
+            if model.joint(slide).to.link == link { own } else { -own }
         } else {
-            let cosine = dividing_cosine(motion.placement, motion.pivots, unknown, &unit, slide, link);
+            let cosine = dividing_cosine(motion.placement, motion.pivots, input, &unit, slide, link);
             // The power of the unit on all links is the rate of its coordinate: on this one, as if it did not slide.
-            let at_rest = unit.on(link).fold(motion.graph().zero(), |sum, act| match *act {
-                Act::Force(_, place, force) => {
-                    let turning = (place - at).perp().scaled(rate);
-                    let turning = Framed { components: turning, axes: motion.placement.direction(link) };
-                    sum + carried.plus(&turning, ground).along(force.axes).dot(force.components)
-                }
-                Act::Couple(_, moment) => sum + moment * rate,
-            });
-            (own - unit.power_outside(motion, &[link]) - at_rest) / cosine
+            (own - unit.power_outside(motion, &[link]) - unit.power_on(motion, link)) / cosine
         };
-        let meaning = format!("speed of {} along the slide {}", model.link(link).name, joint.name);
-        let sliding = sliding.named(motion.name(&format!("speed_{}", joint.name)), meaning);
-        let along = Framed { components: Vector::new(sliding, motion.graph().zero()), axes: direction };
-        motion.found(link, Twist { rate, at, velocity: carried.plus(&along, ground) });
+        let sliding = motion.named_sliding(sliding, slide, &model.link(link).name.text, "");
+        motion.slides(slide, link, sliding);
         Ok(())
     }
 }
@@ -162,21 +146,13 @@ pub(super) fn react<'m>(
 fn dividing_cosine<'m>(
     placement: &Placement<'m>,
     pivots: &Pivots<'m>,
-    unknown: UnknownId,
+    input: Input,
     unit: &Unit<'m>,
     slide: JointId,
     link: LinkId,
 ) -> Expr<'m> {
     let model = placement.model;
     let along = unit.force_on(link, placement.direction(GROUND)).ground();
-    let (pivot, name) = (format!("cos_{}", model.unknown(unknown).name), &model.link(link).name.text);
+    let (pivot, name) = (format!("cos_{}", input.name(model)), &model.link(link).name.text);
     pivots.dividing_cosine(placement.slide_direction(slide), along, unit.spread, &pivot, name)
-}
-
-/// A place on a slider, and the velocity that it has in so far as it moves with its guide, without the sliding.
-pub(super) fn carried<'m>(motion: &Motion<'m, '_>, slide: JointId, link: LinkId) -> (Vector<'m>, Framed<'m>) {
-    let joint = motion.model().joint(slide);
-    let guide = if joint.to.link == link { joint.from.link } else { joint.to.link };
-    let guided = motion.of_place(guide, motion.placement.slide_point(slide, guide));
-    (motion.placement.slide_point(slide, link), guided)
 }

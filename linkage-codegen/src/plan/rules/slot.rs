@@ -119,10 +119,12 @@ impl<'m> Parts<'m> {
         balance.react(self.slot, &[normal.named(name, format!("{sign}{equation}"))]);
     }
 
-    /// The velocity of the other link at the pin in the slot.
-    fn passed_on(&self, motion: &Motion<'m, '_>) -> Framed<'m> {
-        let far = self.far(self.slot);
-        motion.of_place(far, motion.placement.slide_point(self.slot, far))
+    /// What the velocity of the link at the slot lacks of that of the other link there.
+    fn missing(&self, motion: &Motion<'m, '_>) -> Framed<'m> {
+        let [own, other] = [self.link, self.far(self.slot)]
+            .map(|link| motion.of_place(link, motion.placement.slide_point(self.slot, link)));
+        let beyond = motion.coriolis(self.slot, self.link);
+        motion.lacking(self.slot, &other.plus(&beyond, motion.placement.direction(GROUND)), &own)
     }
 
     /// The lever arm of the slot's normal about the pin, as a divisor.
@@ -183,17 +185,16 @@ impl Rule for SlotAndPin {
 
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let Some(parts) = with_pin(motion.model(), group) else { return Ok(()) };
-        let velocity = motion.across(parts.held, parts.far(parts.held));
-        let gap = motion.difference(&parts.passed_on(motion), &velocity);
+        let at = motion.placement.slide_point(parts.held, parts.link);
+        let velocity = motion.passed_on(parts.held, parts.link);
+        // If the link did not turn.
+        motion.found(parts.link, Twist { rate: motion.graph().zero(), at, velocity });
+        let gap = parts.missing(motion);
         let normal = motion.placement.slide_direction(parts.slot).perp();
         let part = motion.part(&gap, normal);
         let rate = if part.is_zero() { part } else { part / parts.arm(motion.placement) };
-        let name = parts.name();
-        let rate = rate.named(
-            motion.name(&format!("rate_{name}")),
-            format!("rate of rotation of {name}: the pins' relative velocity across the slot over its lever arm"),
-        );
-        let at = motion.placement.slide_point(parts.held, parts.link);
+        let how = ": the pins' relative {velocity} across the slot over its lever arm";
+        let rate = motion.named_rate(rate, parts.name(), how);
         motion.found(parts.link, Twist { rate, at, velocity });
         Ok(())
     }
@@ -362,24 +363,14 @@ impl Rule for SlotAndSlide {
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let Some(parts) = with_slide(motion.model(), group) else { return Ok(()) };
         let Parts { link, slot, held: slide, .. } = parts;
-        let far = parts.far(slide);
-        let (rate, ground) = (motion.rate_across(slide, far), motion.placement.direction(GROUND));
-        let at = motion.placement.slide_point(slide, link);
-        let guided = motion.of_place(far, motion.placement.slide_point(slide, far));
-        let turning = (motion.placement.slide_point(slot, link) - at).perp().scaled(rate);
-        let carried = guided.plus(&Framed { components: turning, axes: motion.placement.direction(link) }, ground);
-        let gap = motion.difference(&parts.passed_on(motion), &carried);
+        motion.found(link, motion.carried(slide, link));
+        let gap = parts.missing(motion);
         let part = motion.part(&gap, motion.placement.slide_direction(slot).perp());
         let (sine, _) = inclination(motion.placement, motion.pivots, &parts);
         let speed = if part.is_zero() { part } else { part / sine };
-        let name = parts.joint_name(slide);
-        let speed = speed.named(
-            motion.name(&format!("speed_{name}")),
-            format!("speed of {} along the slide {name}: the relative velocity across the slot over n·m", parts.name()),
-        );
-        let axes = motion.placement.slide_direction(slide);
-        let sliding = Framed { components: Vector::new(speed, motion.graph().zero()), axes };
-        motion.found(link, Twist { rate, at, velocity: guided.plus(&sliding, ground) });
+        let how = ": the relative {velocity} across the slot over n·m";
+        let speed = motion.named_sliding(speed, slide, parts.name(), how);
+        motion.slides(slide, link, speed);
         Ok(())
     }
 }

@@ -10,24 +10,22 @@ linkage! {
     link coupler { A -> B: 100mm, C: left(A -> B, 70mm, 80mm) }
     link rocker  { B0 -> B: 120mm, D: (90mm, 0) }
 
+    mass coupler: 0.4kg at C, inertia 300kg*mm^2;
+
     revolute A0: ground  -> crank;
     revolute A:  crank   -> coupler;
     revolute B:  coupler -> rocker;
     revolute B0: ground  -> rocker;
 
-    drive theta: A0;
+    drive theta: A0 { rate: 3000rpm, rate: 50rpm };
     unknown T12: torque(ground -> crank);
     assemble B: left(A -> B0);
 
     load F13: force(coupler.C);
     load F14: force(rocker.D) = 100N @ 200deg;
 
-    load K: spring(ground.B0, rocker.D) { rate: 2N/mm, free: 60mm, damping: 0.1N*s/mm };
-    load KT: torsion(ground -> crank) { rate: 3N*m/rad, free: 20deg, damping: _ };
-    load I: inertia;
-
-    scene statics: equilibrium;
-    scene torque: virtual_work -> (T12);
+    scene statics: equilibrium(F13, F14);
+    scene torque: virtual_work(F13, F14) -> (T12);
 }
 
 fn main() {
