@@ -663,10 +663,8 @@ fn every_rule_satisfies_the_equations_of_its_group() {
 
 /// Velocities keep the constraints, and so do accelerations: `J q̇ = 0` and `J q̈ + J̇ q̇ = 0`, the drives' own coordinates as given.
 fn check_motion(linkage: &linkage_codegen::Linkage, arguments: &Arguments, text: &str) {
-    let motions = [
-        [[1.3, -0.7], [0.6, 2.1], [-0.9, 0.4], [0.3, 1.7]],
-        [[-0.4, 0.0], [1.9, -1.0], [0.0, 1.1], [-1.2, 0.0]],
-    ];
+    let motions =
+        [[[1.3, -0.7], [0.6, 2.1], [-0.9, 0.4], [0.3, 1.7]], [[-0.4, 0.0], [1.9, -1.0], [0.0, 1.1], [-1.2, 0.0]]];
     for motion in motions {
         let arguments = Arguments { motion: motion.to_vec(), ..arguments.clone() };
         for (source, [rate, acceleration]) in open_motion::<Extended>(linkage, &arguments).unwrap() {
