@@ -551,7 +551,7 @@ pub enum LoadKind {
 }
 
 /// What is wanted.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// Its name.
     pub name: Name,
@@ -615,6 +615,8 @@ pub enum Wanted {
     Inertia(LinkId),
     /// Where a single force is equivalent to them.
     Offset(LinkId),
+    /// Bounds of the rounding errors of all other results.
+    ErrorBound,
 }
 
 /// What moves.
@@ -726,6 +728,7 @@ impl Model {
             }
             Wanted::Inertia(id) => format!("{}_inertia", link(id)?),
             Wanted::Offset(id) => format!("{}_offset", link(id)?),
+            Wanted::ErrorBound => scenes::ERROR_BOUND.to_owned(),
         })
     }
 
