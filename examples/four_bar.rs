@@ -1,8 +1,9 @@
 //! METU Example 6.3: a four-bar with forces on its coupler and its rocker, held by a torque on its crank.
 //!
-//! `cargo run --example four_bar` prints the pose, the free bodies' equations, the joint forces, what each load contributes, the torque
-//! by virtual work, and how well all methods agree.
+//! `cargo run --example four_bar` prints the pose, the limits of the linkage, the free bodies' equations, the joint forces, what each load
+//! contributes, the torque by virtual work, and how well all methods agree.
 
+use linkage_runtime::limits::{DriverRange, Interval};
 use linkage_runtime::{Error, Vector2, linkage, polar};
 
 linkage! {
@@ -58,6 +59,19 @@ fn main() -> Result<(), Error> {
     println!("  θ13 = {:.4}°, θ14 = {:.4}°", places.coupler_angle.to_degrees(), places.rocker_angle.to_degrees());
     println!("  sin μ at B = {:.4}", pose.sin_mu_B());
 
+    let limits = four_bar::LIMITS.B;
+    let [least, greatest] = limits.transmission.map(|one| one.angle.to_degrees());
+    println!("\nLimits: {:?}, the crank {}", limits.class, crank_turns(limits.range));
+    for dead in limits.dead_centres.iter().flatten() {
+        println!(
+            "  the rocker cannot turn the crank at θ12 = {:.4}°: {:?} at {}",
+            dead.at.to_degrees(),
+            dead.posture,
+            dead.joint
+        );
+    }
+    println!("  transmission angle between {least:.4}° and {greatest:.4}°");
+
     println!("\n{}", free_bodies());
 
     let all = pose.statics(&loads)?;
@@ -106,6 +120,18 @@ fn main() -> Result<(), Error> {
     println!("\nBy F14 alone, at B               {}", vector(pose.bearing()?.B));
     println!("\nAgreement: {}", pose.check(&loads)?);
     Ok(())
+}
+
+/// How far the crank can go, in words.
+fn crank_turns(range: DriverRange<f64>) -> String {
+    let piece = |Interval { from, to }: Interval<f64>| {
+        format!("from {:.4}° to {:.4}°", from.at.to_degrees(), to.at.to_degrees())
+    };
+    match range {
+        DriverRange::Unlimited => "goes all round".to_owned(),
+        DriverRange::One(one) => format!("goes {}", piece(one)),
+        DriverRange::Two([first, second]) => format!("goes {} or {}", piece(first), piece(second)),
+    }
 }
 
 /// The part of the derivation that a textbook writes first.

@@ -127,3 +127,59 @@ fn a_smooth_motion_may_start_on_either_side() -> Result<(), Error> {
     }
     Ok(())
 }
+
+linkage! {
+    /// A triad that is placed by iteration, behind a dyad whose side is an argument.
+    mod behind;
+    ground     { O: (0, 0), Q: (5m, 1m), R: (2m, -2m) }
+    link crank { O -> A: 1m }
+    link e     { A -> H: 2m }
+    link f     { R -> H: 2m, P: (1.745m, -1.398m) }
+    link b     { A -> E: 1.95m, G: (1m, 1m) }
+    link t     { E: (0, 0), C: (1m, 0.7m), D: (0.7m, -0.9m) }
+    link c     { Q -> C: 1.92m }
+    link d     { D: (0.2m, 0.1m), P: (1.8m, 0.6m) }
+    revolute O: ground -> crank;
+    revolute Ae: crank.A -> e.A;
+    revolute H: e -> f;
+    revolute R: ground -> f;
+    revolute Ab: crank.A -> b.A;
+    revolute E: t -> b;
+    revolute C: t -> c;
+    revolute D: d -> t;
+    revolute Q: ground -> c;
+    revolute P: d -> f;
+    drive q: O;
+    assemble H: either(Ae -> R);
+    start q: 0.4rad;
+    start b: (1m, 0.4m), angle 36deg;
+    start t: (2.5m, 1.5m), angle 0;
+    start c: (5m, 1m), angle 140deg;
+    start d: (3m, 0.6m), angle -80deg;
+    load F: force(b.G) = (3N, -2N);
+    scene statics: equilibrium;
+    scene work: virtual_work;
+    scene places: position -> (C, P, c.C, f.P);
+}
+
+#[test]
+fn a_group_behind_a_chosen_side_is_searched_from_its_start() -> Result<(), Error> {
+    let closures = behind::Closures { H: Side::Left };
+    let mut pose = behind::Pose::at(0.4, closures)?;
+    for step in 0..20 {
+        let q = 0.4 + f64::from(step) * 0.02;
+        // A pose that is moved keeps its side.
+        pose = pose.moved_to(q)?;
+        let direct = behind::Pose::at(q, closures)?;
+        assert!((pose.H() - direct.H()).norm() < 1e-13 && (pose.C() - direct.C()).norm() < 1e-12);
+        assert!((pose.c_C() - pose.t_C()).norm() < 1e-12 && (pose.f_P() - pose.d_P()).norm() < 1e-12);
+        let (held, work) = (pose.statics()?, behind::work_at(q, closures)?);
+        assert!((held.effort_q - work.effort_q).abs() < 1e-11);
+    }
+    // On the other side of the dyad the triad may be out of reach: never a wrong pose.
+    match behind::Pose::at(0.4, behind::Closures { H: Side::Right }) {
+        Ok(pose) => assert!((pose.c_C() - pose.t_C()).norm() < 1e-12 && (pose.f_P() - pose.d_P()).norm() < 1e-12),
+        Err(error) => assert!(matches!(error, Error::NoConvergence { .. }), "{error}"),
+    }
+    Ok(())
+}

@@ -10,6 +10,7 @@ pub mod diagnostics;
 pub mod emit;
 pub mod equations;
 pub mod graph;
+pub mod limits;
 pub mod model;
 pub mod plan;
 pub mod program;
@@ -20,6 +21,7 @@ use proc_macro2::TokenStream;
 
 use diagnostics::{Diagnostic, Sink};
 use equations::System;
+use limits::Limits;
 use model::Model;
 use plan::Plan;
 use program::Functions;
@@ -38,6 +40,8 @@ pub struct Linkage {
     pub plan: Plan,
     /// The functions.
     pub functions: Functions,
+    /// What is known of its four-bars and slider-cranks.
+    pub limits: Limits,
 }
 
 /// A declaration that is wrong.
@@ -72,21 +76,23 @@ pub fn analyse(declaration: TokenStream) -> Result<Linkage, Refusal> {
     let mut model = syntax::parse(declaration, &sink).map(|ast| model::resolve(&ast, &sink));
     let solved = model.as_ref().filter(|_| sink.is_clean()).and_then(|model| solve(model, &sink));
     match (solved, model.take()) {
-        (Some((topology, system, plan, functions)), Some(model)) if sink.is_clean() => {
-            Ok(Linkage { model, topology, system, plan, functions })
+        (Some((topology, system, plan, functions, limits)), Some(model)) if sink.is_clean() => {
+            Ok(Linkage { model, topology, system, plan, functions, limits })
         }
         (_, model) => Err(Refusal { errors: sink.into_errors(), model: model.map(Box::new) }),
     }
 }
 
-fn solve(model: &Model, sink: &Sink) -> Option<(Topology, System, Plan, Functions)> {
+fn solve(model: &Model, sink: &Sink) -> Option<(Topology, System, Plan, Functions, Limits)> {
     let topology = Topology::of(model, sink)?;
     let system = System::of(model, &topology);
     let plan = Plan::of(model, &topology, &system, sink)?;
     let functions = Functions::of(&model.graph, &plan);
     program::check_range(model, &functions, sink);
     program::check_start(model, &functions, sink);
-    Some((topology, system, plan, functions))
+    // Last, as its expressions share the graph: they change no function.
+    let limits = Limits::of(model, &topology);
+    Some((topology, system, plan, functions, limits))
 }
 
 /// The module of a declaration; of a wrong one its errors, and a module with the same names, so that one mistake is one error.

@@ -275,10 +275,12 @@ fn stephenson_moved() {
     let at = |theta: f64| Arguments { drives: vec![theta], loads: vec![[0.0; 2]; 2], ..Arguments::default() };
     let mut kept = pose::<Double>(&linkage, &at(0.5)).expect("a pose");
     let mut emitted = stephenson::Pose::at(0.5).expect("a pose");
-    for step in 0..630 {
-        let theta = 0.5 + f64::from(step) * 0.01;
-        kept = support::moved(&linkage, &kept, &at(theta)).expect("a pose");
+    let mut before = 0.5;
+    // By small steps, and by some that are followed in strides.
+    for theta in (0..630).map(|step| 0.5 + f64::from(step) * 0.01).chain([4.0, 9.5, -3.0, 0.5]) {
+        kept = support::moved(&linkage, (&kept, &at(before)), &at(theta)).expect("a pose");
         emitted = emitted.moved_to(theta).expect("a pose");
+        before = theta;
         let expected = values_from_kept(&linkage, "place", &kept, &at(theta)).map(|all| all.1);
         assert_eq!(numbers(&emitted.place()), Interpreted::bits(expected), "at {theta}");
     }

@@ -105,7 +105,7 @@ fn a_sweep_stays_on_its_branch_and_comes_back() {
     // As far as it goes, by degrees.
     for step in 1..=720 {
         let q = 0.4 + f64::from(step) * 1f64.to_radians();
-        match moved(&linkage, &here, &at(q)) {
+        match moved(&linkage, (&here, &at(end)), &at(q)) {
             Ok(next) => {
                 let turned = next.iter().map(|(node, value)| (value.0 - here[node].0).abs()).fold(0.0, f64::max);
                 assert!(turned < 0.5, "jumps by {turned} at {q}");
@@ -122,12 +122,97 @@ fn a_sweep_stays_on_its_branch_and_comes_back() {
     // And back again, to the same place.
     let mut q = end;
     while q > 0.4 {
-        q = (q - 1f64.to_radians()).max(0.4);
-        here = moved(&linkage, &here, &at(q)).expect("the way back");
+        let next = (q - 1f64.to_radians()).max(0.4);
+        here = moved(&linkage, (&here, &at(q)), &at(next)).expect("the way back");
+        q = next;
     }
     for (node, value) in &start {
         assert!((value.0 - here[node].0).abs() < 1e-13, "{} {}", value.0, here[node].0);
     }
+}
+
+/// The largest difference of two poses.
+fn apart(a: &HashMap<NodeId, Double>, b: &HashMap<NodeId, Double>) -> f64 {
+    a.iter().map(|(node, value)| (value.0 - b[node].0).abs()).fold(0.0, f64::max)
+}
+
+/// How far random linkages go, and the same poses by small steps and at once.
+fn check_far(seeds: core::ops::Range<u64>) -> [usize; 3] {
+    let (mut reached, mut ended, mut timid) = (0, 0, 0);
+    for seed in seeds {
+        let kind = Kind {
+            dyads: 0,
+            sliders: seed % 2 == 1,
+            joints: false,
+            unknown_anywhere: false,
+            moving: false,
+            params: seed % 3 == 2,
+            scalar: "f64",
+        };
+        let sample = sample_with_search(seed, kind);
+        let linkage = compile(&sample.text);
+        let with = |q: f64| {
+            let mut arguments = sample.arguments.clone();
+            arguments.drives[0] = q;
+            arguments
+        };
+        let begin = sample.arguments.drives[0];
+        for sense in [1.0, -1.0] {
+            // A dense walk.
+            let (mut here, mut q) = (pose::<Double>(&linkage, &with(begin)).expect("the start"), begin);
+            let mut ends = false;
+            for step in 1..=400 {
+                let next = begin + sense * f64::from(step) * 0.01;
+                match moved(&linkage, (&here, &with(q)), &with(next)) {
+                    Ok(pose) => (here, q) = (pose, next),
+                    Err(_) => {
+                        ends = true;
+                        break;
+                    }
+                }
+                if step % 100 != 0 {
+                    continue;
+                }
+                match pose::<Double>(&linkage, &with(q)) {
+                    Ok(at_once) => {
+                        let apart = apart(&at_once, &here);
+                        assert!(apart < 1e-9, "seed {seed}: another branch at {q}, {apart:e} off\n{}", sample.text);
+                        reached += 1;
+                    }
+                    Err(_) => timid += 1,
+                }
+            }
+            if ends {
+                ended += 1;
+                // Beyond the limit there is nothing, however far.
+                for beyond in [0.011, 0.1, 0.4] {
+                    let q = q + sense * beyond;
+                    let found = pose::<Double>(&linkage, &with(q));
+                    assert!(
+                        matches!(found, Err(Fault::Failed(Failure::NoConvergence { .. }))),
+                        "seed {seed}: {q} is beyond the limit\n{}",
+                        sample.text
+                    );
+                }
+            }
+        }
+    }
+    [reached, ended, timid]
+}
+
+#[test]
+fn far_from_the_start_it_is_the_branch_of_a_dense_walk() {
+    let [reached, ended, timid] = check_far(0..60);
+    println!("{reached} poses reached, {timid} given up, {ended} ways end");
+    assert!(reached > 60 && ended > 20 && timid == 0, "{reached} {ended} {timid}");
+}
+
+#[test]
+#[ignore = "long"]
+fn far_from_the_start_it_is_the_branch_of_a_dense_walk_for_a_thousand() {
+    let [reached, ended, timid] = check_far(1000..2000);
+    println!("{reached} poses reached, {timid} given up, {ended} ways end");
+    assert!(timid == 0, "{timid}");
 }
 
 #[test]
@@ -138,7 +223,7 @@ fn near_singular_poses_are_refused_or_close() {
     let mut step = 0.1;
     let mut refused = 0;
     while step > 1e-15 {
-        match moved(&linkage, &here, &at(q + step)) {
+        match moved(&linkage, (&here, &at(q)), &at(q + step)) {
             Ok(next) => {
                 q += step;
                 let (closure, unit) = errors(&linkage, &at(q), &next);
@@ -167,7 +252,7 @@ fn near_singular_poses_are_refused_or_close() {
     println!("the motion ends at {q}, after {refused} refusals");
     for value in [f64::NAN, f64::INFINITY, -f64::INFINITY] {
         assert_eq!(pose::<Double>(&linkage, &at(value)).unwrap_err(), Fault::NotFinite);
-        assert_eq!(moved(&linkage, &here, &at(value)).unwrap_err(), Fault::NotFinite);
+        assert_eq!(moved(&linkage, (&here, &at(q)), &at(value)).unwrap_err(), Fault::NotFinite);
     }
 }
 

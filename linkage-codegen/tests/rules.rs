@@ -9,7 +9,7 @@ use support::numbers::Extended;
 use support::{Arguments, Number, compile, scene};
 
 /// A linkage for each class of groups, with the class named, drives at which it closes, and how the rule is used.
-const CASES: [(&str, &[&[f64]], &str); 73] = [
+const CASES: [(&str, &[&[f64]], &str); 74] = [
     // Motion and forces of a crank, its arrow either way, with an inclined dyad.
     (
         "link on a pin",
@@ -218,6 +218,16 @@ const CASES: [(&str, &[&[f64]], &str); 73] = [
          revolute Q: ground -> c; slot S: b -> c along 10deg of b; slot T: c -> b along 80deg of c; drive q: O;
          start q: 0.6rad; start b: (0.8m, 0.6m), angle 10deg; start c: (3m, 0.5m), angle 0;
          load F: force(b.G) = (3N, -2N); load H: force(c.G) in b = (1N, 4N);",
+    ),
+    // A geared five-bar that is driven at the pin between its couplers; the second wheel is a turn on.
+    (
+        "block",
+        &[&[1.15]],
+        "ground { O: (0, 0), Q: (0.6m, 0) } link g { O -> A: 0.3m } link h { Q -> B: 0.3m, G: (0.1m, 0.1m) } link c { A -> C: 0.65m, G: (0.3m, 0.1m) }
+         link d { B -> C: 0.75m } revolute O: ground -> g; revolute Q: ground -> h; revolute A: g -> c; revolute B: d -> h; revolute C: c -> d;
+         gear W: g.O -> h.Q, radii (0.3m, 0.3m), phase 2.395m, pressure_angle 20deg, flank left; drive q: C;
+         start q: 1.15rad; start g: (0, 0), angle 1.2rad; start h: (0.6m, 0), angle 6.8rad; start c: (0.11m, 0.28m), angle 0.93rad;
+         start d: (0.86m, 0.14m), angle 2.08rad; load F: force(c.G) = (3N, -2N); load H: force(h.G) in c = (1N, 4N); load M: moment(d) = 2N*m;",
     ),
     // A force on the rod of a slider-crank: a core of three.
     (

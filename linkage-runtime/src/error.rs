@@ -42,12 +42,13 @@ pub enum Error {
         /// By how much, in the linkage's unit of length; a diagnostic in single precision.
         gap: f32,
     },
-    /// The search for the places of a group's links, from its starting pose or from the pose before, does not arrive: on its branch
-    /// the group cannot be closed, or the way there is too far.
+    /// The search for the places of a group's links, along the motion from its starting pose or from the pose before, does not arrive:
+    /// on its branch the group cannot be closed, some pose between cannot, or the way there is too far.
     NoConvergence {
         /// The group, by its links.
         group: &'static str,
-        /// How much stays open, in the linkage's unit of length: the sum over all loops; a diagnostic in single precision.
+        /// How much stays open where the drives are wanted, in the linkage's unit of length: the sum over all loops; a diagnostic in
+        /// single precision. Of a pose that closes, but to which no motion leads, it is what was open when the search for it began.
         gap: f32,
     },
     /// The outer joints of a group coincide, so that the place of its inner joint is undetermined.

@@ -47,11 +47,13 @@ extern crate std;
 
 mod closure;
 mod error;
+pub mod limits;
 mod linear;
 pub mod math;
 #[cfg(feature = "reference")]
 pub mod reference;
 mod results;
+mod search;
 mod support;
 
 pub use closure::{Along, Side};
@@ -69,12 +71,16 @@ pub mod __private {
 
     pub mod f32 {
         pub use crate::math::f32::*;
+        crate::limits::limits!(f32);
         crate::linear::linear!(f32);
+        crate::search::search!(f32);
         crate::support::support!(f32, x => x);
     }
     pub mod f64 {
         pub use crate::math::f64::*;
+        crate::limits::limits!(f64);
         crate::linear::linear!(f64);
+        crate::search::search!(f64);
         crate::support::support!(f64, x => x as f32);
     }
 }

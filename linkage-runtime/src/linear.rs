@@ -1,4 +1,4 @@
-//! Linear equations of any number, and Newton's method on top of them.
+//! Linear equations of any number.
 
 /// The functions for a scalar.
 ///
@@ -137,130 +137,13 @@ macro_rules! linear {
             }
             (solution, sign * least)
         }
-
-        /// Newton's method: bounded steps, each from the best place so far.
-        ///
-        /// The caller moves by [`step`](Self::step), works out residuals and Jacobian there, and stays if
-        /// [`improves`](Self::improves) says so. A step that leaves more open than before, or goes through a pose at which the Jacobian
-        /// is singular, is taken back and halved: the search stays on the branch on which it starts. It ends where nothing but
-        /// rounding is open and a further step leaves no less.
-        pub struct Search<const N: usize> {
-            step: [$scalar; N],
-            open: $scalar,
-            rounding: $scalar,
-            sense: $scalar,
-            left: u32,
-        }
-
-        impl<const N: usize> Default for Search<N> {
-            fn default() -> Self {
-                Self::new()
-            }
-        }
-
-        impl<const N: usize> Search<N> {
-            /// Evaluations until it gives up.
-            const MOST: u32 = 40;
-            /// The longest step.
-            const BOUND: $scalar = 0.5;
-
-            /// Before the first evaluation, which is at the start itself.
-            #[must_use]
-            pub fn new() -> Self {
-                Self { step: [0.0; N], open: -1.0, rounding: 0.0, sense: 0.0, left: Self::MOST }
-            }
-
-            /// Whether it goes on, and by which step from the best place.
-            #[inline]
-            pub fn step(&mut self) -> Option<[$scalar; N]> {
-                if self.left == 0 {
-                    return None;
-                }
-                self.left = self.left.wrapping_sub(1);
-                Some(self.step)
-            }
-
-            /// Whether what is left open there is less than at the best place so far. `rounding` is what rounding may leave open.
-            pub fn improves(
-                &mut self,
-                residuals: [$scalar; N],
-                jacobian: [[$scalar; N]; N],
-                rounding: $scalar,
-            ) -> bool {
-                let open = sum_of_sizes(&residuals);
-                let mut sizes = jacobian;
-                let mut rest = sizes.as_mut_slice();
-                while let [line, more @ ..] = rest {
-                    let mut values = line.as_mut_slice();
-                    while let [value, others @ ..] = values {
-                        *value = value.abs();
-                        values = others;
-                    }
-                    rest = more;
-                }
-                let (solution, sense) = solve(jacobian, sizes, residuals);
-                let first = self.open < 0.0;
-                if first || open < self.open && sense * self.sense > 0.0 {
-                    (self.open, self.rounding) = (open, rounding);
-                    if first {
-                        self.sense = sense;
-                    }
-                    let (mut longest, mut rest) = (Self::BOUND, solution.as_slice());
-                    while let [value, others @ ..] = rest {
-                        if value.abs() > longest {
-                            longest = value.abs();
-                        }
-                        rest = others;
-                    }
-                    self.step = solution;
-                    self.scale(-(Self::BOUND / longest));
-                    return true;
-                }
-                if self.open <= self.rounding {
-                    self.left = 0;
-                }
-                self.scale(0.5);
-                false
-            }
-
-            fn scale(&mut self, factor: $scalar) {
-                let mut rest = self.step.as_mut_slice();
-                while let [value, others @ ..] = rest {
-                    *value *= factor;
-                    rest = others;
-                }
-            }
-
-            /// What is open at the best place: zero if that is no more than rounding, NaN if it is not known.
-            #[must_use]
-            pub fn open(&self) -> $scalar {
-                if self.open <= self.rounding { 0.0 } else { self.open }
-            }
-        }
-
-        /// The sum of magnitudes; NaN if one is.
-        fn sum_of_sizes<const N: usize>(values: &[$scalar; N]) -> $scalar {
-            let (mut sum, mut rest) = (0.0, values.as_slice());
-            while let [value, others @ ..] = rest {
-                sum += value.abs();
-                rest = others;
-            }
-            sum
-        }
-
-        /// A direction after a step along the tangent, brought back to unit size: turned by the arc tangent of the step.
-        #[inline]
-        #[must_use]
-        pub fn turned((cos, sin): ($scalar, $scalar), step: $scalar) -> ($scalar, $scalar) {
-            unit(cos - step * sin, sin + step * cos)
-        }
     };
 }
 pub(crate) use linear;
 
 #[cfg(test)]
 mod tests {
-    use crate::__private::f64::{Search, solve, turned};
+    use crate::__private::f64::solve;
 
     #[test]
     fn equations_are_pivoted() {
@@ -277,26 +160,5 @@ mod tests {
         assert!(solve(matrix, matrix, [1.0, 1.0, 0.0]).1.abs() < 1e-15);
         let nothing = [[0.0; 3]; 3];
         assert!(!solve(nothing, nothing, [1.0; 3]).1.is_finite());
-    }
-
-    #[test]
-    fn the_search_ends_at_rounding_or_says_what_is_open() {
-        // The direction whose cosine is given.
-        let find = |wanted: f64, start: (f64, f64)| {
-            let (mut search, mut at) = (Search::<1>::new(), start);
-            while let Some([step]) = search.step() {
-                let next = turned(at, step);
-                if search.improves([next.0 - wanted], [[-next.1]], 1e-15) {
-                    at = next;
-                }
-            }
-            (at, search.open())
-        };
-        let ((_, sin), open) = find(0.8, (1e-3, 1.0));
-        assert!((sin - 0.6).abs() < 1e-15 && open.to_bits() == 0, "{sin} {open}");
-        // The same from the other side stays there.
-        assert!(find(0.8, (1e-3, -1.0)).0.1 < 0.0);
-        assert!((find(1.5, (1e-3, 1.0)).1 - 0.5).abs() < 1e-3);
-        assert!(find(f64::NAN, (0.0, 1.0)).1.is_nan());
     }
 }

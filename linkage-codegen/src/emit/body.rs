@@ -45,6 +45,8 @@ pub(super) struct Body<'a> {
     names: BTreeMap<ValueId, Ident>,
     /// What is being reported: values that are written out where they stand.
     section: String,
+    /// Whether a check that fails says why.
+    gives_reasons: bool,
 }
 
 /// The calls of which several results may be read: one statement for all of them.
@@ -65,7 +67,7 @@ impl<'a> Body<'a> {
             used.insert(name.clone());
             names.insert(value, ident(&name));
         }
-        let mut body = Self { program, graph, names, section: String::new() };
+        let mut body = Self { program, graph, names, section: String::new(), gives_reasons: true };
         let mut uses = program.uses();
         // The results of one call read their arguments together.
         let mut calls = BTreeSet::new();
@@ -98,6 +100,12 @@ impl<'a> Body<'a> {
             }
         }
         body
+    }
+
+    /// The same, of a function that gives nothing where a check fails.
+    pub(super) fn without_reasons(mut self) -> Self {
+        self.gives_reasons = false;
+        self
     }
 
     /// The label of a value; of an unlabelled one, what it is part of.
@@ -267,10 +275,7 @@ impl<'a> Body<'a> {
                 let sizes = sizes.chunks(unknowns).map(|row| quote!([#(#row),*]));
                 quote!(math::solve([#(#rows),*], [#(#sizes),*], [#(#right),*]))
             }
-            Kernel::Search { search, .. } => {
-                let name = ident(&self.graph.search(search).name);
-                quote!(#name(#(#args),*))
-            }
+            Kernel::Search { search, .. } => super::search::call(self.graph, &self.graph.search(search), &args),
         }
     }
 
@@ -320,6 +325,10 @@ impl<'a> Body<'a> {
             let parts: Vec<TokenStream> = (0..kernel.parts()).map(part).collect();
             if let (Kernel::Solve(_), Some((distance, unknowns))) = (kernel, parts.split_last()) {
                 return quote!(#docs let ([#(#unknowns),*], #distance) = #call;);
+            }
+            if let Kernel::Search { search, .. } = kernel {
+                let pattern = super::search::pattern(&self.graph.search(*search), &parts);
+                return quote!(#docs let #pattern = #call;);
             }
             return quote!(#docs let (#(#parts),*) = #call;);
         }
@@ -373,7 +382,11 @@ impl<'a> Body<'a> {
             Failure::CoincidentEnds { of } => quote!(Error::CoincidentEnds { of: #of }),
             Failure::Parameter { requirement } => quote!(Error::Parameter { requirement: #requirement }),
         };
-        quote!(if !(#condition) { return Err(#failure); })
+        if self.gives_reasons {
+            quote!(if !(#condition) { return Err(#failure); })
+        } else {
+            quote!(if !(#condition) { return None; })
+        }
     }
 
     /// What is added up elsewhere is to be finite as a sum.

@@ -123,11 +123,23 @@ pub(super) fn function(summary: &str, points: &[String], program: &Program, equa
 /// Documentation of a search: what it does, and what a step costs.
 pub(super) fn search(search: &Search, program: &Program) -> TokenStream {
     lines(&format!(
-        "Places {} by Newton's method, from the given start: what stays open, and the places.\n\n\
+        "Places {} by Newton's method, from `start` with the drives at `from`: what stays open, and the places.\n\n\
+         The drives go straight to `to`, by short strides, and after each of them the group is closed again.\n\n\
          A step turns each direction `u` by `δ`, to the direction of `u + δ u⊥`; the steps solve `J δ = −gap`, with the exact Jacobian `J`.\n\n\
          Operations of a step, beside the solution of its {} equations: {}.",
         search.group,
         search.residuals.len(),
+        program.counts()
+    ))
+}
+
+/// Documentation of what changes on the way of a search.
+pub(super) fn on_the_way(search: &Search, program: &Program) -> TokenStream {
+    let checks = program.steps.iter().any(|step| matches!(step, Step::Check { .. }));
+    let nothing = if checks { " Nothing, if there is no such pose." } else { "" };
+    lines(&format!(
+        "What {} reads of the links before its own, at a pose on the way.{nothing}\n\nOperations: {}.",
+        search.name,
         program.counts()
     ))
 }

@@ -29,6 +29,7 @@ pub fn text(linkage: &Linkage) -> String {
     );
     text.push_str(&blocks(linkage));
     text.push('\n');
+    text.push_str(&super::limits::text(linkage));
     text.push_str(&closed_forms(linkage));
     text
 }
@@ -228,10 +229,14 @@ fn closed_forms(linkage: &Linkage) -> String {
         let program = prepare_program(linkage);
         add("prepared, from the parameters".into(), &program, &body(linkage, &program));
     }
+    if let Some((heading, program)) = super::limits::closed_form(linkage) {
+        add(heading, program, &body(linkage, program));
+    }
     let pose = &linkage.functions.pose;
     add("pose, from the drives".into(), pose, &body(linkage, pose));
     let searches = linkage.model.graph.searches();
-    for ((_, search), program) in searches.iter().zip(&linkage.functions.searches) {
+    for ((_, search), functions) in searches.iter().zip(&linkage.functions.searches) {
+        let program = &functions.step;
         let heading = format!("{}, each step until nothing but rounding is open", search.name);
         add(heading, program, &super::search::step(linkage, search, program));
     }

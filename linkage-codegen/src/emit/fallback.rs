@@ -41,6 +41,7 @@ pub fn module(mut model: Model) -> TokenStream {
         let arguments = arguments(prepared.clone(), &drives, given);
         quote!(pub fn #name(#arguments) -> Result<#ty, Error> { loop {} })
     });
+    let limits = super::limits::fallback(model, &runtime);
     let (motion, loads) = (motion(model), loads(model, false));
     let closures = closures(model, false);
     let sides = (!closures.is_empty()).then(|| quote!(use #runtime::{Along, Side};));
@@ -64,6 +65,7 @@ pub fn module(mut model: Model) -> TokenStream {
                 #loads
                 #closures
                 #params
+                #limits
                 #pose
                 impl #lifetime Pose #lifetime {
                     pub fn at(#at) -> Result<Self, Error> { loop {} }

@@ -223,7 +223,7 @@ impl<S> Formula<'_, S> {
                 }
             }
             Symbol::Sought(search, number) | Symbol::Start(search, number) => {
-                super::search::kept_name(&self.model.graph.search(search), number)
+                super::search::kept_name(self.model, &self.model.graph.search(search), number)
             }
             Symbol::Dimension(_) => String::new(),
         }

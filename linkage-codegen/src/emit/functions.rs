@@ -17,7 +17,8 @@ use crate::plan::{Comparison, Output};
 use crate::program::{Input, Program, ValueId};
 
 /// Names that a function's own values cannot have.
-const TAKEN: [&str; 8] = ["motion", "loads", "linkage", "params", "closures", "EQUATIONS", "OPERATIONS", "SOURCE"];
+const TAKEN: [&str; 9] =
+    ["motion", "loads", "linkage", "params", "closures", "EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"];
 
 /// The name of an input.
 fn input_name(linkage: &Linkage, input: Input) -> String {
@@ -33,7 +34,7 @@ fn input_name(linkage: &Linkage, input: Input) -> String {
         Input::Symbol(Symbol::Driven(drive, order)) => model.drive(drive).motion_name(order),
         // A number of an unknown, at the pose from which its search starts.
         Input::Symbol(Symbol::Start(search, number)) => {
-            format!("{}_before", super::search::kept_name(&model.graph.search(search), number))
+            format!("{}_before", super::search::kept_name(model, &model.graph.search(search), number))
         }
         // Only in the functions of searches, and nowhere.
         Input::Symbol(Symbol::Sought(..) | Symbol::Coordinate(..) | Symbol::Moving(..) | Symbol::Dimension(_))
@@ -79,7 +80,7 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
             Input::Kept(_) => kept.push(quote!(#name)),
             Input::Symbol(Symbol::Drive(_)) if drives == Drives::Pose => kept.push(quote!(#name)),
             Input::Symbol(Symbol::Start(search, number)) => {
-                let own = ident(&super::search::kept_name(&linkage.model.graph.search(search), number));
+                let own = ident(&super::search::kept_name(&linkage.model, &linkage.model.graph.search(search), number));
                 kept.push(quote!(#own: #name));
             }
             Input::Symbol(Symbol::Driven(..)) => motion.push(name),
@@ -249,17 +250,26 @@ pub(super) fn prepare_program(linkage: &Linkage) -> Program {
     program
 }
 
-/// `Linkage::new`.
-pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
-    let program = prepare_program(linkage);
-    let (statements, body) = body(linkage, &program).statements();
-    let fields = program.outputs.iter().map(|(name, value)| member(name, &body.value(*value)));
+/// The parameters as values of their own, each a finite number.
+pub(super) fn given_params(linkage: &Linkage) -> TokenStream {
     let params = linkage.model.params.iter().map(|param| ident(&param.name.text));
     let finite = linkage.model.params.iter().map(|param| {
         let name = ident(&param.name.text);
         let text = &param.name.text;
         quote!(if !#name.is_finite() { return Err(Error::NotFinite { what: #text }); })
     });
+    quote! {
+        let Params { #(#params),* } = *params;
+        #(#finite)*
+    }
+}
+
+/// `Linkage::new`.
+pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
+    let program = prepare_program(linkage);
+    let (statements, body) = body(linkage, &program).statements();
+    let fields = program.outputs.iter().map(|(name, value)| member(name, &body.value(*value)));
+    let given = given_params(linkage);
     quote! {
         impl Linkage {
             /// Prepares the linkage of some dimensions.
@@ -268,8 +278,7 @@ pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
             ///
             /// [`Error::Parameter`] if a dimension is out of its range, [`Error::NotFinite`] if one is not a finite number.
             pub fn new(params: &Params) -> Result<Self, Error> {
-                let Params { #(#params),* } = *params;
-                #(#finite)*
+                #given
                 #statements
                 Ok(Self { #(#fields),* })
             }
@@ -280,7 +289,8 @@ pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
 /// `Pose::at`, and with searches `Pose::moved_to`.
 pub(super) fn poses(linkage: &Linkage) -> TokenStream {
     let summary = "The pose at given coordinates of the drives.";
-    let start = "Groups that are placed by Newton's method are searched from their declared start.";
+    let start = "Groups that are placed by Newton's method are followed from their declared start: the drives go straight from where they \
+                 start to the given coordinates. A pose to which no motion leads that way is [`Error::NoConvergence`].";
     let points: &[&str] = if linkage.functions.near.is_some() { &[start] } else { &[] };
     let receiver = linkage_argument(linkage, &quote!('l));
     let own = if has_params(linkage) { quote!(linkage,) } else { TokenStream::new() };
@@ -288,8 +298,8 @@ pub(super) fn poses(linkage: &Linkage) -> TokenStream {
     if let Some(near) = &linkage.functions.near {
         let summary = "The pose at other coordinates of the drives, from this one.";
         let points = [
-            "Groups that are placed by Newton's method are searched from where they are, and stay on their branch: a search that would \
-             have to go through a singular pose does not arrive. Take steps that are small against the motion between such poses.",
+            "Groups that are placed by Newton's method are followed from where they are: the drives go straight from their coordinates to \
+             the given ones. A pose to which no motion leads that way, through a singular pose for one, is [`Error::NoConvergence`].",
         ];
         let own = if has_params(linkage) { quote!(linkage: self.linkage,) } else { TokenStream::new() };
         all.extend(pose_function(linkage, near, &quote!(moved_to), &quote!(&self,), &own, summary, &points));

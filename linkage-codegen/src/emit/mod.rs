@@ -6,6 +6,7 @@ mod equations;
 mod fallback;
 mod formula;
 mod functions;
+mod limits;
 mod literals;
 mod search;
 mod types;
@@ -55,6 +56,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     let math = ident(model.graph.scalar().name());
     let equations = literals::text(&equations::text(linkage));
     let operations = literals::text(&operations(linkage));
+    let limits = limits::tokens(linkage, &runtime);
     let motion = types::motion(model);
     let loads = types::loads(model, true);
     let prepare = if types::has_params(linkage) { functions::prepare(linkage) } else { TokenStream::new() };
@@ -109,6 +111,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
                 #loads
                 #closures
                 #params
+                #limits
                 #pose
                 impl #generics Pose #elided {
                     #poses
@@ -129,9 +132,9 @@ pub fn operations(linkage: &Linkage) -> String {
     if let Some(near) = &linkage.functions.near {
         text.push_str(&format!("{:<28} {}\n", "Pose::moved_to", near.counts()));
     }
-    for ((_, search), step) in linkage.model.graph.searches().iter().zip(&linkage.functions.searches) {
+    for ((_, search), functions) in linkage.model.graph.searches().iter().zip(&linkage.functions.searches) {
         let name = format!("{}, each step", search.name);
-        text.push_str(&format!("{name:<28} {}, 1 solve\n", step.counts()));
+        text.push_str(&format!("{name:<28} {}, 1 solve\n", functions.step.counts()));
     }
     for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
         text.push_str(&format!("{:<28} {}\n", format!("Pose::{}", scene.name), functions.from_pose.counts()));

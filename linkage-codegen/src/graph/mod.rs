@@ -19,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 pub use expr::Expr;
 use number::Number;
-pub use search::{Search, SearchId, Sought, sought_direction};
+pub use search::{Arguments, Search, SearchId, Sought, sought_direction};
 pub use vector::Vector;
 
 use crate::model::ids::{ClosureId, DriveId, LinkId, LoadId, ParamId};
@@ -123,7 +123,7 @@ pub enum Symbol {
     Dimension(u32),
     /// A number of the unknowns of a search, where it stands.
     Sought(SearchId, u8),
-    /// The same where it starts: as declared, or at another pose.
+    /// The same where it starts: as declared, or at another pose. Behind them, the coordinates of its drives there.
     Start(SearchId, u8),
 }
 
@@ -160,7 +160,7 @@ pub enum Kernel {
     /// Solution of any number of linear equations: coefficients row by row, their sizes likewise, then the right sides. Behind the
     /// unknowns, how far from singular they are.
     Solve(u8),
-    /// The places of a group by Newton's method: where it starts, then what is known. How much stays open, then the unknowns.
+    /// The places of a group by Newton's method, of the [`Arguments`] of its search. How much stays open, then the unknowns.
     Search {
         /// Which one.
         search: SearchId,

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 
 use super::number::Number;
 use super::real::Real;
-use super::{Expr, Graph, Kernel, NodeId, Stage, Symbol, Vector};
+use super::{Expr, Graph, Kernel, NodeId, Op, Scalar, Stage, Symbol, Vector};
+use crate::model::ids::DriveId;
 
 /// A search for the places of a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -55,9 +56,9 @@ pub struct Search {
     pub name: String,
     /// Its group, by its links.
     pub group: String,
-    /// The unknowns.
+    /// The unknowns: directions, then travels.
     pub sought: Vec<Sought>,
-    /// Where it starts unless it goes on from another pose: a value for each number of the unknowns.
+    /// Where it starts unless it goes on from another pose: a value for each number of the unknowns, then for each drive.
     pub start: Vec<NodeId>,
     /// What is zero when the group is closed.
     pub residuals: Vec<NodeId>,
@@ -65,11 +66,66 @@ pub struct Search {
     pub jacobian: Vec<Vec<NodeId>>,
     /// What rounding may leave open of all residuals together.
     pub rounding: NodeId,
-    /// What the residuals read beside the unknowns.
+    /// What the residuals read beside the unknowns: first what changes with the drives, then what does not.
     pub known: Vec<NodeId>,
+    /// How much of it changes with the drives.
+    pub changing: usize,
+    /// The drives with which it changes.
+    pub drives: Vec<DriveId>,
+    /// How far each drive goes in the longest stride.
+    pub reach: Vec<NodeId>,
+    /// What it takes to work out what changes, beside the drives: what is prepared, and where searches before this one start.
+    pub given: Vec<NodeId>,
+}
+
+/// The arguments of a search, apart.
+#[derive(Clone, Copy, Debug)]
+pub struct Arguments<'a, T> {
+    /// The numbers of directions, two for each, then those of travels.
+    pub start: &'a [T],
+    /// The drives there.
+    pub from: &'a [T],
+    /// The drives where they are wanted.
+    pub to: &'a [T],
+    /// How far each goes in the longest stride.
+    pub reach: &'a [T],
+    /// What it takes to work out what changes with the drives.
+    pub given: &'a [T],
+    /// What is known where the drives are wanted.
+    pub known: &'a [T],
 }
 
 impl Search {
+    /// How many numbers the unknowns have.
+    #[must_use]
+    pub fn numbers(&self) -> usize {
+        self.sought.iter().map(Sought::size).sum()
+    }
+
+    /// The name of the function that works out what changes on the way.
+    #[must_use]
+    pub fn way_name(&self) -> String {
+        format!("{}_on_the_way", self.name)
+    }
+
+    /// How many directions it seeks.
+    #[must_use]
+    pub fn directions(&self) -> usize {
+        self.sought.iter().filter(|sought| matches!(sought, Sought::Direction { .. })).count()
+    }
+
+    /// Its arguments, apart.
+    #[must_use]
+    pub fn arguments<'a, T>(&self, all: &'a [T]) -> Arguments<'a, T> {
+        let drives = self.drives.len();
+        let (start, rest) = all.split_at(self.numbers());
+        let (from, rest) = rest.split_at(drives);
+        let (to, rest) = rest.split_at(drives);
+        let (reach, rest) = rest.split_at(drives);
+        let (given, known) = rest.split_at(self.given.len());
+        Arguments { start, from, to, reach, given, known }
+    }
+
     /// All that is worked out in a step, each under a name of its own: residuals, Jacobian row by row, what rounding may leave open,
     /// the scales of travels.
     #[must_use]
@@ -137,17 +193,127 @@ impl Graph {
         self.arena.borrow().searches[id.0 as usize].known.contains(&node)
     }
 
-    /// What a search finds: how much stays open, and its unknowns. What the residuals read is noted in it.
-    pub fn found(&self, mut search: Search) -> Vec<Expr<'_>> {
+    /// Whether what changes on the way of a search is worked out from this node.
+    #[must_use]
+    pub fn is_given_on_the_way(&self, id: SearchId, node: NodeId) -> bool {
+        let search = &self.arena.borrow().searches[id.0 as usize];
+        search.given.contains(&node)
+            || matches!(self.op(node), Op::Symbol(Symbol::Drive(drive)) if search.drives.contains(&drive))
+    }
+
+    /// Enters a search. What its equations read is noted in it, and with which drives that changes; `reach` says how far one goes in a
+    /// stride.
+    pub fn enter(&self, mut search: Search, reach: &dyn Fn(DriveId) -> NodeId) -> SearchId {
         let id = self.next_search();
-        let results = search.results();
-        self.note_known(&results, &mut search.known);
-        let number = |number: usize| u8::try_from(number).unwrap_or(u8::MAX);
-        let start = (0..search.start.len()).map(|index| self.symbol(Symbol::Start(id, number(index))));
-        let args: Vec<Expr<'_>> = start.chain(search.known.iter().map(|node| self.expr(*node))).collect();
-        let parts = 1 + number(search.start.len());
+        let mut known = Vec::new();
+        self.note_known(&search.results(), &mut known);
+        let (changing, fixed): (Vec<NodeId>, Vec<NodeId>) =
+            known.into_iter().partition(|node| self.stage(*node) > Stage::Prepared);
+        self.note_given(&changing, &mut search);
+        search.reach = search.drives.iter().map(|drive| reach(*drive)).collect();
+        search.changing = changing.len();
+        search.known = changing.into_iter().chain(fixed).collect();
         self.arena.borrow_mut().searches.push(search);
-        (0..parts).map(|part| self.kernel(Kernel::Search { search: id, parts }, &args, part)).collect()
+        id
+    }
+
+    /// Says where a search starts unless it goes on from another pose.
+    pub fn set_start(&self, id: SearchId, start: Vec<NodeId>) {
+        self.arena.borrow_mut().searches[id.0 as usize].start = start;
+    }
+
+    /// What a search finds where the drives are wanted: how much stays open, and its unknowns.
+    pub fn found(&self, id: SearchId) -> Vec<Expr<'_>> {
+        let search = self.search(id);
+        let number = |number: usize| u8::try_from(number).unwrap_or(u8::MAX);
+        let count = search.numbers() + search.drives.len();
+        let start = (0..count).map(|index| self.symbol(Symbol::Start(id, number(index))));
+        let to = search.drives.iter().map(|drive| self.symbol(Symbol::Drive(*drive)));
+        let others = search.reach.iter().chain(&search.given).chain(&search.known).map(|node| self.expr(*node));
+        let args: Vec<Expr<'_>> = start.chain(to).chain(others).collect();
+        self.search_from(id, &args)
+    }
+
+    /// What a search finds with other arguments.
+    pub fn search_from<'g>(&'g self, id: SearchId, args: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let parts = 1 + u8::try_from(self.search(id).numbers()).unwrap_or(u8::MAX);
+        let kernel = Kernel::Search { search: id, parts };
+        let values: Option<Vec<Number>> = args.iter().map(|arg| arg.value()).collect();
+        match values {
+            Some(values) => self.searched(id, &values).iter().map(|value| self.constant(value)).collect(),
+            None => (0..parts).map(|part| self.kernel(kernel, args, part)).collect(),
+        }
+    }
+
+    /// Whether an expression reads a symbol of a search.
+    #[must_use]
+    pub fn depends_on(&self, expression: Expr<'_>, symbol: Symbol) -> bool {
+        let (mut open, mut seen) = (vec![expression.id()], std::collections::BTreeSet::new());
+        while let Some(node) = open.pop() {
+            if self.stage(node) == Stage::Iterated && seen.insert(node) {
+                match self.op(node) {
+                    Op::Symbol(own) if own == symbol => return true,
+                    op => open.extend(op.operands()),
+                }
+            }
+        }
+        false
+    }
+
+    /// The drives and all else from which some expressions are worked out.
+    fn note_given(&self, results: &[NodeId], search: &mut Search) {
+        let mut open: Vec<NodeId> = results.iter().rev().copied().collect();
+        let mut seen = std::collections::BTreeSet::new();
+        while let Some(node) = open.pop() {
+            if !seen.insert(node) {
+                continue;
+            }
+            match (self.stage(node), self.op(node)) {
+                (Stage::Constant, _) => {}
+                (_, Op::Symbol(Symbol::Drive(drive))) => search.drives.push(drive),
+                (Stage::Prepared, op) if !matches!(op, Op::Neg(_)) => search.given.push(node),
+                (_, Op::Symbol(_)) => search.given.push(node),
+                (_, op) => {
+                    open.extend(op.operands().into_iter().rev());
+                    if let Op::Checked { guard, .. } = op {
+                        let guard = self.guard(guard);
+                        open.extend(guard.condition.operands());
+                        open.extend(guard.failure.operand());
+                    }
+                }
+            }
+        }
+        search.drives.sort_unstable();
+    }
+
+    /// What changes on the way of a search, with the drives at some place; `None` where the links before the group have no pose.
+    fn on_the_way<T: Real>(&self, search: &Search, drives: &[T], given: &[T]) -> Option<Vec<T>> {
+        let mut done: HashMap<NodeId, T> = search.given.iter().copied().zip(given.iter().cloned()).collect();
+        let symbol = |symbol: Symbol| match symbol {
+            Symbol::Drive(drive) => {
+                let index = search.drives.iter().position(|own| *own == drive);
+                index.and_then(|index| drives.get(index).cloned()).unwrap_or_else(zero)
+            }
+            _ => zero(),
+        };
+        let mut open: Vec<NodeId> = search.known[..search.changing].to_vec();
+        let mut seen = std::collections::BTreeSet::new();
+        while let Some(node) = open.pop() {
+            if !seen.insert(node) || search.given.contains(&node) {
+                continue;
+            }
+            let op = self.op(node);
+            open.extend(op.operands());
+            if let Op::Checked { guard, .. } = op {
+                let condition = self.guard(guard).condition;
+                let [value, limit] = condition.operands().map(|side| self.evaluate(side, &symbol, &mut done));
+                if !condition.holds(&value, &limit) {
+                    return None;
+                }
+                open.extend(condition.operands());
+            }
+        }
+        Some(search.known[..search.changing].iter().map(|node| self.evaluate(*node, &symbol, &mut done)).collect())
     }
 
     /// The largest parts of expressions that do not depend on a search's unknowns; constants are written where they stand.
@@ -178,49 +344,41 @@ impl Graph {
         ((0..size).map(part).collect(), part(size))
     }
 
-    /// The results of a search from a start with given values.
+    /// The results of a search.
     pub(super) fn searched<T: Real>(&self, id: SearchId, args: &[T]) -> Vec<T> {
         let search = self.search(id);
-        let count = search.sought.len();
-        let (start, known) = args.split_at(search.start.len());
-        let given: HashMap<NodeId, T> = search.known.iter().copied().zip(known.iter().cloned()).collect();
-        let scales: Vec<Option<T>> = search
-            .sought
-            .iter()
-            .map(|sought| match sought {
-                Sought::Direction { .. } => None,
-                Sought::Travel { scale, .. } => Some(self.evaluate(*scale, &|_| zero(), &mut given.clone())),
-            })
-            .collect();
-        let mut newton: Newton<T> = Newton::new(count);
-        let mut best: Vec<T> = start.to_vec();
-        while let Some(steps) = newton.step() {
-            let mut next: Vec<T> = Vec::new();
-            for (step, scale) in steps.iter().zip(&scales) {
-                match (scale, &best[next.len()..]) {
-                    (Some(scale), [travel, ..]) => next.push(travel.add(&step.mul(scale))),
-                    (None, [cos, sin, ..]) => {
-                        let (cos, sin) = cos.sub(&step.mul(sin)).unit(&sin.add(&step.mul(cos)));
-                        next.extend([cos, sin]);
-                    }
-                    _ => {}
-                }
-            }
-            let symbol = |symbol: Symbol| match symbol {
-                Symbol::Sought(_, number) => next[usize::from(number)].clone(),
-                _ => zero(),
+        let Arguments { start, from, to, reach, given, known } = search.arguments(args);
+        let mut newton = Newton::new(&search, self.scalar(), start, [from, to, reach]);
+        while let Some(between) = newton.way() {
+            let known = match between {
+                None => Some(known.to_vec()),
+                Some(drives) => self.on_the_way(&search, &drives, given).map(|mut changing| {
+                    changing.extend_from_slice(&known[search.changing..]);
+                    changing
+                }),
             };
-            let mut done = given.clone();
-            let mut value = |node: &NodeId| self.evaluate(*node, &symbol, &mut done);
-            let residuals: Vec<T> = search.residuals.iter().map(&mut value).collect();
-            let jacobian: Vec<Vec<T>> =
-                search.jacobian.iter().map(|row| row.iter().map(&mut value).collect()).collect();
-            let rounding = value(&search.rounding);
-            if newton.improves(&residuals, &jacobian, rounding) {
-                best = next;
+            let Some(known) = known else { continue };
+            let known: HashMap<NodeId, T> = search.known.iter().copied().zip(known).collect();
+            while let Some(places) = newton.places() {
+                let symbol = |symbol: Symbol| match symbol {
+                    Symbol::Sought(_, number) => places[usize::from(number)].clone(),
+                    _ => zero(),
+                };
+                let mut done = known.clone();
+                let mut value = |node: &NodeId| self.evaluate(*node, &symbol, &mut done);
+                let residuals: Vec<T> = search.residuals.iter().map(&mut value).collect();
+                let jacobian: Vec<Vec<T>> =
+                    search.jacobian.iter().map(|row| row.iter().map(&mut value).collect()).collect();
+                let rounding = value(&search.rounding);
+                let scales = search.sought.iter().filter_map(|sought| match sought {
+                    Sought::Direction { .. } => None,
+                    Sought::Travel { scale, .. } => Some(value(scale)),
+                });
+                let scales = scales.collect();
+                newton.evaluated(&residuals, &jacobian, rounding, scales);
             }
         }
-        core::iter::once(newton.open()).chain(best).collect()
+        newton.found()
     }
 }
 
@@ -304,63 +462,226 @@ pub(super) fn solve<T: Real>(matrix: &[Vec<T>], sizes: &[Vec<T>], right: &[T]) -
     Some((solution, if negative { least.neg() } else { least }))
 }
 
-/// Newton's method with bounded steps, as `Search` of the run-time crate.
+/// Newton's method along the motion of the drives, as `Search` of the run-time crate.
 struct Newton<T> {
+    from: Vec<T>,
+    to: Vec<T>,
+    length: T,
+    behind: T,
+    stride: T,
+    ahead: T,
+    mode: Mode,
+    strides: u32,
+    directions: usize,
+    closed: Vec<T>,
+    best: Vec<T>,
+    next: Vec<T>,
+    scales: Vec<T>,
     step: Vec<T>,
+    first: Size<T>,
+    second: Size<T>,
+    last: Size<T>,
     /// `None` before the first evaluation.
     open: Option<T>,
+    begin: T,
     rounding: T,
+    /// `None` before it is known.
     sense: Option<T>,
-    left: u32,
+    evaluations: u32,
+    arrived: bool,
+    short: T,
+    tiny: T,
+}
+
+/// The length of a step; `None` where there is no step.
+type Size<T> = Option<T>;
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Mode {
+    Begins,
+    Closes,
+    Walks,
+    GivesUp,
+}
+
+const STRIDES: u32 = 1024;
+const EVALUATIONS: u32 = 40;
+
+fn power<T: Real>(exponent: i32) -> T {
+    T::from_number(&Number::power_of_two(exponent))
+}
+
+/// Whether a length is at most so much; one that is no number is not.
+fn within<T: Real>(size: Option<&T>, most: &T) -> bool {
+    size.is_some_and(|size| most.at_least(size))
 }
 
 impl<T: Real> Newton<T> {
-    fn new(count: usize) -> Self {
-        Self { step: vec![zero(); count], open: None, rounding: zero(), sense: None, left: 40 }
+    fn new(search: &Search, scalar: Scalar, start: &[T], [from, to, reach]: [&[T]; 3]) -> Self {
+        let ways = from.iter().zip(to).zip(reach);
+        let length = ways.fold(zero::<T>(), |sum, ((a, b), reach)| sum.add(&b.sub(a).abs().div(reach)));
+        let one = power::<T>(0);
+        let stride = if length.above(&one) { one.div(&length) } else { one };
+        let strides = if length.above(&power(10)) { 0 } else { STRIDES };
+        let (short, tiny) = match scalar {
+            Scalar::F64 => (power(-26), power(-1022)),
+            Scalar::F32 => (power(-11), power(-126)),
+        };
+        Self {
+            from: from.to_vec(),
+            to: to.to_vec(),
+            length,
+            behind: zero(),
+            stride,
+            ahead: zero(),
+            mode: Mode::Begins,
+            strides,
+            directions: search.directions(),
+            closed: start.to_vec(),
+            best: start.to_vec(),
+            next: start.to_vec(),
+            scales: vec![zero(); search.sought.len() - search.directions()],
+            step: vec![zero(); search.sought.len()],
+            first: None,
+            second: None,
+            last: None,
+            open: None,
+            begin: zero(),
+            rounding: zero(),
+            sense: None,
+            evaluations: 0,
+            arrived: false,
+            short,
+            tiny,
+        }
     }
 
-    fn step(&mut self) -> Option<Vec<T>> {
-        self.left = self.left.checked_sub(1)?;
-        Some(self.step.clone())
+    /// Where the drives are, if not where they are wanted.
+    #[allow(clippy::option_option, reason = "the end, the wanted place, a place between")]
+    fn way(&mut self) -> Option<Option<Vec<T>>> {
+        let one = power::<T>(0);
+        match self.mode {
+            Mode::Begins => self.mode = if self.length.above(&zero()) { Mode::Walks } else { Mode::Closes },
+            Mode::Walks if !self.arrived => self.stride = self.stride.mul(&power(-1)),
+            Mode::Walks if one.above(&self.ahead) => {
+                (self.closed, self.behind) = (self.best.clone(), self.ahead.clone());
+                let easy =
+                    self.first.as_ref().is_some_and(|first| within(self.second.as_ref(), &power::<T>(-4).mul(first)));
+                if easy {
+                    self.stride = self.stride.mul(&power(1));
+                }
+                if self.stride.mul(&self.length).above(&one) {
+                    self.stride = one.div(&self.length);
+                }
+            }
+            Mode::Walks | Mode::Closes | Mode::GivesUp => return None,
+        }
+        self.ahead = self.behind.add(&self.stride);
+        if self.mode == Mode::Walks && (self.strides == 0 || self.behind.at_least(&self.ahead)) {
+            self.mode = Mode::GivesUp;
+        }
+        self.strides = self.strides.wrapping_sub(1);
+        self.best = self.closed.clone();
+        self.step = vec![zero(); self.step.len()];
+        (self.open, self.arrived, self.evaluations) = (None, false, EVALUATIONS);
+        if self.mode != Mode::Walks || self.ahead.at_least(&one) {
+            self.ahead = one;
+            return Some(None);
+        }
+        let at = self.from.iter().zip(&self.to).map(|(a, b)| a.add(&self.ahead.mul(&b.sub(a))));
+        Some(Some(at.collect()))
     }
 
-    fn improves(&mut self, residuals: &[T], jacobian: &[Vec<T>], rounding: T) -> bool {
-        let half = T::from_number(&Number::power_of_two(-1));
+    fn places(&mut self) -> Option<Vec<T>> {
+        self.evaluations = self.evaluations.checked_sub(1)?;
+        let (directions, travels) = self.best.split_at(2 * self.directions);
+        let (turns, slides) = self.step.split_at(self.directions);
+        let mut next: Vec<T> = Vec::new();
+        for (direction, step) in directions.chunks(2).zip(turns) {
+            let (cos, sin) = (&direction[0], &direction[1]);
+            let (cos, sin) = cos.sub(&step.mul(sin)).unit(&sin.add(&step.mul(cos)));
+            next.extend([cos, sin]);
+        }
+        let moved = |((travel, scale), step): ((&T, &T), &T)| travel.add(&step.mul(scale));
+        next.extend(travels.iter().zip(&self.scales).zip(slides).map(moved));
+        self.next.clone_from(&next);
+        Some(next)
+    }
+
+    fn evaluated(&mut self, residuals: &[T], jacobian: &[Vec<T>], rounding: T, scales: Vec<T>) {
         let open = residuals.iter().fold(zero::<T>(), |sum, r| sum.add(&r.abs()));
         let sizes: Vec<Vec<T>> = jacobian.iter().map(|row| row.iter().map(Real::abs).collect()).collect();
         let solved = solve(jacobian, &sizes, residuals);
-        let sense = solved.as_ref().map(|(_, sense)| sense.clone());
-        let better = match (&self.open, &self.sense, &sense) {
-            (None, ..) => true,
-            (Some(least), Some(first), Some(sense)) => least.above(&open) && sense.mul(first).above(&zero()),
-            _ => false,
+        let (solution, sense) = match solved {
+            Some((solution, sense)) => (Some(solution), Some(sense)),
+            None => (None, None),
         };
-        if better {
-            if self.open.is_none() {
-                self.sense = sense;
+        let longest: Size<T> = solution.as_ref().and_then(|solution| {
+            let longest = solution.iter().fold(zero::<T>(), |m, s| if m.at_least(&s.abs()) { m } else { s.abs() });
+            // What is no number is at least nothing.
+            solution.iter().all(|s| longest.at_least(&s.abs())).then_some(longest)
+        });
+        let (begins, walks) = (self.open.is_none(), self.mode == Mode::Walks);
+        if begins {
+            (self.begin, self.first) = (open.clone(), longest.clone());
+            if !walks || self.sense.is_none() {
+                self.sense.clone_from(&sense);
             }
-            (self.open, self.rounding) = (Some(open), rounding);
-            let Some((solution, _)) = solved else {
-                // Nowhere to go from a singular start.
-                self.left = 0;
-                return true;
+        } else if self.evaluations + 2 == EVALUATIONS {
+            self.second.clone_from(&longest);
+        }
+        let same_sense = sense.zip(self.sense.clone()).is_some_and(|(now, then)| now.mul(&then).above(&zero()));
+        let gains = self.open.as_ref().is_none_or(|least| least.above(&open) && same_sense);
+        if gains {
+            let most = match &self.last {
+                Some(last) if !begins => Some(power::<T>(-2).mul(last)),
+                _ if begins => Some(power(-1)),
+                _ => None,
             };
-            let longest = solution.iter().fold(half.clone(), |m, s| if s.abs().above(&m) { s.abs() } else { m });
-            let factor = half.div(&longest).neg();
-            self.step = solution.iter().map(|s| s.mul(&factor)).collect();
-            return true;
+            let closes = rounding.at_least(&open);
+            let contracts = most.is_some_and(|most| within(longest.as_ref(), &most))
+                || within(longest.as_ref(), &self.short)
+                || closes;
+            self.best.clone_from(&self.next);
+            (self.open, self.rounding, self.scales) = (Some(open), rounding, scales);
+            self.last.clone_from(&longest);
+            let bound = power::<T>(-1);
+            let factor = match &longest {
+                Some(longest) if longest.above(&bound) => bound.div(longest),
+                _ => power(0),
+            };
+            let factor = factor.neg();
+            match solution {
+                Some(solution) => self.step = solution.iter().map(|s| s.mul(&factor)).collect(),
+                // Nowhere to go from a singular place.
+                None => self.evaluations = 0,
+            }
+            if walks && !(same_sense && contracts) {
+                self.evaluations = 0;
+                return;
+            }
+            self.arrived = closes;
+            let one = power::<T>(0);
+            let near = self.first.as_ref().is_some_and(|first| within(longest.as_ref(), &power::<T>(-4).mul(first)));
+            if walks && one.above(&self.ahead) && near {
+                (self.arrived, self.evaluations) = (true, 0);
+            }
+            return;
         }
-        if self.open.as_ref().is_some_and(|open| self.rounding.at_least(open)) {
-            self.left = 0;
+        if self.arrived || walks && !within(self.last.as_ref(), &self.short) {
+            self.evaluations = 0;
         }
-        self.step = self.step.iter().map(|s| s.mul(&half)).collect();
-        false
+        self.step = self.step.iter().map(|s| s.mul(&power(-1))).collect();
     }
 
-    fn open(&self) -> T {
-        match &self.open {
-            Some(open) if !self.rounding.at_least(open) => open.clone(),
+    fn found(&self) -> Vec<T> {
+        let closes = self.open.as_ref().is_some_and(|open| self.rounding.at_least(open));
+        let open = match (&self.open, closes) {
+            (_, true) if self.mode == Mode::GivesUp && self.begin.above(&self.rounding) => self.begin.clone(),
+            (_, true) if self.mode == Mode::GivesUp => self.rounding.add(&self.tiny),
+            (Some(open), false) => open.clone(),
             _ => zero(),
-        }
+        };
+        core::iter::once(open).chain(self.best.iter().cloned()).collect()
     }
 }

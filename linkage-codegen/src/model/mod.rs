@@ -363,6 +363,8 @@ pub struct Start {
     pub origin: Pair,
     /// The direction of its frame's x axis.
     pub direction: Pair,
+    /// The angle of that direction, with all its turns.
+    pub angle: NodeId,
     /// Where it was declared.
     pub place: Place,
 }

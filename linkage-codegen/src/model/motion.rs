@@ -254,11 +254,12 @@ fn link_start(model: &mut Model, names: &Names, given: &ast::Start) -> Result<()
     };
     let scope = Scope { model, names };
     let origin = scope.vector(at, Kind::Length)?.into();
-    let direction = scope.scalar(angle, Kind::Angle)?.direction().into();
+    let angle = scope.scalar(angle, Kind::Angle)?;
+    let direction = angle.direction().into();
     if model.starts.iter().any(|start| start.link == link) {
         return Err(twice(given));
     }
-    model.starts.push(Start { link, origin, direction, place: given.place });
+    model.starts.push(Start { link, origin, direction, angle: angle.id(), place: given.place });
     Ok(())
 }
 

@@ -489,12 +489,13 @@ pub fn type_name(name: &str) -> String {
 }
 
 /// Types of the generated module and names that it takes from elsewhere.
-pub(crate) const OWN_TYPES: [&str; 14] = [
+pub(crate) const OWN_TYPES: [&str; 15] = [
     "Pose",
     "Motion",
     "Loads",
     "Params",
     "Linkage",
+    "Limits",
     "Error",
     "Result",
     "Vector2",
@@ -521,6 +522,9 @@ fn check_values(model: &Model, sink: &Sink) {
         let joint = &model.joint(closure.joint).name;
         values.insert(format!("side_{joint}"), format!("is the side of `{joint}`"));
     }
+    for constant in ["EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"] {
+        values.insert(constant.into(), "is a constant of the module".into());
+    }
     for link in &model.links {
         for part in ["cos", "sin"] {
             values.insert(format!("{}_{part}", link.name), format!("is the direction of `{}`", link.name));
@@ -530,6 +534,9 @@ fn check_values(model: &Model, sink: &Sink) {
     for joint in &model.joints {
         values.insert(format!("travel_{}", joint.name), format!("is the travel of `{}`", joint.name));
         values.insert(format!("travel_{}_before", joint.name), format!("is a travel of `{}`", joint.name));
+    }
+    for drive in model.drives.iter().filter(|_| !model.starts.is_empty()) {
+        values.insert(format!("{}_before", drive.name), format!("is where `{}` comes from", drive.name));
     }
     let params = model.params.iter().map(|param| (&param.name, vec![param.name.text.clone()]));
     let drives = model.drives.iter().map(|drive| {

@@ -271,6 +271,10 @@ fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
         keep(format!("{name}_cos"), format!("cosine of the direction carried by `{name}`"), direction.x);
         keep(format!("{name}_sin"), format!("sine of the direction carried by `{name}`"), direction.y);
     }
+    for (link, angle) in assembly.placement.angles() {
+        let name = &model.link(link).name;
+        keep(format!("angle_{name}"), format!("angle of `{name}`, rad, with all its turns"), angle);
+    }
     for (joint, travel) in assembly.placement.travels() {
         let name = &model.joint(joint).name;
         let unit = Kind::Length.unit(&model.units);

@@ -335,6 +335,11 @@ impl<'m> Placement<'m> {
         self.angles.insert(link, angle);
     }
 
+    /// All links of which the angle with all its turns is known by itself.
+    pub fn angles(&self) -> impl Iterator<Item = (LinkId, Expr<'m>)> {
+        self.angles.iter().map(|(link, angle)| (*link, *angle))
+    }
+
     /// The angle of a link with all its turns, if it follows from the drives alone: that of a driven link or a wheel, or of a link that
     /// does not turn against one.
     #[must_use]

@@ -18,6 +18,8 @@ pub enum Form {
     Near,
     /// The unknowns of a search, and what is known to it.
     Search(SearchId),
+    /// The drives where they are on the way of a search, and what is given to it.
+    OnTheWay(SearchId),
 }
 
 /// Takes programs out of a graph.
@@ -93,9 +95,12 @@ impl Extract<'_> {
     /// The input that a node is for this function, if it is one.
     fn input(self, node: NodeId) -> Option<Input> {
         let op = self.graph.op(node);
-        if let Form::Search(search) = self.form
-            && self.graph.is_known_to(search, node)
-        {
+        let is_given = match self.form {
+            Form::Search(search) => self.graph.is_known_to(search, node),
+            Form::OnTheWay(search) => self.graph.is_given_on_the_way(search, node),
+            Form::Prepare | Form::Direct | Form::FromPose | Form::Near => false,
+        };
+        if is_given {
             return Some(Input::Known(node));
         }
         if let Op::Symbol(symbol) = op {

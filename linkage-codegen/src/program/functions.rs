@@ -15,14 +15,23 @@ pub struct Functions {
     pub pose: Program,
     /// From the drives and another pose, from which searches start: what a pose keeps. Only if there are searches.
     pub near: Option<Program>,
-    /// For each search its residuals, its Jacobian row by row, what rounding may leave open, and the scales of travels.
-    pub searches: Vec<Program>,
+    /// In the order of the graph's searches.
+    pub searches: Vec<SearchFunctions>,
     /// From a pose: places, directions, transmission angles; in the order of the plan's accessors.
     pub accessors: Vec<Program>,
     /// In the order of the plan's scenes.
     pub scenes: Vec<SceneFunctions>,
     /// What the parameters alone determine, in the order of the preparation's results.
     pub prepared: Vec<NodeId>,
+}
+
+/// The two parts of a search.
+#[derive(Clone, Debug)]
+pub struct SearchFunctions {
+    /// An evaluation: residuals, Jacobian row by row, what rounding may leave open, and the scales of travels.
+    pub step: Program,
+    /// What changes with the drives, on the way to where they are wanted.
+    pub on_the_way: Program,
 }
 
 /// The two forms of a scene.
@@ -46,11 +55,18 @@ impl Functions {
         let pose = program(Form::Direct, &kept, &single(&kept));
         let searches = graph.searches();
         let near = (!searches.is_empty()).then(|| program(Form::Near, &kept, &single(&kept)));
-        let searches: Vec<Program> = searches
+        let searches: Vec<SearchFunctions> = searches
             .into_iter()
             .map(|(id, search)| {
-                let extract = Extract { graph, form: Form::Search(id) };
-                passes::exact(extract.program(&search.named_results(graph), &[]), graph)
+                let exact = |form, results: &[(String, NodeId)]| {
+                    passes::exact(Extract { graph, form }.program(results, &[]), graph)
+                };
+                let changing: Vec<(String, NodeId)> =
+                    search.known[..search.changing].iter().map(|node| (String::new(), *node)).collect();
+                SearchFunctions {
+                    step: exact(Form::Search(id), &search.named_results(graph)),
+                    on_the_way: exact(Form::OnTheWay(id), &changing),
+                }
             })
             .collect();
         let accessors: Vec<Program> =

@@ -1,9 +1,11 @@
 //! The interpreter: a program carried out with any number type.
 
+use std::collections::HashMap;
+
 use super::{Definition, Input, Program, Step, ValueId};
 use crate::graph::number::Number;
 use crate::graph::real::Real;
-use crate::graph::{Condition, Failure, Graph, Op};
+use crate::graph::{Condition, Failure, Graph, Kernel, Op};
 
 /// Why a program stopped.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,6 +14,12 @@ pub enum Fault {
     Failed(Failure<()>),
     /// An argument or a result is not finite.
     NotFinite,
+}
+
+/// What is computed so far: values, and all results of the calls of kernels.
+struct Values<T> {
+    known: Vec<Option<T>>,
+    calls: HashMap<(Kernel, Vec<ValueId>), Vec<T>>,
 }
 
 /// Carries programs out.
@@ -30,7 +38,7 @@ impl Run<'_> {
     ///
     /// As the emitted function: where a check fails or a number is not finite.
     pub fn with<T: Real>(self, inputs: &dyn Fn(Input) -> T) -> Result<Vec<T>, Fault> {
-        let mut values: Vec<Option<T>> = vec![None; self.program.values.len()];
+        let mut values = Values { known: vec![None; self.program.values.len()], calls: HashMap::new() };
         for step in &self.program.steps {
             match step {
                 Step::Let(value) => drop(self.value(*value, inputs, &mut values)),
@@ -68,8 +76,8 @@ impl Run<'_> {
         Ok(self.program.outputs.iter().map(|(_, value)| self.value(*value, inputs, &mut values)).collect())
     }
 
-    fn value<T: Real>(self, id: ValueId, inputs: &dyn Fn(Input) -> T, values: &mut Vec<Option<T>>) -> T {
-        if let Some(value) = &values[id.index()] {
+    fn value<T: Real>(self, id: ValueId, inputs: &dyn Fn(Input) -> T, values: &mut Values<T>) -> T {
+        if let Some(value) = &values.known[id.index()] {
             return value.clone();
         }
         let zero = || T::from_number(&Number::zero());
@@ -103,14 +111,16 @@ impl Run<'_> {
                         }
                     }
                     Op::Quantity(a) | Op::Held(a) | Op::Checked { value: a, .. } => of(a),
-                    Op::Kernel { kernel, args, part } => {
-                        let args: Vec<T> = args.iter().map(of).collect();
-                        self.graph.apply(*kernel, &args).swap_remove(usize::from(*part))
+                    Op::Kernel { kernel, args: of_call, part } => {
+                        let args: Vec<T> = of_call.iter().map(of).collect();
+                        let call = (*kernel, of_call.clone());
+                        let results = values.calls.entry(call).or_insert_with(|| self.graph.apply(*kernel, &args));
+                        results[usize::from(*part)].clone()
                     }
                 }
             }
         };
-        values[id.index()] = Some(value.clone());
+        values.known[id.index()] = Some(value.clone());
         value
     }
 }

@@ -13,7 +13,7 @@ mod start;
 
 pub use counts::Counts;
 pub use extract::{Extract, Form};
-pub use functions::{Functions, SceneFunctions};
+pub use functions::{Functions, SceneFunctions, SearchFunctions};
 pub use interpret::{Fault, Run};
 pub use range::check_range;
 pub use start::check_start;
@@ -45,7 +45,7 @@ pub enum Input {
     Kept(NodeId),
     /// Prepared from the parameters.
     Prepared(NodeId),
-    /// Known to a search before it begins.
+    /// Given to a search.
     Known(NodeId),
 }
 

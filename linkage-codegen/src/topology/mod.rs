@@ -177,8 +177,21 @@ impl Topology {
     /// joins to one.
     #[must_use]
     pub fn geared(&self, model: &Model) -> BTreeSet<LinkId> {
-        let trains = self.motion.iter().filter(|group| group.is_train(model));
-        let mut found: BTreeSet<LinkId> = trains.flat_map(|group| group.links.iter().copied()).collect();
+        let mut found = BTreeSet::new();
+        for group in &self.motion {
+            let gears = group.outer.iter().chain(&group.inner).filter_map(|joint| match model.joint(*joint).kind {
+                JointKind::Gear(gear) => Some((*joint, gear)),
+                _ => None,
+            });
+            for (joint, gear) in gears {
+                let [a, b] = model.joint(joint).ends().map(|end| end.link);
+                let geared = [a, b, gear.arm[0].link].into_iter().filter(|link| group.links.contains(link));
+                found.extend(geared);
+            }
+            if group.is_train(model) {
+                found.extend(group.links.iter().copied());
+            }
+        }
         let turns =
             |joint: &JointId| model.joint(*joint).kind.turn().is_some() || model.drive_of(*joint, true).is_some();
         let joined: Vec<[LinkId; 2]> =

@@ -94,16 +94,23 @@ pub fn pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<HashM
 /// A pose near another one: `moved_to`.
 pub fn moved<T: Number>(
     linkage: &Linkage,
-    from: &HashMap<NodeId, T>,
+    (from, before): (&HashMap<NodeId, T>, &Arguments),
     arguments: &Arguments,
 ) -> Result<HashMap<NodeId, T>, Fault> {
     let program = linkage.functions.near.as_ref().expect("a search");
     let prepared = prepared::<T>(linkage, arguments)?;
     let values = Run { program, graph: &linkage.model.graph }.with(&|input| match input {
         Input::Symbol(Symbol::Start(search, number)) => {
-            let names: Vec<String> = linkage.model.graph.search(search).sought.iter().flat_map(Sought::names).collect();
-            let kept = linkage.plan.pose.iter().find(|kept| kept.name == names[usize::from(number)]);
-            from[&kept.expect("a kept number").node].clone()
+            let search = linkage.model.graph.search(search);
+            let names: Vec<String> = search.sought.iter().flat_map(Sought::names).collect();
+            let number = usize::from(number);
+            match number.checked_sub(names.len()) {
+                Some(drive) => T::exactly(before.drives[search.drives[drive].index()]),
+                None => {
+                    let kept = linkage.plan.pose.iter().find(|kept| kept.name == names[number]);
+                    from[&kept.expect("a kept number").node].clone()
+                }
+            }
         }
         Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
         Input::Prepared(node) => prepared[&node].clone(),

@@ -3,14 +3,17 @@
 //! The unknowns are few: a direction for each link, but for links that a slide, a weld or a driven pin lets follow another one, and a
 //! travel for each slide or slot that is not driven. The joints make a tree that places every link from those before it; each further joint closes a
 //! loop, whose two equations say that the way round it comes back. With the directions `u` as unit vectors and `u⊥` as their changes
-//! the equations are polynomials, and their Jacobian is exact without any trigonometry.
+//! the equations are polynomials, and their Jacobian is exact without any trigonometry. Only wheels and their arms have angles, which
+//! count their turns, because a gear pair is linear in them.
+
+use std::collections::BTreeSet;
 
 use super::RuleResult;
 use crate::diagnostics::{Diagnostic, list};
 use crate::graph::number::Number;
-use crate::graph::{Expr, Failure, Search, SearchId, Sought, Stage, Symbol, Vector, sought_direction};
+use crate::graph::{Expr, Failure, Graph, Search, SearchId, Sought, Stage, Symbol, Vector, sought_direction};
 use crate::model::ids::{DriveId, JointId, LinkId};
-use crate::model::{End, JointKind, Model, Start};
+use crate::model::{End, Gear, JointKind, Model, Start};
 use crate::plan::assembly::Assembly;
 use crate::plan::placement::{Orientation, Placement, Way};
 use crate::topology::{Group, Input};
@@ -19,6 +22,7 @@ use crate::topology::{Group, Input};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Place {
     Direction(LinkId),
+    Angle(LinkId),
     Travel(JointId),
 }
 
@@ -26,10 +30,6 @@ enum Place {
 pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
     let model = assembly.model();
     let graph = assembly.graph();
-    let joints = || group.outer.iter().chain(&group.inner);
-    if joints().any(|joint| matches!(model.joint(*joint).kind, JointKind::Gear(_))) {
-        return Err(crate::plan::unsupported(model, group, "place"));
-    }
     assembly.started.extend(&group.links);
     check_starts(assembly, group)?;
     let id = graph.next_search();
@@ -43,46 +43,62 @@ pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
         numbers = numbers.saturating_add(if matches!(place, Place::Direction(_)) { 2 } else { 1 });
         match place {
             Place::Direction(_) => sought_direction(graph, id, first),
-            Place::Travel(_) => {
+            Place::Travel(_) | Place::Angle(_) => {
                 let travel = graph.symbol(Symbol::Sought(id, first));
                 Vector::new(travel, travel)
             }
         }
     });
-    let residuals: Vec<Expr<'_>> = loops.iter().flat_map(|(joint, way)| closure(model, *joint, way)).collect();
-    if residuals.len() != places.len() || numbers == u8::MAX {
+    let mut equations: Vec<Equation<'_>> = loops.iter().flat_map(|(joint, way)| closure(&trial, *joint, way)).collect();
+    equations.extend(gears(model, group).map(|(joint, gear)| meshing(&trial, joint, &gear)));
+    if equations.len() != places.len() || numbers == u8::MAX {
         return Err(crate::plan::unsupported(model, group, "place"));
     }
     let scale = scale_of(model, group);
     let sought: Vec<Sought> = places.iter().map(|place| sought(model, *place, scale)).collect();
-    let jacobian = residuals
+    let jacobian = equations
         .iter()
-        .map(|residual| (0..sought.len()).map(|unknown| change(*residual, id, &sought, unknown, scale)).collect())
+        .map(|equation| (0..sought.len()).map(|unknown| change(equation, id, &sought, unknown).id()).collect())
         .collect();
-    let reach = loops.iter().fold(graph.zero(), |sum, (_, way)| sum + way.length());
+    let reach = equations.iter().fold(graph.zero(), |sum, equation| sum + equation.size);
     let search = Search {
         name: format!("close_{}", model.link_names(&group.links).replace(" + ", "_")),
         group: model.link_names(&group.links),
         start: places.iter().flat_map(|place| start_of(assembly, group, *place)).map(Expr::id).collect(),
         sought,
-        residuals: residuals.into_iter().map(Expr::id).collect(),
+        residuals: equations.iter().map(|equation| equation.residual.id()).collect(),
         jacobian,
         rounding: (graph.epsilons(1) * graph.constant(&Number::ratio(ROUNDING.0, ROUNDING.1)) * reach).id(),
         known: Vec::new(),
+        changing: 0,
+        drives: Vec::new(),
+        reach: Vec::new(),
+        given: Vec::new(),
     };
     let links = search.group.clone();
-    let found = graph.found(search);
+    let failure = |gap: Expr<'_>| Failure::NoConvergence { group: links.clone(), gap: gap.id() };
+    let id = graph.enter(search, &|drive| {
+        let turns = model.drive(drive).turns;
+        let stride = graph.constant(&Number::ratio(STRIDE.0, STRIDE.1));
+        (if turns { stride } else { scale * stride }).id()
+    });
+    close_start(model, id, &failure);
+    let found = graph.found(id);
     let open = found[0].named(
         format!("open_{}", links.replace(" + ", "_")),
         "what stays open of all loops, zero where it is no more than rounding",
     );
-    let failure = || Failure::NoConvergence { group: links.clone(), gap: open.id() };
-    let mut values = found.into_iter().skip(1).map(|value| value.require_at_least(graph.zero(), open, failure()));
+    let mut values = found.into_iter().skip(1).map(|value| value.require_at_least(graph.zero(), open, failure(open)));
     let mut next = || values.next().unwrap_or_else(|| graph.zero());
     lay_out(&mut assembly.placement, group, &mut |place| match place {
         Place::Direction(link) => {
             let name = &model.link(link).name.text;
             Vector::new(next(), next()).named_direction(name, &format!("direction carried by {name}"))
+        }
+        Place::Angle(link) => {
+            let name = &model.link(link).name;
+            let angle = next().named(format!("angle_{name}"), format!("angle of {name}, with all its turns")).held();
+            Vector::new(angle, angle)
         }
         Place::Travel(joint) => {
             let name = &model.joint(joint).name;
@@ -98,6 +114,31 @@ pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
 /// about a fifth of it; next to a singular pose, where it gains little, it may end here.
 const ROUNDING: (i64, i64) = (1, 2);
 
+/// How far a drive goes at most while nothing is looked at, so that the way is followed and not only its end: in radians, or in the lengths
+/// of the links together.
+const STRIDE: (i64, i64) = (1, 4);
+
+/// The declared start is rough. The search begins where it is closed, with the drives at theirs: known now, or with the parameters.
+fn close_start(model: &Model, id: SearchId, failure: &dyn Fn(Expr<'_>) -> Failure) {
+    let graph = &model.graph;
+    let search = graph.search(id);
+    let drive = |drive: &DriveId| model.drive(*drive).start.map_or(graph.zero(), |(value, _)| graph.expr(value));
+    let drives: Vec<Expr<'_>> = search.drives.iter().map(drive).collect();
+    let rough = search.start.iter().map(|node| graph.expr(*node));
+    let others = search.reach.iter().chain(&search.given).chain(&search.known);
+    let others = others.map(|node| at_start(model, graph.expr(*node)));
+    let args: Vec<Expr<'_>> = rough.chain(drives.clone()).chain(drives.clone()).chain(others).collect();
+    let found = graph.search_from(id, &args);
+    let names = search.sought.iter().flat_map(Sought::names);
+    let open = found[0].named(format!("open_{}_start", search.name), "what stays open at the start");
+    let closed = found[1..].iter().zip(names).map(|(value, name)| {
+        let value = value.require_at_least(graph.zero(), open, failure(open));
+        value.named(format!("{name}_start"), format!("{name} where the drives start"))
+    });
+    let start: Vec<Expr<'_>> = closed.chain(drives).collect();
+    graph.set_start(id, start.into_iter().map(Expr::id).collect());
+}
+
 /// Orients all links, each by a slide or a driven pin that leads to it, or else by a direction that is sought; and connects them. Gives
 /// the joints that close loops, with the way round each from its first point to its second.
 fn lay_out<'m>(
@@ -107,14 +148,27 @@ fn lay_out<'m>(
 ) -> Vec<(JointId, Way<'m>)> {
     let model = placement.model;
     let joints: Vec<JointId> = group.outer.iter().chain(&group.inner).copied().collect();
+    let joints: Vec<JointId> =
+        joints.into_iter().filter(|joint| !matches!(model.joint(*joint).kind, JointKind::Gear(_))).collect();
+    let counted = counted(model, group);
     let mut open = group.links.clone();
-    while let Some(first) = open.first().copied() {
+    // Directions come before angles.
+    while let Some(first) = open.iter().find(|link| !counted.contains(link)).or(open.first()).copied() {
         let led = joints.iter().find_map(|joint| led(placement, group, *joint, &open));
-        let (link, orientation) = led.unwrap_or_else(|| {
+        let (link, orientation, angle) = led.unwrap_or_else(|| {
+            if counted.contains(&first) {
+                let angle = seek(Place::Angle(first)).x;
+                let name = &model.link(first).name.text;
+                let direction = angle.direction().named_direction(name, &format!("direction of {name}"));
+                return (first, Orientation { direction, axis: x_axis(placement.graph()) }, Some(angle));
+            }
             let axis = axis(placement, group, first);
-            (first, Orientation { direction: seek(Place::Direction(first)), axis })
+            (first, Orientation { direction: seek(Place::Direction(first)), axis }, None)
         });
         placement.orient(link, orientation);
+        if let Some(angle) = angle {
+            placement.set_angle(link, angle);
+        }
         open.retain(|other| *other != link);
     }
     let mut travels: Vec<(JointId, Expr<'m>)> = Vec::new();
@@ -160,7 +214,7 @@ fn led<'m>(
     group: &Group,
     joint: JointId,
     open: &[LinkId],
-) -> Option<(LinkId, Orientation<'m>)> {
+) -> Option<(LinkId, Orientation<'m>, Option<Expr<'m>>)> {
     let model = placement.model;
     let data = model.joint(joint);
     let link = match data.ends().map(|end| open.contains(&end.link)) {
@@ -169,10 +223,56 @@ fn led<'m>(
         _ => return None,
     };
     if data.kind.turn().is_some() {
-        return Some((link, placement.along_slide(joint, link)));
+        let (_, turn) = data.kind.turn()?;
+        let other = data.end_off(link)?.link;
+        let turn = placement.graph().expr(turn);
+        let angle = placement
+            .unwrapped_angle(other)
+            .map(|angle| if data.to.link == link { angle + turn } else { angle - turn });
+        return Some((link, placement.along_slide(joint, link), angle));
     }
     let drive = driven(group, model, joint, true)?;
-    Some((link, placement.driven(joint, link, placement.graph().symbol(Symbol::Drive(drive)))))
+    let turn = placement.graph().symbol(Symbol::Drive(drive));
+    let other = data.end_off(link)?.link;
+    let angle =
+        placement.unwrapped_angle(other).map(|angle| if data.to.link == link { angle + turn } else { angle - turn });
+    Some((link, placement.driven(joint, link, turn), angle))
+}
+
+fn x_axis(graph: &Graph) -> Vector<'_> {
+    Vector::new(graph.one(), graph.zero())
+}
+
+/// The gear pairs of a group.
+fn gears<'m>(model: &'m Model, group: &'m Group) -> impl Iterator<Item = (JointId, Gear)> {
+    group.outer.iter().chain(&group.inner).filter_map(|joint| match model.joint(*joint).kind {
+        JointKind::Gear(gear) => Some((*joint, gear)),
+        _ => None,
+    })
+}
+
+/// The links of which an angle is sought, and not a direction: wheels, their arms, and what leads these or is led by them.
+fn counted(model: &Model, group: &Group) -> BTreeSet<LinkId> {
+    let of = |(joint, gear): (JointId, Gear)| {
+        let [a, b] = model.joint(joint).ends().map(|end| end.link);
+        [a, b, gear.arm[0].link]
+    };
+    let mut counted: BTreeSet<LinkId> = gears(model, group).flat_map(of).collect();
+    let leads =
+        |joint: &JointId| model.joint(*joint).kind.turn().is_some() || driven(group, model, *joint, true).is_some();
+    let leading: Vec<JointId> = group.outer.iter().chain(&group.inner).copied().filter(leads).collect();
+    loop {
+        let before = counted.len();
+        for joint in &leading {
+            let ends = model.joint(*joint).ends().map(|end| end.link);
+            if ends.iter().any(|link| counted.contains(link)) {
+                counted.extend(ends.into_iter().filter(|link| group.links.contains(link)));
+            }
+        }
+        if counted.len() == before {
+            return counted;
+        }
+    }
 }
 
 /// The drive of a joint's angle, or of its travel.
@@ -187,7 +287,7 @@ fn driven(group: &Group, model: &Model, joint: JointId, turns: bool) -> Option<D
 /// The direction that a link carries, in its own frame: from its first joint to its second, if that is a constant.
 fn axis<'m>(placement: &Placement<'m>, group: &Group, link: LinkId) -> Vector<'m> {
     let (model, graph) = (placement.model, placement.graph());
-    let x_axis = Vector::new(graph.one(), graph.zero());
+    let x_axis = x_axis(graph);
     let mut ends = group.outer.iter().chain(&group.inner).filter_map(|joint| model.joint(*joint).end_on(link));
     let (Some(first), Some(second)) = (ends.next(), ends.next()) else { return x_axis };
     let length = model.distance(link, first.point, second.point);
@@ -199,46 +299,100 @@ fn axis<'m>(placement: &Placement<'m>, group: &Group, link: LinkId) -> Vector<'m
     if axis.x.value().is_some() && axis.y.value().is_some() { axis } else { x_axis }
 }
 
-/// The two equations of a loop: what is known of the way, and what turns with the unknowns.
-fn closure<'m>(model: &'m Model, joint: JointId, way: &Way<'m>) -> [Expr<'m>; 2] {
-    let graph = &model.graph;
-    let name = &model.joint(joint).name;
-    let parts: Vec<Vector<'m>> = way.segments.iter().map(|s| s.along.turned_by(s.direction)).collect();
-    let is_known = |part: &&Vector<'m>| part.x.stage().max(part.y.stage()) < Stage::Iterated;
-    let known = parts.iter().filter(is_known).fold(graph.zero_vector(), |sum, part| sum + *part);
-    let known = known.named(&format!("loop_{name}"), &format!("the part of the loop through {name} that is known"));
-    let sum = parts.iter().filter(|part| !is_known(part)).fold(known, |sum, part| sum + *part);
-    let sum = sum.named(&format!("gap_{name}"), &format!("what stays open of the loop through {name}"));
-    [sum.x, sum.y]
+/// What is zero where the group is closed.
+struct Equation<'m> {
+    residual: Expr<'m>,
+    /// What turns with the unknowns, each part as a whole with one direction; and which component of it is meant.
+    parts: Vec<(Vector<'m>, Vector<'m>)>,
+    component: fn(Vector<'m>) -> Expr<'m>,
+    /// The lengths that make it up: of its rounding, in epsilons.
+    size: Expr<'m>,
 }
 
-/// How a residual changes with an unknown: with a turn by one radian, or with a travel by its scale.
-fn change(
-    residual: Expr<'_>,
-    id: SearchId,
-    sought: &[Sought],
-    unknown: usize,
-    scale: Expr<'_>,
-) -> crate::graph::NodeId {
-    let graph = residual.graph();
+/// The two equations of a loop: what is known of the way, and what turns with the unknowns.
+fn closure<'m>(placement: &Placement<'m>, joint: JointId, way: &Way<'m>) -> [Equation<'m>; 2] {
+    let (model, graph) = (placement.model, placement.graph());
+    let name = &model.joint(joint).name;
+    let (mut known, mut parts, mut size) = (graph.zero_vector(), Vec::new(), graph.zero());
+    for segment in &way.segments {
+        let part = segment.along.turned_by(segment.direction);
+        size = size + segment.size;
+        if part.x.stage().max(part.y.stage()) < Stage::Iterated {
+            known = known + part;
+            continue;
+        }
+        let carrier = model.moving_links().find(|link| placement.direction(*link) == segment.direction);
+        let part = match carrier {
+            Some(link) => {
+                let link_name = &model.link(link).name;
+                let what = format!("what {link_name} contributes to the loop through {name}");
+                // A direction of a large angle is as uncertain as the angle.
+                if let Some(angle) = placement.unwrapped_angle(link).filter(|angle| angle.stage() == Stage::Iterated) {
+                    size = size + segment.size * angle.abs();
+                }
+                part.named(&format!("{link_name}_to_{name}"), &what)
+            }
+            None => part,
+        };
+        parts.push((segment.direction, part));
+    }
+    let known = known.named(&format!("loop_{name}"), &format!("the part of the loop through {name} that is known"));
+    let sum = parts.iter().fold(known, |sum, (_, part)| sum + *part);
+    let sum = sum.named(&format!("gap_{name}"), &format!("what stays open of the loop through {name}"));
+    // Half of the size each: it is that of both.
+    let half = graph.constant(&Number::ratio(1, 2));
+    let of = |residual, component: fn(Vector<'m>) -> Expr<'m>| Equation {
+        residual,
+        parts: parts.clone(),
+        component,
+        size: half * size,
+    };
+    [of(sum.x, |vector| vector.x), of(sum.y, |vector| vector.y)]
+}
+
+/// The equation of a gear pair: linear in angles, which count their turns.
+fn meshing<'m>(placement: &Placement<'m>, joint: JointId, gear: &Gear) -> Equation<'m> {
+    let (model, graph) = (placement.model, placement.graph());
+    let name = &model.joint(joint).name;
+    let [first, second] = gear.radii.map(|radius| graph.expr(radius));
+    let [a, b] = model.joint(joint).ends().map(|end| end.link);
+    let centres = gear.centres(model);
+    let within = graph.atan2(centres.y, centres.x);
+    let both = first + second;
+    let rolled =
+        [(first, a), (second, b), (-both, gear.arm[0].link)].map(|(radius, link)| radius * placement.angle(link));
+    let constant = graph.expr(gear.phase) + both * within;
+    let (moving, known): (Vec<Expr<'m>>, Vec<Expr<'m>>) =
+        rolled.into_iter().partition(|part| part.stage() == Stage::Iterated);
+    let known = known.iter().fold(-constant, |sum, part| sum + *part);
+    let known = known.named(format!("loop_{name}"), format!("the part of what rolls at {name} that is known"));
+    let residual = moving.iter().fold(known, |sum, part| sum + *part);
+    let residual = residual.named(format!("gap_{name}"), format!("what is not rolled at {name}"));
+    let size = rolled.iter().fold(constant.abs(), |sum, part| sum + part.abs());
+    Equation { residual, parts: Vec::new(), component: |vector| vector.x, size }
+}
+
+/// How an equation changes with an unknown: with a turn by one radian, or with a travel by its scale.
+fn change<'m>(equation: &Equation<'m>, id: SearchId, sought: &[Sought], unknown: usize) -> Expr<'m> {
+    let graph = equation.residual.graph();
     let first = sought[..unknown].iter().map(Sought::size).sum::<usize>();
     let first = u8::try_from(first).unwrap_or(u8::MAX);
-    let is_direction = matches!(sought[unknown], Sought::Direction { .. });
-    let scale = graph.expr(scale.id());
-    let symbol = |symbol: Symbol| match symbol {
-        Symbol::Sought(search, number) if search == id && number == first => {
-            if is_direction {
-                -graph.symbol(Symbol::Sought(id, first + 1))
-            } else {
-                scale
-            }
+    let rate = |by: Symbol, rate: Expr<'m>| move |symbol: Symbol| if symbol == by { rate } else { graph.zero() };
+    let own = Symbol::Sought(id, first);
+    match &sought[unknown] {
+        // What is carried turns as a whole.
+        Sought::Direction { .. } => {
+            let turns = |direction: &Vector<'m>| {
+                let depends = |part: Expr<'m>| graph.depends_on(part, own);
+                depends(direction.x) || depends(direction.y)
+            };
+            let parts = equation.parts.iter().filter(|(direction, _)| turns(direction));
+            parts.fold(graph.zero(), |sum, (_, part)| sum + (equation.component)(part.perp()))
         }
-        Symbol::Sought(search, number) if search == id && is_direction && number == first + 1 => {
-            graph.symbol(Symbol::Sought(id, first))
+        Sought::Travel { scale, .. } => {
+            graph.change(equation.residual, Stage::Iterated, &rate(own, graph.expr(*scale)))
         }
-        _ => graph.zero(),
-    };
-    graph.change(residual, Stage::Iterated, &symbol).id()
+    }
 }
 
 /// The length that counts like a turn of one radian: the links' lengths together.
@@ -255,6 +409,9 @@ fn scale_of<'m>(model: &'m Model, group: &Group) -> Expr<'m> {
 fn sought(model: &Model, place: Place, scale: Expr<'_>) -> Sought {
     match place {
         Place::Direction(link) => Sought::Direction { name: model.link(link).name.text.clone() },
+        Place::Angle(link) => {
+            Sought::Travel { name: format!("angle_{}", model.link(link).name), scale: model.graph.one().id() }
+        }
         Place::Travel(joint) => {
             Sought::Travel { name: format!("travel_{}", model.joint(joint).name), scale: scale.id() }
         }
@@ -286,6 +443,9 @@ fn start_of<'m>(assembly: &Assembly<'m>, group: &Group, place: Place) -> Vec<Exp
         Place::Direction(link) => {
             let direction = axis(placement, group, link).turned_by(frame(link).1);
             vec![at_start(model, direction.x), at_start(model, direction.y)]
+        }
+        Place::Angle(link) => {
+            vec![declared(model, link).map_or(graph.zero(), |start| at_start(model, graph.expr(start.angle)))]
         }
         Place::Travel(joint) => {
             let data = model.joint(joint);
