@@ -85,7 +85,7 @@ pub fn analyse(declaration: TokenStream) -> Result<Linkage, Refusal> {
 
 fn solve(model: &Model, sink: &Sink) -> Option<(Topology, System, Plan, Functions, Limits)> {
     let topology = Topology::of(model, sink)?;
-    let system = System::of(model);
+    let system = System::of(model, &topology);
     let plan = Plan::of(model, &topology, &system, sink)?;
     let functions = Functions::of(&model.graph, &plan);
     program::check_range(model, &functions, sink);

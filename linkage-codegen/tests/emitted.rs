@@ -119,12 +119,8 @@ fn four_bar() {
     let force: Vector2<f64> = polar(50.0, 230f64.to_radians());
     let loads = four_bar::Loads { F13: force };
     for theta in angles() {
-        let arguments = Arguments {
-            drives: vec![theta],
-            loads: vec![[force.x, force.y], [0.0; 2]],
-            params: Vec::new(),
-            ..Arguments::default()
-        };
+        let arguments =
+            Arguments { drives: vec![theta], loads: vec![[force.x, force.y], [0.0; 2]], ..Arguments::default() };
         let pose = four_bar::Pose::at(theta);
         let from = |scene: fn(&four_bar::Pose, &four_bar::Loads) -> Result<four_bar::Statics, Error>| {
             pose.and_then(|pose| scene(&pose, &loads))
@@ -158,12 +154,8 @@ fn slider_crank() {
     let interpreted = Interpreted::of("slider_crank");
     let loads = engine::Loads { gas: Vector2::new(12.5, -4000.0) };
     for theta in angles() {
-        let arguments = Arguments {
-            drives: vec![theta],
-            loads: vec![[12.5, -4000.0], [0.0; 2]],
-            params: Vec::new(),
-            ..Arguments::default()
-        };
+        let arguments =
+            Arguments { drives: vec![theta], loads: vec![[12.5, -4000.0], [0.0; 2]], ..Arguments::default() };
         let pose = engine::Pose::at(theta);
         interpreted.check(
             "hold",
@@ -187,7 +179,7 @@ fn six_bar() {
     let loads = six_bar::Loads { F: Vector2::new(-180.0, 60.0) };
     for theta in angles() {
         let given = vec![[0.0; 2], [-180.0, 60.0], [0.0; 2]];
-        let arguments = Arguments { drives: vec![theta], loads: given, params: Vec::new(), ..Arguments::default() };
+        let arguments = Arguments { drives: vec![theta], loads: given, ..Arguments::default() };
         let pose = six_bar::Pose::at(theta);
         interpreted.check(
             "statics",
@@ -223,8 +215,7 @@ fn three_loads() {
     let [f12, f13, f14] = given.map(Vector2::from);
     let loads = three_loads::Loads { F12: f12, F13: f13, F14: f14 };
     for theta in angles() {
-        let arguments =
-            Arguments { drives: vec![theta], loads: given.to_vec(), params: Vec::new(), ..Arguments::default() };
+        let arguments = Arguments { drives: vec![theta], loads: given.to_vec(), ..Arguments::default() };
         let pose = three_loads::Pose::at(theta);
         interpreted.check(
             "parts",
@@ -252,12 +243,8 @@ fn stephenson() {
     let interpreted = Interpreted::of("stephenson");
     let loads = stephenson::Loads { F: Vector2::new(-180.0, 60.0) };
     for theta in angles() {
-        let arguments = Arguments {
-            drives: vec![theta],
-            loads: vec![[-180.0, 60.0], [0.0; 2]],
-            params: Vec::new(),
-            ..Arguments::default()
-        };
+        let arguments =
+            Arguments { drives: vec![theta], loads: vec![[-180.0, 60.0], [0.0; 2]], ..Arguments::default() };
         let pose = stephenson::Pose::at(theta);
         interpreted.check(
             "statics",
@@ -285,12 +272,7 @@ fn stephenson() {
 #[test]
 fn stephenson_moved() {
     let linkage = Interpreted::of("stephenson").linkage;
-    let at = |theta: f64| Arguments {
-        drives: vec![theta],
-        loads: vec![[0.0; 2]; 2],
-        params: Vec::new(),
-        ..Arguments::default()
-    };
+    let at = |theta: f64| Arguments { drives: vec![theta], loads: vec![[0.0; 2]; 2], ..Arguments::default() };
     let mut kept = pose::<Double>(&linkage, &at(0.5)).expect("a pose");
     let mut emitted = stephenson::Pose::at(0.5).expect("a pose");
     let mut before = 0.5;
@@ -322,6 +304,7 @@ fn in_motion() {
             loads: given,
             params: vec![rod_mass],
             motion: vec![[theta_rate, theta_acceleration], [f64::NAN; 2]],
+            ..Arguments::default()
         };
         let pose = crusher::Pose::at(&linkage, theta, x);
         interpreted.check(

@@ -64,6 +64,7 @@ fn in_single_precision(arguments: &Arguments) -> Arguments {
         loads: arguments.loads.iter().map(|load| load.map(|x| round(&x))).collect(),
         params: arguments.params.iter().map(round).collect(),
         motion: arguments.motion.clone(),
+        sides: arguments.sides.clone(),
     }
 }
 
@@ -146,7 +147,7 @@ fn around(seed: u64, count: usize, poses: usize) {
                 let loads = vec![[random.range(-50.0, 50.0), random.range(-50.0, 50.0)]; 2];
                 all.extend(check::<Double>(
                     &linkage,
-                    &Arguments { drives, loads, params: Vec::new(), motion: Vec::new() },
+                    &Arguments { drives, loads, params: Vec::new(), sides: Vec::new(), motion: Vec::new() },
                     &text,
                 ));
             }
@@ -181,8 +182,13 @@ fn near_dead_centres() {
     let mut before = 0.0;
     for exponent in 1..=7 {
         let drives = vec![core::f64::consts::PI - 10f64.powi(-exponent)];
-        let arguments =
-            Arguments { drives, loads: vec![[10.0, -20.0], [-5.0, 30.0]], params: Vec::new(), motion: Vec::new() };
+        let arguments = Arguments {
+            drives,
+            loads: vec![[10.0, -20.0], [-5.0, 30.0]],
+            params: Vec::new(),
+            sides: Vec::new(),
+            motion: Vec::new(),
+        };
         let Ok(found) = scene::<Double>(&linkage, "bounded", &arguments) else { continue };
         ratios(&linkage, &arguments, &found, text);
         let bound = found["error_bound.B.x"].to_f64();
@@ -209,7 +215,7 @@ fn of_motion() {
     for _ in 0..40 {
         let drives = vec![random.range(-3.0, 3.0)];
         let motion = vec![[random.range(-20.0, 20.0), random.range(-300.0, 300.0)]];
-        let arguments = Arguments { drives, loads: vec![[0.0; 2]], params: Vec::new(), motion };
+        let arguments = Arguments { drives, loads: vec![[0.0; 2]], params: Vec::new(), sides: Vec::new(), motion };
         for name in ["place", "v", "a", "f", "w"] {
             let Ok(found) = scene::<Double>(&linkage, name, &arguments) else { continue };
             let exact = scene::<Extended>(&linkage, name, &arguments).expect("regular where doubles are");

@@ -74,12 +74,7 @@ fn folding_linkages_near_their_folds() {
         for exponent in 0..=7 {
             let distance = 10f64.powi(-exponent);
             for drive in [distance, -distance, core::f64::consts::PI - distance, distance - core::f64::consts::PI] {
-                let arguments = Arguments {
-                    drives: vec![drive],
-                    loads: values.clone(),
-                    params: Vec::new(),
-                    ..Arguments::default()
-                };
+                let arguments = Arguments { drives: vec![drive], loads: values.clone(), ..Arguments::default() };
                 let Ok(found) = scene::<Double>(&linkage, "all", &arguments) else { continue };
                 let exact = scene::<Extended>(&linkage, "all", &arguments).expect("regular");
                 let size = exact.values().fold(0.0f64, |m, x| m.max(x.to_f64().abs()));
@@ -159,8 +154,7 @@ fn aligned_poses_are_regular() {
         revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> piston; prismatic G: ground -> piston along 0deg;
         drive q: O; unknown T: torque(ground -> crank); assemble B: ahead(A); load F: force(piston.B); scene all: equilibrium; scene work: virtual_work;";
     let linkage = compile(in_line);
-    let arguments =
-        Arguments { drives: vec![0.0], loads: vec![[-100.0, 7.0]], params: Vec::new(), ..Arguments::default() };
+    let arguments = Arguments { drives: vec![0.0], loads: vec![[-100.0, 7.0]], ..Arguments::default() };
     let all = scene::<Double>(&linkage, "all", &arguments).unwrap();
     // At the dead centre of the piston the crank carries no torque, and that is a right answer.
     assert_eq!((all["T"].0, all["A.x"].0, all["B.x"].0, all["G.normal"].0), (0.0, 100.0, 100.0, -7.0));
@@ -189,12 +183,8 @@ fn far_from_the_origin_nothing_changes() {
             // Every point of the ground is shifted in its declaration, exactly.
             let moved = shifted(&text, offset);
             let (near, far) = (compile(&text), compile(&moved));
-            let arguments = Arguments {
-                drives: vec![random.range(-3.0, 3.0)],
-                loads: loads(&mut random),
-                params: Vec::new(),
-                ..Arguments::default()
-            };
+            let arguments =
+                Arguments { drives: vec![random.range(-3.0, 3.0)], loads: loads(&mut random), ..Arguments::default() };
             let forces = |linkage| scene::<Double>(linkage, "all", &arguments).map(bits);
             assert_eq!(forces(&near), forces(&far), "{text}\n{moved}");
             let kept = |linkage: &linkage_codegen::Linkage| {
@@ -259,12 +249,8 @@ fn powers_of_two_in_the_units_keep_all_bits() {
         );
         let (plain, scaled) = (compile(&plain), compile(&scaled));
         for drive in [0.3, 1.0, 2.5, -2.0] {
-            let arguments = Arguments {
-                drives: vec![drive],
-                loads: vec![[3.0, -5.0], [1.0, 2.0]],
-                params: Vec::new(),
-                ..Arguments::default()
-            };
+            let arguments =
+                Arguments { drives: vec![drive], loads: vec![[3.0, -5.0], [1.0, 2.0]], ..Arguments::default() };
             let (a, b) = (
                 scene::<Double>(&plain, "all", &arguments).unwrap(),
                 scene::<Double>(&scaled, "all", &arguments).unwrap(),
@@ -288,8 +274,7 @@ fn the_ground_line_may_have_any_angle() {
         let values = loads(&mut random);
         for exponent in 1..=7 {
             let drive = degrees.to_radians() + core::f64::consts::PI - 10f64.powi(-exponent);
-            let arguments =
-                Arguments { drives: vec![drive], loads: values.clone(), params: Vec::new(), ..Arguments::default() };
+            let arguments = Arguments { drives: vec![drive], loads: values.clone(), ..Arguments::default() };
             let found = scene::<Double>(&linkage, "all", &arguments).unwrap();
             let exact = scene::<Extended>(&linkage, "all", &arguments).unwrap();
             // Near the fold the loads' own forces are large, and may cancel.
@@ -317,12 +302,7 @@ fn what_cannot_be_assembled_is_a_typed_error() {
         scene work: virtual_work; scene where: position;";
     let linkage = compile(text);
     let run = |name: &str, x: f64, load: f64| {
-        let arguments = Arguments {
-            drives: vec![x],
-            loads: vec![[load, 1.0], [2.0, -1.0]],
-            params: Vec::new(),
-            ..Arguments::default()
-        };
+        let arguments = Arguments { drives: vec![x], loads: vec![[load, 1.0], [2.0, -1.0]], ..Arguments::default() };
         scene::<Double>(&linkage, name, &arguments)
     };
     for far in [3.03, 30.0, 1e10, 1e200, -3.03] {
@@ -350,8 +330,7 @@ fn what_cannot_be_assembled_is_a_typed_error() {
     // Legs of one length with the pins together: the place of B is open.
     let equal = compile(&text.replace("B0 -> B: 2m", "B0 -> B: 1m"));
     for x in [0.0, -0.0] {
-        let arguments =
-            Arguments { drives: vec![x], loads: vec![[0.0; 2]; 2], params: Vec::new(), ..Arguments::default() };
+        let arguments = Arguments { drives: vec![x], loads: vec![[0.0; 2]; 2], ..Arguments::default() };
         let fault = scene::<Double>(&equal, "where", &arguments).unwrap_err();
         assert!(matches!(fault, Fault::Failed(Failure::CoincidentPivots { .. })), "at {x}: {fault:?}");
     }
@@ -412,12 +391,7 @@ fn slides_that_are_nearly_parallel() {
 #[test]
 fn where_dyads_with_inner_slides_end_is_a_typed_error() {
     let run = |text: &str, name: &str, drive: f64| {
-        let arguments = Arguments {
-            drives: vec![drive],
-            loads: vec![[1.0, 1.0], [2.0, -1.0]],
-            params: Vec::new(),
-            ..Arguments::default()
-        };
+        let arguments = Arguments { drives: vec![drive], loads: vec![[1.0, 1.0], [2.0, -1.0]], ..Arguments::default() };
         scene::<Double>(&compile(&format!("{text} scene where: position;")), name, &arguments)
     };
     // The crank's pin comes as near to the block's as half of what the block holds it off.
@@ -486,12 +460,7 @@ fn what_is_not_finite_is_a_typed_error() {
     ];
     for text in texts {
         let linkage = compile(&format!("{text} scene parts: superposition; scene whole: position;"));
-        let good = Arguments {
-            drives: vec![1.0],
-            loads: vec![[3.0, -5.0], [1.0, 2.0]],
-            params: Vec::new(),
-            ..Arguments::default()
-        };
+        let good = Arguments { drives: vec![1.0], loads: vec![[3.0, -5.0], [1.0, 2.0]], ..Arguments::default() };
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for name in ["all", "parts", "work", "whole"] {
                 let mut arguments = good.clone();

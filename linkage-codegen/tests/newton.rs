@@ -93,7 +93,7 @@ fn loops_close_to_rounding() {
 }
 
 fn at(q: f64) -> Arguments {
-    Arguments { drives: vec![q], loads: vec![[3.0, -2.0]], params: Vec::new(), ..Arguments::default() }
+    Arguments { drives: vec![q], loads: vec![[3.0, -2.0]], ..Arguments::default() }
 }
 
 #[test]

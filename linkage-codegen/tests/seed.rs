@@ -25,7 +25,7 @@ fn declaration(closure: &str) -> String {
 }
 
 fn at(theta: f64) -> Arguments {
-    Arguments { drives: vec![theta], loads: vec![[0.0; 2]; 2], params: Vec::new(), ..Arguments::default() }
+    Arguments { drives: vec![theta], loads: vec![[0.0; 2]; 2], ..Arguments::default() }
 }
 
 fn solved<T: Number>(linkage: &Linkage, name: &str, theta: f64) -> Result<HashMap<String, T>, Fault> {

@@ -56,8 +56,7 @@ fn numbers(linkage: &Linkage) -> String {
     let loads: Vec<[f64; 2]> = loads.collect();
     let mut text = format!("loads that are given at run time: {loads:?}\n");
     for drive in [0.5, 2.0, -1.0] {
-        let arguments =
-            Arguments { drives: vec![drive], loads: loads.clone(), params: Vec::new(), ..Arguments::default() };
+        let arguments = Arguments { drives: vec![drive], loads: loads.clone(), ..Arguments::default() };
         let _ = writeln!(text, "\nat {drive}");
         if let Err(fault) = pose::<Double>(linkage, &arguments) {
             let _ = writeln!(text, "  {fault:?}");

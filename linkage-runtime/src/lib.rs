@@ -45,6 +45,7 @@
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+mod closure;
 pub mod cycle;
 mod error;
 pub mod limits;
@@ -57,6 +58,7 @@ mod search;
 mod support;
 mod sweep;
 
+pub use closure::{Along, Side};
 pub use error::Error;
 pub use linkage_macros::linkage;
 /// The plane vector of the public functions; the version of nalgebra is part of this crate's version.

@@ -4,8 +4,9 @@
 //! guess decides between them. Whether a dyad folds with its driver is the compiler's to say too: `smooth` is written where it is taken.
 
 use linkage_codegen::diagnostics::Sink;
-use linkage_codegen::model::{JointKind, Model};
-use linkage_codegen::topology::Topology;
+use linkage_codegen::model::Model;
+use linkage_codegen::model::ids::JointId;
+use linkage_codegen::topology::{Freedom, Group, Topology};
 use linkage_codegen::{Linkage, Refusal, analyse};
 
 use crate::declaration::{Declaration, joint_of};
@@ -130,23 +131,32 @@ impl Guess<'_> {
         Some(match (word, &of[..]) {
             ("left", [p, q]) => cross(from(*p, *q), from(*p, at)) > 0.0,
             ("right", [p, q]) => cross(from(*p, *q), from(*p, at)) < 0.0,
-            ("ahead", [p]) => dot(self.slide_of(inner, model?)?, from(*p, at)) > 0.0,
-            ("behind", [p]) => dot(self.slide_of(inner, model?)?, from(*p, at)) < 0.0,
+            ("ahead", [_]) => self.ahead(offer, model?)? > 0.0,
+            ("behind", [_]) => self.ahead(offer, model?)? < 0.0,
             _ => return None,
         })
     }
 
-    /// The direction of the slide in the group of this inner joint.
-    fn slide_of(&self, inner: &str, model: &Model) -> Option<[f64; 2]> {
-        let named = |joint: &linkage_codegen::model::ids::JointId| &model.joint(*joint).name.text;
+    /// How far ahead of the pin in an offer the inner joint of its group lies along the slide or slot, of an inner slide the other pin.
+    fn ahead(&self, offer: &str, model: &Model) -> Option<f64> {
+        let (inner, side) = offer.strip_prefix("assemble ")?.split_once(':')?;
+        let pin = side.split_once('(')?.1.split_once(')')?.0.trim();
+        let named = |joint: &JointId| model.joint(*joint).name.text.as_str();
         let topology = Topology::of(model, &Sink::default())?;
-        let group = topology.motion.iter().find(|group| group.inner.iter().any(|joint| named(joint) == inner))?;
-        let slides = |joint: &&_| !matches!(model.joint(**joint).kind, JointKind::Revolute);
-        let slide = group.outer.iter().chain(&group.inner).find(slides)?;
+        let joints = |group: &Group| -> Vec<JointId> { group.outer.iter().chain(&group.inner).copied().collect() };
+        let group = topology.motion.iter().find(|group| joints(group).iter().any(|joint| named(joint) == inner))?;
+        let slides = |joint: &&JointId| matches!(group.freedom(model, **joint), Freedom::Slide | Freedom::TurnAndSlide);
+        let all = joints(group);
+        let slide = all.iter().find(slides)?;
+        // What slides on both links is no place of its own.
+        let between =
+            group.inner.contains(slide) && group.freedom(model, *slide) == Freedom::Slide && named(slide) == inner;
+        let at = if between { group.outer.iter().map(named).find(|name| *name != pin)? } else { inner };
         let joint = joint_of(self.file, &self.declaration.joints, named(slide))?;
         let [x, y] = joint.axis.as_ref()?;
         let [_, _, angle] = self.frame(&joint.a.0)?;
-        Some(turned([self.value(x)?, self.value(y)?], angle))
+        let along = turned([self.value(x)?, self.value(y)?], angle);
+        Some(dot(along, from(self.place(pin)?, self.place(at)?)))
     }
 
     /// Where a joint is: between its two points, which a guess need not bring together exactly.

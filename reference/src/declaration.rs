@@ -4,6 +4,14 @@
 //! with its number: the link `crank` is `L0_crank`, its point `A` `P1_A`, the joint `A` `J1_A`. All numbers are taken as SI: a
 //! consistent set of units gives consistent results.
 
+use std::collections::HashMap;
+
+use linkage_codegen::diagnostics::Sink;
+use linkage_codegen::graph::Symbol;
+use linkage_codegen::model::ids::{GROUND, LinkId};
+use linkage_codegen::topology::Topology;
+use linkage_codegen::{model, syntax};
+
 use crate::file::{Body, Coordinate, Effort, End, File, Given, Joint, JointKind, LoadKind, Place};
 use crate::number::{Mode, Number, Raw};
 
@@ -199,6 +207,7 @@ impl<'a> Writer<'a> {
         // Points last: those that are given by coordinates where they are used are known only now.
         let mut all = self.bodies()?;
         all.append(&mut items);
+        self.turns(&mut all)?;
         let positions = self.positions()?;
         let motion = self.motion()?;
         let Self { links, joints, loads, .. } = self;
@@ -391,59 +400,72 @@ impl<'a> Writer<'a> {
                 format!("spring({}, {}) {{ {fields} }}", self.end(a)?, self.end(b)?)
             }
             LoadKind::TorsionSpring { a, b, stiffness, free_angle, damping } => {
-                let mut fields = self.fields(&[
+                let fields = self.fields(&[
                     ("rate", stiffness.as_ref(), "N*m/rad"),
                     ("free", free_angle.as_ref(), "rad"),
                     ("damping", damping.as_ref().filter(|_| damped), "N*m*s/rad"),
                 ])?;
-                if let Some(near) = self.turn(a, b, free_angle.as_ref())? {
-                    fields.push_str(&format!(", near: {near:?}rad"));
-                }
                 format!("torsion({} -> {}) {{ {fields} }}", self.link(a)?, self.link(b)?)
             }
         })
     }
 
-    /// Of a torsion spring that is wound by more than half a turn, near to which angle it stands without what the inputs turn: as the
-    /// guess has it. Where inputs alone give its angle, there is nothing to say.
-    fn turn(&self, a: &str, b: &str, free: Option<&Raw>) -> Result<Option<f64>, String> {
-        let angle = |link: &str| match self.file.guess.get(link) {
-            Some([_, _, angle]) => self.number(angle).map(|angle| angle.value),
-            None => Ok(0.0),
+    /// Of torsion springs that are wound by more than half a turn, near to which angle they stand without what the inputs turn: as the
+    /// guess has it. Where inputs or gears tell the angle, which the compiler knows, there is nothing to say.
+    fn turns(&self, items: &mut [String]) -> Result<(), String> {
+        let torsion = |load: &LoadKind| match load {
+            LoadKind::TorsionSpring { a, b, free_angle, .. } => Some((a.clone(), b.clone(), free_angle.clone())),
+            _ => None,
         };
-        let relative = angle(b)? - angle(a)?;
-        let free = free.map_or(Ok(0.0), |free| self.number(free).map(|free| free.value))?;
-        let (by_a, by_b) = (self.turned(a)?, self.turned(b)?);
-        if (relative - free).abs() < 3.0 || by_a.is_some() && by_b.is_some() {
-            return Ok(None);
+        let springs = self.file.loads.iter().filter_map(|load| Some((load, torsion(&load.kind)?)));
+        let springs: Vec<_> = springs.collect();
+        if springs.is_empty() {
+            return Ok(());
         }
-        Ok(Some(relative + by_a.unwrap_or(0.0) - by_b.unwrap_or(0.0)))
-    }
-
-    /// By how much inputs turn a link, if they alone give its angle.
-    fn turned(&self, link: &str) -> Result<Option<f64>, String> {
-        let mut known = vec![("ground", 0.0)];
-        let mut next = 0;
-        while let Some((at, angle)) = known.get(next).copied() {
-            if at == link {
-                return Ok(Some(angle));
+        let text = format!("mod mechanism; {}", items.concat());
+        let sink = Sink::default();
+        let model = text.parse().ok().and_then(|tokens| syntax::parse(tokens, &sink));
+        let Some(model) = model.map(|ast| model::resolve(&ast, &sink)) else { return Ok(()) };
+        let topology = if sink.is_clean() { Topology::of(&model, &sink) } else { None };
+        let Some(topology) = topology else { return Ok(()) };
+        let geared = topology.geared(&model);
+        let inputs = self.file.inputs.iter().map(|input| self.number(&input.value).map(|value| value.value));
+        let inputs: Vec<f64> = inputs.collect::<Result<_, _>>()?;
+        for (load, (a, b, free)) in springs {
+            let id = |name: &str| -> Result<LinkId, String> {
+                let name = self.link(name)?;
+                let found = model.links.iter().position(|link| link.name.text == name);
+                found.map(LinkId::new).ok_or_else(|| format!("there is no link `{name}`"))
+            };
+            let (from, on) = (id(&a)?, id(&b)?);
+            if model.driven_angle(from, on).is_some() || geared.contains(&from) || geared.contains(&on) {
+                continue;
             }
-            next += 1;
-            for joint in &self.file.joints {
-                let (a, b) = (joint.a.0.as_str(), joint.b.0.as_str());
-                let input = self.file.inputs.iter().find(|input| input.joint == joint.name);
-                let turn = match (joint.kind, input) {
-                    (JointKind::Prismatic, _) => 0.0,
-                    (JointKind::Revolute, Some(input)) => self.number(&input.value)?.value,
-                    _ => continue,
+            let angle = |link: &str| match self.file.guess.get(link) {
+                Some([_, _, angle]) => self.number(angle).map(|angle| angle.value),
+                None => Ok(0.0),
+            };
+            let relative = angle(&b)? - angle(&a)?;
+            let free = free.map_or(Ok(0.0), |free| self.number(&free).map(|free| free.value))?;
+            if (relative - free).abs() < 3.0 {
+                continue;
+            }
+            let driven = |link: LinkId| {
+                let known = |symbol| match symbol {
+                    Symbol::Drive(drive) => inputs.get(drive.index()).copied().unwrap_or(f64::NAN),
+                    _ => f64::NAN,
                 };
-                let (other, turn) = if a == at { (b, turn) } else { (a, -turn) };
-                if (a == at || b == at) && known.iter().all(|(link, _)| *link != other) {
-                    known.push((other, angle + turn));
-                }
+                let driven = model.driven_angle(GROUND, link);
+                driven.map_or(0.0, |[driven, _]| model.graph.evaluate(driven.id(), &known, &mut HashMap::new()))
+            };
+            let near = relative + driven(from) - driven(on);
+            let start = format!("load {}: torsion(", self.loads.find(&load.name)?);
+            let Some(item) = items.iter_mut().find(|item| item.starts_with(&start)) else { continue };
+            if let Some(fields) = item.strip_suffix(" };") {
+                *item = format!("{fields}, near: {near:?}rad }};");
             }
         }
-        Ok(None)
+        Ok(())
     }
 
     /// The fields of a spring. What it must have is zero if the file leaves it out.

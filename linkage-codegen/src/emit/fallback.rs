@@ -7,7 +7,7 @@ use quote::quote;
 use syn::ext::IdentExt;
 
 use super::literals::ident;
-use super::types::{given_motion, loads, motion, results, run_time_loads, scalar};
+use super::types::{closures, given_motion, loads, motion, results, run_time_loads, scalar};
 use crate::graph::NodeId;
 use crate::model::ids::LinkId;
 use crate::model::{Along, Load, Method, Model, OWN_TYPES, Scene, Wanted, type_name};
@@ -45,9 +45,12 @@ pub fn module(mut model: Model) -> TokenStream {
     });
     let limits = super::limits::fallback(model, &runtime);
     let (motion, loads) = (motion(model), loads(model, false));
+    let closures = closures(model, false);
+    let sides = (!closures.is_empty()).then(|| quote!(use #runtime::{Along, Side};));
     let own = names.iter().map(|name| name.unraw().to_string());
     // Whether there is a search is not known; a pose can be moved unless something else has that name.
-    let moved = quote!(pub fn moved_to(&self, #(#drives),*) -> Result<Self, Error> { loop {} });
+    let coordinates = &drives[..model.drives.len()];
+    let moved = quote!(pub fn moved_to(&self, #(#coordinates),*) -> Result<Self, Error> { loop {} });
     let moved = (!own.clone().any(|name| name == "moved_to")).then_some(moved);
     let methods = distinct(own.zip(from_pose).chain(accessors));
     quote! {
@@ -60,8 +63,10 @@ pub fn module(mut model: Model) -> TokenStream {
                 pub const EQUATIONS: &str = "";
                 pub const OPERATIONS: &str = "";
                 pub const SOURCE: &str = "";
+                #sides
                 #motion
                 #loads
+                #closures
                 #params
                 #limits
                 #pose
@@ -145,7 +150,8 @@ fn pose(model: &Model) -> TokenStream {
 /// The drives as arguments. What they are called is of no matter.
 fn drives(model: &Model) -> Vec<TokenStream> {
     let scalar = scalar(model);
-    model.drives.iter().map(|_| quote!(_: #scalar)).collect()
+    let closures = model.given_closures().next().map(|_| quote!(_: Closures));
+    model.drives.iter().map(|_| quote!(_: #scalar)).chain(closures).collect()
 }
 
 /// The arguments behind the drives.

@@ -193,6 +193,7 @@ impl<S> Formula<'_, S> {
         match symbol {
             Symbol::Parameter(param) => self.model.param(param).name.text.clone(),
             Symbol::Drive(drive) => self.model.drive(drive).name.text.clone(),
+            Symbol::Side(closure) => format!("side_{}", self.model.joint(self.model.closure(closure).joint).name),
             Symbol::Load(load, part) => {
                 let load = self.model.load(load);
                 let value = load.kind.value_name(part);

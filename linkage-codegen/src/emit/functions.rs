@@ -17,7 +17,8 @@ use crate::plan::{Comparison, Output};
 use crate::program::{Input, Program, ValueId};
 
 /// Names that a function's own values cannot have.
-const TAKEN: [&str; 8] = ["motion", "loads", "linkage", "params", "EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"];
+const TAKEN: [&str; 9] =
+    ["motion", "loads", "linkage", "params", "closures", "EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"];
 
 /// The name of an input.
 fn input_name(linkage: &Linkage, input: Input) -> String {
@@ -25,6 +26,7 @@ fn input_name(linkage: &Linkage, input: Input) -> String {
     match input {
         Input::Symbol(Symbol::Drive(drive)) => model.drive(drive).name.text.clone(),
         Input::Symbol(Symbol::Parameter(param)) => model.param(param).name.text.clone(),
+        Input::Symbol(Symbol::Side(closure)) => format!("side_{}", model.joint(model.closure(closure).joint).name),
         Input::Symbol(Symbol::Load(load, part)) => {
             let load = model.load(load);
             load.value_name(load.kind.value_name(part))
@@ -60,6 +62,8 @@ pub(super) fn body<'a>(linkage: &'a Linkage, program: &'a Program) -> Body<'a> {
 enum Drives {
     Arguments,
     Pose,
+    /// Arguments, and the rest from a pose that is moved.
+    Moved,
 }
 
 /// Statements that take a function's inputs out of where they are kept.
@@ -81,6 +85,12 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
             }
             Input::Symbol(Symbol::Driven(..)) => motion.push(name),
             Input::Symbol(Symbol::Load(load, part)) => loads.entry(load).or_default().push(part),
+            Input::Symbol(Symbol::Side(closure)) => {
+                let scalar = scalar(&linkage.model);
+                let joint = ident(&linkage.model.joint(linkage.model.closure(closure).joint).name.text);
+                let of = if drives == Drives::Arguments { quote!(closures) } else { quote!(self.closures) };
+                statements.extend(quote!(let #name = #scalar::from(#of.#joint.sign());));
+            }
             Input::Symbol(_) | Input::Known(_) => {}
         }
     }
@@ -200,8 +210,25 @@ fn outputs(body: &Body<'_>, program: &Program) -> Vec<TokenStream> {
     program.outputs.iter().map(|(_, value): &(String, ValueId)| body.value(*value)).collect()
 }
 
-/// The arguments that give the drives.
+/// Whether what is asked of a pose reads the sides on which it closes.
+pub(super) fn pose_keeps_closures(linkage: &Linkage) -> bool {
+    let functions = &linkage.functions;
+    let scenes = functions.scenes.iter().map(|scene| &scene.from_pose);
+    if functions.near.is_some() && linkage.model.given_closures().next().is_some() {
+        return true;
+    }
+    let mut inputs = functions.accessors.iter().chain(scenes).flat_map(Program::inputs);
+    inputs.any(|(_, input)| matches!(input, Input::Symbol(Symbol::Side(_))))
+}
+
+/// The arguments that give the drives, and the closures if they are chosen at run time.
 fn drive_arguments(linkage: &Linkage) -> Vec<TokenStream> {
+    let closures = linkage.model.given_closures().next().map(|_| quote!(closures: Closures));
+    coordinates(linkage).into_iter().chain(closures).collect()
+}
+
+/// The arguments that give the drives.
+fn coordinates(linkage: &Linkage) -> Vec<TokenStream> {
     let scalar = scalar(&linkage.model);
     let arguments = linkage.model.drives.iter().map(|drive| {
         let name = ident(&drive.name.text);
@@ -291,12 +318,12 @@ fn pose_function(
 ) -> TokenStream {
     let from_self = receiver.to_string().contains("self");
     let prepared = if from_self { prepared_of_pose(linkage, program) } else { TokenStream::new() };
-    let bindings = bindings(linkage, program, Drives::Arguments);
+    let bindings = bindings(linkage, program, if from_self { Drives::Moved } else { Drives::Arguments });
     let (statements, body) = body(linkage, program).statements();
     let values = outputs(&body, program);
     let kept = linkage.plan.pose.iter().zip(values).map(|(kept, value)| member(&kept.name, &value));
     let drives = linkage.model.drives.iter().map(|drive| ident(&drive.name.text));
-    let arguments = drive_arguments(linkage);
+    let arguments = if from_self { coordinates(linkage) } else { drive_arguments(linkage) };
     // A drive that no direction depends on is checked all the same.
     let read: Vec<Input> = program.inputs().map(|(_, input)| input).collect();
     let unread =
@@ -308,8 +335,12 @@ fn pose_function(
     });
     let drive_docs =
         linkage.model.drives.iter().map(|d| format!("* `{}`: {}", d.name, drive_doc(&linkage.model, &d.name.text)));
+    let closures = linkage.model.given_closures().next().filter(|_| !from_self);
+    let closure_doc = closures.map(|_| "* `closures`: On which side each group closes.".to_owned());
+    let keeps = pose_keeps_closures(linkage)
+        .then(|| if from_self { quote!(closures: self.closures,) } else { quote!(closures,) });
     let mut points: Vec<String> = points.iter().map(|point| format!("{point}\n")).collect();
-    points.extend(drive_docs);
+    points.extend(drive_docs.chain(closure_doc));
     let lines = docs::function(summary, &points, program, &[]);
     quote! {
         #lines
@@ -319,7 +350,7 @@ fn pose_function(
             #prepared
             #bindings
             #statements
-            Ok(Self { #own #(#drives,)* #(#kept),* })
+            Ok(Self { #own #(#drives,)* #keeps #(#kept),* })
         }
     }
 }

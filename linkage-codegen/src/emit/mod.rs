@@ -75,6 +75,8 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     });
     let wrench = uses_wrench(&runtime, model.has_wrenches());
     let sweeps: TokenStream = model.sweeps.iter().map(|sweep| sweeps::function(linkage, sweep, &runtime)).collect();
+    let closures = types::closures(model, true);
+    let sides = (!closures.is_empty()).then(|| quote!(use #runtime::{Along, Side};));
     let scenes = 0..model.scenes.len();
     let results: TokenStream = scenes.clone().map(|s| types::results(model, s, &linkage.plan.scenes[s])).collect();
     let from_pose: TokenStream = scenes.clone().map(|s| functions::from_pose(linkage, s)).collect();
@@ -100,6 +102,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     };
                 #reference
                 #wrench
+                #sides
 
                 /// The derivation: free bodies, equilibrium equations, reduction, closed forms.
                 pub const EQUATIONS: &str = #equations;
@@ -110,6 +113,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
 
                 #motion
                 #loads
+                #closures
                 #params
                 #limits
                 #pose

@@ -60,6 +60,7 @@ fn names(linkage: &Linkage, search: &Search) -> Names {
         Op::Symbol(Symbol::Start(other, number)) => {
             Some(format!("{}_before", kept_name(model, &model.graph.search(other), number)))
         }
+        Op::Symbol(Symbol::Side(closure)) => Some(format!("side_{}", model.joint(model.closure(closure).joint).name)),
         _ => name_of(model, *node),
     };
     let drives =

@@ -113,6 +113,10 @@ fn given_values(linkage: &Linkage, sweep: &Sweep) -> (TokenStream, Vec<TokenStre
     (quote!(#motion_of #loads_of), arguments)
 }
 
+fn closures_argument(model: &Model) -> Option<TokenStream> {
+    model.given_closures().next().map(|_| quote!(closures: Closures,))
+}
+
 /// A sweep with its types.
 pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) -> TokenStream {
     let model = &linkage.model;
@@ -145,6 +149,9 @@ pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) 
     let (given_values, arguments) = given_values(linkage, sweep);
     let (prepared, passed) =
         if has_params(linkage) { (Some(quote!(linkage: &Linkage,)), Some(quote!(linkage,))) } else { (None, None) };
+    // One choice for the whole sweep.
+    let closed = model.given_closures().next().map(|_| quote!(closures,));
+    let closures = closures_argument(model);
     let scene_name = ident(&scene.name.text);
     let direct = ident(&format!("{}_at", scene.name));
     let (before, solved, branch) = if linkage.functions.near.is_some() {
@@ -152,7 +159,7 @@ pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) 
         let solved = quote! {
             let pose = match before {
                 Some(before) => before.moved_to(#(#drives),*)?,
-                None => Pose::at(#passed #(#drives),*)?,
+                None => Pose::at(#passed #(#drives,)* #closed)?,
             };
             before = Some(pose);
             let results = pose.#scene_name(#(#arguments),*)?;
@@ -161,7 +168,7 @@ pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) 
                       the sweep stays on their branch: that is [`Pose::moved_to`].";
         (Some(before), solved, branch.to_owned())
     } else {
-        let solved = quote!(let results = #direct(#passed #(#drives,)* #(#arguments),*)?;);
+        let solved = quote!(let results = #direct(#passed #(#drives,)* #closed #(#arguments),*)?;);
         (None, solved, format!("Each position has the numbers of [`{}_at`], bit by bit.", scene.name))
     };
     let docs = [
@@ -180,7 +187,7 @@ pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) 
         #inputs
         #results
         #(#[doc = #docs])*
-        pub fn #name(#prepared inputs: &#inputs_ty<'_>, results: #results_ty<'_>) -> Result<(), #runtime::SweepError> {
+        pub fn #name(#prepared #closures inputs: &#inputs_ty<'_>, results: #results_ty<'_>) -> Result<(), #runtime::SweepError> {
             use #runtime::__private::{same_length, store, sweep};
             let #results_ty { #(#fields,)* } = results;
             let count = #count;
@@ -203,9 +210,10 @@ pub(super) fn stand_in(model: &Model, sweep: &Sweep, output: &Output, runtime: &
     let name = ident(&sweep.name.text);
     let [inputs_ty, results_ty] = sweep.types().map(|ty| ident(&ty));
     let prepared = (!model.params.is_empty()).then(|| quote!(linkage: &Linkage,));
+    let closures = closures_argument(model);
     quote! {
         #inputs
         #results
-        pub fn #name(#prepared inputs: &#inputs_ty<'_>, results: #results_ty<'_>) -> Result<(), #runtime::SweepError> { loop {} }
+        pub fn #name(#prepared #closures inputs: &#inputs_ty<'_>, results: #results_ty<'_>) -> Result<(), #runtime::SweepError> { loop {} }
     }
 }

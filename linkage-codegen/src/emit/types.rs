@@ -6,7 +6,7 @@ use quote::quote;
 use super::literals::{ident, signed_literal};
 use crate::Linkage;
 use crate::graph::Order;
-use crate::model::ids::{GROUND, LoadId};
+use crate::model::ids::{GROUND, JointId, LoadId};
 use crate::model::units::Kind;
 use crate::model::{Drive, Load, LoadKind, Method, Model, type_name};
 use crate::plan::Output;
@@ -160,6 +160,35 @@ pub(super) fn load_doc(model: &Model, load: &Load) -> String {
     }
 }
 
+/// `Closures`: a field for each group whose side is chosen at run time; none if there is none.
+pub(super) fn closures(model: &Model, whole: bool) -> TokenStream {
+    let fields: Vec<TokenStream> = model
+        .given_closures()
+        .filter_map(|(_, closure)| {
+            let joint = |id: JointId| Some(&model.joints.get(id.index())?.name);
+            let (inner, ty) = (joint(closure.joint)?, ident(closure.type_name()));
+            let of: Option<Vec<String>> = closure.of.iter().map(|of| Some(format!("`{}`", joint(*of)?))).collect();
+            let doc = match of?.as_slice() {
+                [from, to] if whole => {
+                    format!(" On which side of the line from {from} to {to} the joint `{inner}` lies.")
+                }
+                [of] if whole => format!(" Whether the group of `{inner}` closes ahead of {of} or behind it."),
+                _ => String::new(),
+            };
+            let name = ident(&inner.text);
+            Some(quote!(#[doc = #doc] pub #name: #ty))
+        })
+        .collect();
+    if fields.is_empty() {
+        return TokenStream::new();
+    }
+    quote! {
+        /// The sides on which groups close, where they are chosen at run time.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub struct Closures { #(#fields),* }
+    }
+}
+
 /// `Params` and `Linkage`; none without parameters.
 pub(super) fn params(linkage: &Linkage, new: &TokenStream) -> TokenStream {
     let model = &linkage.model;
@@ -227,6 +256,8 @@ pub(super) fn pose(linkage: &Linkage) -> TokenStream {
         let doc = format!(" {}", kept.meaning);
         quote!(#[doc = #doc] #name: #scalar)
     });
+    let closures = super::functions::pose_keeps_closures(linkage)
+        .then(|| quote!(/** The sides on which it closes. */ closures: Closures,));
     let (generics, prepared) = if has_params(linkage) {
         (quote!(<'l>), quote!(/** The prepared linkage. */ linkage: &'l Linkage,))
     } else {
@@ -235,7 +266,7 @@ pub(super) fn pose(linkage: &Linkage) -> TokenStream {
     quote! {
         /// A pose of the linkage, from which every scene can be solved.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct Pose #generics { #prepared #(#drives,)* #(#kept),* }
+        pub struct Pose #generics { #prepared #(#drives,)* #closures #(#kept),* }
     }
 }
 

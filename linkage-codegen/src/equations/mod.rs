@@ -15,6 +15,7 @@ use loads::{Action, Case};
 use crate::graph::{Coordinate, Expr, Graph, NodeId, Vector};
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId, UnknownId};
 use crate::model::{Drive, End, JointKind, Model, UnknownKind};
+use crate::topology::Topology;
 
 /// The equations of a linkage.
 #[derive(Debug)]
@@ -114,14 +115,14 @@ impl<'m> Dimensions<'m> for Declared<'m> {
 impl System {
     /// The equations of a model, in the symbols of its links' coordinates.
     #[must_use]
-    pub fn of(model: &Model) -> Self {
+    pub fn of(model: &Model, topology: &Topology) -> Self {
         let dimensions = Declared(model);
         let joints = model.joint_ids().flat_map(|joint| joint_rows(model, &model.graph, &dimensions, joint));
         let unknowns =
             (0..model.unknowns.len()).map(|u| unknown_row(model, &model.graph, &dimensions, UnknownId::new(u)));
         let rows = joints.chain(unknowns).collect();
         let bodies = |link| Body::symbolic(&model.graph, link);
-        let cases = loads::cases(&loads::Symbolic(model))
+        let cases = loads::cases(&loads::Symbolic { model, topology })
             .into_iter()
             .map(|(case, actions)| LoadCase {
                 case,

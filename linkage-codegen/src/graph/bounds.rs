@@ -161,6 +161,7 @@ impl Graph {
             Op::Kernel { kernel: Kernel::Atan2, .. } => {
                 computed(Bounds { low: -core::f64::consts::PI, high: core::f64::consts::PI })
             }
+            Op::Symbol(Symbol::Side(_)) => Bounds { low: -1.0, high: 1.0 },
             Op::Kernel { kernel: Kernel::Search { search, .. }, part, .. } if self.finds_direction(search, part) => {
                 computed(Bounds { low: -1.0, high: 1.0 })
             }

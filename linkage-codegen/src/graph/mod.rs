@@ -22,7 +22,7 @@ use number::Number;
 pub use search::{Arguments, Search, SearchId, Sought, sought_direction};
 pub use vector::Vector;
 
-use crate::model::ids::{DriveId, LinkId, LoadId, ParamId};
+use crate::model::ids::{ClosureId, DriveId, LinkId, LoadId, ParamId};
 
 /// The number type of a linkage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -111,6 +111,8 @@ pub enum Symbol {
     Drive(DriveId),
     /// Its rate or its acceleration, given at run time.
     Driven(DriveId, Order),
+    /// The side of a closure that is chosen at run time: 1 or −1.
+    Side(ClosureId),
     /// A component of a load that is given at run time.
     Load(LoadId, u8),
     /// A coordinate of a link in the symbolic equations.

@@ -335,7 +335,7 @@ fn chain<'m>(bodies: &Bodies<'m>, edges: &[Edge], path: &[(usize, usize)]) -> Op
             let joint = model.joint(edge.joint);
             let kind = if matches!(joint.kind, JointKind::Revolute) { Kind::Pin } else { Kind::Slide };
             // What stands for two joints has no coordinate.
-            let drive = model.drive_of(edge.joint).filter(|_| edge.other.is_none());
+            let drive = model.drives_of(edge.joint).next().filter(|_| edge.other.is_none());
             let sides = [bodies.side(joint, from), bodies.side(joint, to)];
             let other = edge.other.map(|(joint, _)| joint);
             hinges.push(Hinge { kind, joint: edge.joint, other, drive, sides, forwards: joint.to == to });
@@ -354,12 +354,11 @@ fn slot<'m>(bodies: &Bodies<'m>, slot: JointId, from: End, to: End) -> [Hinge<'m
     let x_axis = Vector::new(graph.one(), graph.zero());
     let block = Side { point: graph.zero_vector(), axis: x_axis, turn: x_axis, end: None };
     let carries = |end: End| joint.kind.line().is_some_and(|(carrier, _)| carrier == end.link);
-    let drive = |turns: bool| model.drive_of(slot).filter(|drive| model.drive(*drive).turns == turns);
     let hinge = |kind: Kind, sides: [Side<'m>; 2]| Hinge {
         kind,
         joint: slot,
         other: None,
-        drive: drive(kind == Kind::Pin),
+        drive: model.drive_of(slot, kind == Kind::Pin),
         sides,
         forwards: joint.to == to,
     };

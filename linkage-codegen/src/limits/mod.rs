@@ -288,7 +288,8 @@ impl<'m> Closing<'m> {
     fn of(chain: &Chain<'m>) -> Option<Self> {
         let holds = |joint: &JointId| chain.hinges[1..].iter().any(|hinge| hinge.is(*joint));
         let closed = |closure: &&Closure| holds(&closure.joint) && closure.of.iter().all(holds);
-        let closure = chain.model.closures.iter().find(closed)?;
+        // Of a side that is an argument nothing is known here.
+        let closure = chain.model.closures.iter().find(closed).filter(|closure| !closure.is_given_at_run_time())?;
         Some(Self { name: chain.model.joint(closure.joint).name.text.clone(), closure })
     }
 

@@ -40,6 +40,8 @@ ids! {
     UnknownId,
     /// A load.
     LoadId,
+    /// A closure.
+    ClosureId,
 }
 
 /// The fixed link.

@@ -10,6 +10,7 @@ mod motion;
 mod names;
 mod options;
 mod scenes;
+mod turns;
 pub(crate) use scenes::OWN_TYPES;
 pub use scenes::type_name;
 mod sweeps;
@@ -20,7 +21,7 @@ use proc_macro2::TokenStream;
 use crate::diagnostics::{Diagnostic, Place, Sink};
 use crate::graph::{Expr, Graph, NodeId, Order, Scalar, Symbol, Vector};
 use crate::syntax::ast::{Ast, Name};
-use ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
+use ids::{ClosureId, DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
 pub use sweeps::Sweep;
 use units::{Kind, Units};
 
@@ -184,7 +185,7 @@ impl Joint {
     pub fn pivot_names(&self) -> Vec<String> {
         let sine = format!("sin_mu_{}", self.name);
         match self.kind {
-            JointKind::Prismatic { .. } => vec![sine, format!("reach_{}", self.name)],
+            JointKind::Prismatic { .. } | JointKind::Slot { .. } => vec![sine, format!("reach_{}", self.name)],
             _ => vec![sine],
         }
     }
@@ -422,6 +423,20 @@ pub struct Closure {
     pub smooth_place: Place,
 }
 
+impl Closure {
+    /// Whether its side is an argument.
+    #[must_use]
+    pub fn is_given_at_run_time(&self) -> bool {
+        self.side == Side::Either
+    }
+
+    /// The type of that argument: a side of a line, or one along a slide.
+    #[must_use]
+    pub fn type_name(&self) -> &'static str {
+        if self.of.len() == 2 { "Side" } else { "Along" }
+    }
+}
+
 /// A side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
@@ -433,6 +448,8 @@ pub enum Side {
     Ahead,
     /// Less far along the slide.
     Behind,
+    /// As an argument says.
+    Either,
 }
 
 impl Side {
@@ -444,6 +461,7 @@ impl Side {
             Self::Right => "right",
             Self::Ahead => "ahead",
             Self::Behind => "behind",
+            Self::Either => "either",
         }
     }
 }
@@ -738,33 +756,6 @@ impl Model {
         })
     }
 
-    /// The angle of a link from another one, if driven pins, slides and welds lead there: what the drives turn it by, and the rest.
-    #[must_use]
-    pub fn driven_angle(&self, from: LinkId, on: LinkId) -> Option<[Expr<'_>; 2]> {
-        let zero = self.graph.zero();
-        let mut reached = vec![(from, [zero, zero])];
-        let mut next = 0;
-        while let Some((link, angle)) = reached.get(next).copied() {
-            if link == on {
-                return Some(angle);
-            }
-            next += 1;
-            for joint in self.joint_ids() {
-                let data = self.joint(joint);
-                let unknown = |end: &End| reached.iter().all(|(link, _)| *link != end.link);
-                let Some(other) = data.end_off(link).filter(unknown) else { continue };
-                let fixed = data.kind.turn().map(|(_, angle)| [zero, self.graph.expr(angle)]);
-                let turns = |drive: &DriveId| self.drive(*drive).turns;
-                let driven = self.drive_of(joint).filter(turns);
-                let driven = driven.map(|drive| [self.graph.symbol(Symbol::Drive(drive)), zero]);
-                let Some(turn) = fixed.or(driven) else { continue };
-                let sign = if data.to == other { 1 } else { -1 };
-                reached.push((other.link, [0, 1].map(|part| angle[part] + sign * turn[part])));
-            }
-        }
-        None
-    }
-
     /// Coordinates of a point in its link's frame.
     #[must_use]
     pub fn local(&self, end: End) -> Vector<'_> {
@@ -837,15 +828,41 @@ impl Model {
         (1..self.links.len()).map(LinkId::new)
     }
 
+    /// A closure.
+    #[must_use]
+    pub fn closure(&self, id: ClosureId) -> &Closure {
+        &self.closures[id.index()]
+    }
+
+    /// The closures whose sides are arguments, each with its place in the list.
+    pub fn given_closures(&self) -> impl Iterator<Item = (ClosureId, &Closure)> {
+        let all = self.closures.iter().enumerate().filter(|(_, closure)| closure.is_given_at_run_time());
+        all.map(|(index, closure)| (ClosureId::new(index), closure))
+    }
+
     /// All joints.
     pub fn joint_ids(&self) -> impl Iterator<Item = JointId> + use<> {
         (0..self.joints.len()).map(JointId::new)
     }
 
-    /// The drive of a joint.
+    /// The drive of a joint's angle, or of its travel.
     #[must_use]
-    pub fn drive_of(&self, joint: JointId) -> Option<DriveId> {
-        self.drives.iter().position(|d| d.joint == joint).map(DriveId::new)
+    pub fn drive_of(&self, joint: JointId, turns: bool) -> Option<DriveId> {
+        self.drives.iter().position(|d| d.joint == joint && d.turns == turns).map(DriveId::new)
+    }
+
+    /// All drives of a joint: a slot has two coordinates.
+    pub fn drives_of(&self, joint: JointId) -> impl Iterator<Item = DriveId> {
+        let own = self.drives.iter().enumerate().filter(move |(_, drive)| drive.joint == joint);
+        own.map(|(index, _)| DriveId::new(index))
+    }
+
+    /// The unknown that is the effort at the drive of a joint's angle, or of its travel.
+    #[must_use]
+    pub fn effort_of(&self, joint: JointId, turns: bool) -> Option<UnknownId> {
+        let drive = self.drive_of(joint, turns)?;
+        let effort = |unknown: &Unknown| matches!(unknown.kind, UnknownKind::Drive(own) if own == drive);
+        self.unknowns.iter().position(effort).map(UnknownId::new)
     }
 
     /// Names of links in a row: `coupler + rocker`.

@@ -50,7 +50,13 @@ fn motion(scope: Scope<'_>, drive: &ast::Drive, turns: bool, order: Order, sink:
 /// Whether the coordinate of a drive is an angle.
 fn turns(model: &Model, given: &ast::Drive, joint: JointId, sink: &Sink) -> bool {
     let target = model.joint(joint);
-    if let Some(first) = model.drives.iter().find(|d| d.joint == joint) {
+    let asked = given.coordinate.as_ref().map(|coordinate| coordinate.text.as_str());
+    // Of a slot angle and travel are driven independently.
+    let same = |drive: &&Drive| {
+        let slot = matches!(target.kind, JointKind::Slot { .. });
+        drive.joint == joint && (!slot || asked.is_some_and(|asked| drive.turns == (asked == "angle")))
+    };
+    if let Some(first) = model.drives.iter().find(same) {
         let problem = format!("the joint `{}` is driven by `{}` already", target.name, first.name);
         sink.report(
             Diagnostic::new(given.joint.place(), problem)
@@ -59,7 +65,6 @@ fn turns(model: &Model, given: &ast::Drive, joint: JointId, sink: &Sink) -> bool
         );
     }
     let (coordinate, kind) = (given.coordinate.as_ref(), target.kind.word());
-    let asked = coordinate.map(|coordinate| coordinate.text.as_str());
     let place = coordinate.map_or(given.joint.place(), |coordinate| given.joint.place().to(coordinate.place()));
     let has = match target.kind {
         JointKind::Revolute => "angle",
@@ -265,18 +270,12 @@ fn closure(scope: Scope<'_>, given: &ast::Assemble) -> Result<Option<Closure>, D
         "right" => (Side::Right, 2),
         "ahead" => (Side::Ahead, 1),
         "behind" => (Side::Behind, 1),
-        "either" => {
-            return Err(Diagnostic::new(
-                given.side.place(),
-                "a closure that is chosen at run time is not supported yet",
-            )
-            .help("choose it here: `left(A -> B0)`, `right(A -> B0)`, or with a slider `ahead(A)`, `behind(A)`"));
-        }
+        // As the joints say: of a line, or along a slide.
+        "either" => (Side::Either, given.joints.len()),
         other => {
             let problem = format!("there is no side `{other}`");
-            return Err(
-                Diagnostic::new(given.side.place(), problem).suggest(other, ["left", "right", "ahead", "behind"])
-            );
+            return Err(Diagnostic::new(given.side.place(), problem)
+                .suggest(other, ["left", "right", "ahead", "behind", "either"]));
         }
     };
     if given.joints.len() != wanted {

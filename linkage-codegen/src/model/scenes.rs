@@ -590,8 +590,9 @@ pub(crate) const OWN_TYPES: [&str; 15] = [
     "GearReaction",
     "WorkTerm",
 ];
-/// The same, where there are parameters, where there is something to verify, and where there are resultants.
-const FURTHER_TYPES: [&str; 3] = ["Default", "Verification", "Wrench"];
+/// The same, where there are parameters, where there is something to verify, where there are resultants, and where closures are chosen
+/// at run time.
+const FURTHER_TYPES: [&str; 6] = ["Default", "Verification", "Wrench", "Closures", "Side", "Along"];
 
 /// What the generated functions read may not have two meanings under one name.
 fn check_values(model: &Model, sink: &Sink) {
@@ -601,6 +602,11 @@ fn check_values(model: &Model, sink: &Sink) {
         values.insert("motion".into(), "holds the rates of the drives".into());
     }
     values.insert("linkage".into(), "holds what is prepared from the parameters".into());
+    for (_, closure) in model.given_closures() {
+        values.insert("closures".into(), "holds the closures that are chosen at run time".into());
+        let joint = &model.joint(closure.joint).name;
+        values.insert(format!("side_{joint}"), format!("is the side of `{joint}`"));
+    }
     for constant in ["EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"] {
         values.insert(constant.into(), "is a constant of the module".into());
     }
@@ -674,7 +680,8 @@ fn check_generated_names(model: &Model, sink: &Sink) {
         }
     }
     let verifies = model.scenes.iter().any(|scene| scene.method == Method::Verify);
-    let further = [!model.params.is_empty(), verifies, model.has_wrenches()];
+    let chooses = model.given_closures().next().is_some();
+    let further = [!model.params.is_empty(), verifies, model.has_wrenches(), chooses, chooses, chooses];
     let further = FURTHER_TYPES.iter().zip(further).filter(|(_, there)| *there).map(|(name, _)| name);
     let mut types: BTreeMap<String, String> = OWN_TYPES
         .iter()

@@ -6,8 +6,8 @@ use super::output::Meaning;
 use super::pivots::Pivots;
 use super::placement::Placement;
 use crate::diagnostics::{Diagnostic, list};
-use crate::graph::{Expr, Graph, Symbol, Vector};
-use crate::model::ids::{DriveId, JointId, LinkId};
+use crate::graph::{Expr, Graph, Op, Symbol, Vector};
+use crate::model::ids::{ClosureId, DriveId, JointId, LinkId};
 use crate::model::units::Kind;
 use crate::model::{Closure, Model, Side, Wanted};
 use crate::topology::{Group, Topology};
@@ -40,6 +40,51 @@ impl<'m> DyadPivot<'m> {
         let (joint, unit) = (&model.joint(slide).name, Kind::Length.unit(&model.units));
         let what = format!("distance of the outer pins along the slide `{joint}`, {unit}, the lever arm of its force");
         Self { name: format!("reach_{joint}"), what, meaning: Meaning::Length, value }
+    }
+}
+
+/// The sign of a root that a closure chooses.
+#[derive(Clone, Copy, Debug)]
+pub enum Sign<'m> {
+    /// The positive one.
+    Plus,
+    /// The negative one.
+    Minus,
+    /// As an argument says, which is 1 or −1, with its name.
+    Given(Expr<'m>, &'m str),
+}
+
+impl<'m> Sign<'m> {
+    /// The root with this sign.
+    #[must_use]
+    pub fn of(self, root: Expr<'m>) -> Expr<'m> {
+        match self {
+            Self::Plus => root,
+            Self::Minus => -root,
+            Self::Given(sign, _) => sign * root,
+        }
+    }
+
+    /// The other one.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::Plus => Self::Minus,
+            Self::Minus => Self::Plus,
+            Self::Given(sign, joint) => Self::Given(-sign, joint),
+        }
+    }
+
+    /// What stands before the root in an equation.
+    #[must_use]
+    pub fn text(self) -> String {
+        match self {
+            Self::Plus => String::new(),
+            Self::Minus => "−".to_owned(),
+            Self::Given(sign, joint) => {
+                format!("{}side_{joint} ", if matches!(sign.op(), Op::Neg(_)) { "−" } else { "" })
+            }
+        }
     }
 }
 
@@ -139,6 +184,18 @@ impl<'m> Assembly<'m> {
     pub fn closure(&mut self, inner: JointId) -> Option<&'m Closure> {
         self.used.insert(inner);
         self.model().closures.iter().find(|c| c.joint == inner)
+    }
+
+    /// The sign that a closure chooses, if `plus` is the side of the positive root.
+    #[must_use]
+    pub fn sign(&self, closure: &Closure, plus: Side) -> Sign<'m> {
+        let model = self.model();
+        if !closure.is_given_at_run_time() {
+            return if closure.side == plus { Sign::Plus } else { Sign::Minus };
+        }
+        let index = model.closures.iter().position(|own| own.joint == closure.joint).unwrap_or(0);
+        let sign = self.graph().symbol(Symbol::Side(ClosureId::new(index)));
+        Sign::Given(sign, &model.joint(closure.joint).name.text)
     }
 
     /// Closures that no group asked for.

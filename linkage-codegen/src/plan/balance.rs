@@ -12,7 +12,7 @@ use crate::equations::joints::Component;
 use crate::equations::loads::Action;
 use crate::graph::{Expr, Graph, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
-use crate::model::{End, Model};
+use crate::model::{End, JointKind, Model};
 
 /// What acts on a link: forces at places along and across its direction, and a couple.
 #[derive(Clone, Debug)]
@@ -143,6 +143,9 @@ impl<'m, 'p> Balance<'m, 'p> {
     /// axes, by the joint's own sign.
     pub fn pin(&mut self, joint: JointId, on: LinkId, force: Framed<'m>) -> Framed<'m> {
         let data = self.model().joint(joint);
+        if let JointKind::Slot { .. } = data.kind {
+            return self.pin_in_slot(joint, on, force);
+        }
         let sign = if data.to.link == on { 1 } else { -1 };
         let signed = |v: Vector<'m>| if sign > 0 { v } else { -v };
         let (from, to) = (&self.model().link(data.from.link).name, &self.model().link(data.to.link).name);
@@ -157,6 +160,34 @@ impl<'m, 'p> Balance<'m, 'p> {
         force
     }
 
+    /// The same of a pin in a slot along which it is driven: the slot exerts the part across it, and the drive that along it.
+    fn pin_in_slot(&mut self, slot: JointId, on: LinkId, force: Framed<'m>) -> Framed<'m> {
+        let data = self.model().joint(slot);
+        let second = data.to.link == on;
+        let axes = self.placement.slide_direction(slot);
+        let part = if second { force } else { force.opposite() }.along(axes);
+        let (from, to) = (&self.model().link(data.from.link).name, &self.model().link(data.to.link).name);
+        let across = format!("force on {to} by {from} across the slot");
+        let normal = part.y.named(self.name(&format!("{}_normal", data.name)), across);
+        let along = match self.model().effort_of(slot, false) {
+            Some(effort) => {
+                let name = self.name(&self.model().unknown(effort).name);
+                let along = part.x.named(name, format!("force on {to} by {from} along the slot {}", data.name));
+                self.found(effort, along);
+                along
+            }
+            None => part.x,
+        };
+        let reaction = Framed { components: Vector::new(self.graph().zero(), normal), axes };
+        self.reactions.insert(slot, Reaction { force: reaction, couple: None });
+        let force = Framed { components: Vector::new(along, normal), axes };
+        let force = if second { force } else { force.opposite() };
+        if let Some(far) = data.end_off(on) {
+            self.push(far.link, self.placement.slide_point(slot, far.link), force.opposite());
+        }
+        force
+    }
+
     /// The force of a pin on one of its links, found before.
     #[must_use]
     pub fn pinned(&self, joint: JointId, on: LinkId) -> Framed<'m> {
@@ -167,7 +198,15 @@ impl<'m, 'p> Balance<'m, 'p> {
     /// The reaction of a slide on its second link, found from the equilibrium of the link `on`; the other link gets its part.
     pub fn slide(&mut self, joint: JointId, on: LinkId, force: Framed<'m>, couple: Expr<'m>) {
         let data = self.model().joint(joint);
-        self.reactions.insert(joint, Reaction { force, couple: Some(couple) });
+        // In a slot it is the drive of its angle that exerts the couple.
+        let effort = match data.kind {
+            JointKind::Slot { .. } => self.model().effort_of(joint, true),
+            _ => None,
+        };
+        if let Some(effort) = effort {
+            self.found(effort, couple);
+        }
+        self.reactions.insert(joint, Reaction { force, couple: effort.is_none().then_some(couple) });
         let (far, force, couple) = if data.to.link == on {
             (data.from.link, force.opposite(), -couple)
         } else {

@@ -135,7 +135,7 @@ pub(super) fn first_dyad_on(
     let pin = model.joint(model.drive(drive).joint);
     let other = pin.end_off(moved)?.link;
     assembly.topology.motion.iter().find_map(|group| {
-        let [first, second] = super::rules::pinned_dyad(model, group)?.outer_ends();
+        let [first, second] = super::rules::pinned_dyad(model, group)?.outer_ends()?;
         if (first.link, second.link) == (moved, other) {
             Some((first, second))
         } else {

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use crate::graph::{Expr, Graph, Vector};
+use crate::graph::{Expr, Graph, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{End, Gear, JointKind, Model};
 
@@ -16,6 +16,31 @@ pub struct Orientation<'m> {
     pub direction: Vector<'m>,
     /// The same in the link's own frame: a constant, or a parameter.
     pub axis: Vector<'m>,
+}
+
+/// A place on a link: one of its points, or where a pin is in a slot that the link carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Spot {
+    /// The link, and its point or that of its slot.
+    pub end: End,
+    /// The slot in which the pin is.
+    pub slot: Option<JointId>,
+}
+
+impl From<End> for Spot {
+    fn from(end: End) -> Self {
+        Self { end, slot: None }
+    }
+}
+
+impl Spot {
+    /// The place of a pin, which may be one in a slot, on one of its links.
+    #[must_use]
+    pub fn of_pin(model: &Model, joint: JointId, link: LinkId) -> Option<Self> {
+        let data = model.joint(joint);
+        let carried = matches!(data.kind, JointKind::Slot { carrier, .. } if carrier == link);
+        Some(Self { end: data.end_on(link)?, slot: carried.then_some(joint) })
+    }
 }
 
 /// A part of the way from a point to another: a vector that turns with a link.
@@ -96,6 +121,19 @@ impl<'m> Placement<'m> {
         self.orientations[link.index()] = Some(Orientation { direction, ..orientation });
     }
 
+    /// Places a link that a slide or a weld joins to a placed one.
+    pub fn orient_along(&mut self, joint: JointId, link: LinkId) {
+        let Orientation { direction, axis } = self.along_slide(joint, link);
+        let direction = match self.model.drive_of(joint, true) {
+            Some(drive) => {
+                let (name, drive) = (&self.model.link(link).name, &self.model.drive(drive).name);
+                direction.named_direction(&name.text, &format!("direction of {name}, from {drive}"))
+            }
+            None => direction,
+        };
+        self.orient(link, Orientation { direction, axis });
+    }
+
     /// Places a link for as long as lengths are worked out: no pose keeps it.
     pub fn suppose(&mut self, link: LinkId, orientation: Orientation<'m>) {
         self.orientations[link.index()] = Some(orientation);
@@ -112,10 +150,29 @@ impl<'m> Placement<'m> {
         self.placed.insert(joint);
     }
 
-    /// The travel of a slide or a slot: of its second point from its first, along its direction.
+    /// The travel of a slide or a slot: of its second point from its first, along its direction. Where it is not known yet, zero.
     #[must_use]
     pub fn travel(&self, joint: JointId) -> Expr<'m> {
-        self.travels.get(&joint).copied().unwrap_or_else(|| self.graph().zero())
+        let driven = || self.model.drive_of(joint, false).map(|drive| self.graph().symbol(Symbol::Drive(drive)));
+        self.travels.get(&joint).copied().or_else(driven).unwrap_or_else(|| self.graph().zero())
+    }
+
+    /// The angle of a joint's second link from its first, if it is fixed, or driven in a slot: as a direction and as an angle.
+    #[must_use]
+    pub fn turn(&self, joint: JointId) -> Option<(Vector<'m>, Expr<'m>)> {
+        let data = self.model.joint(joint);
+        if let Some((direction, angle)) = data.kind.turn() {
+            return Some((direction.vector(self.graph()), self.graph().expr(angle)));
+        }
+        let angle = self.driven_turn(joint)?;
+        Some((angle.direction(), angle))
+    }
+
+    /// The angle between the links of a slot, if a drive gives it.
+    fn driven_turn(&self, slot: JointId) -> Option<Expr<'m>> {
+        let is_slot = matches!(self.model.joint(slot).kind, JointKind::Slot { .. });
+        let drive = self.model.drive_of(slot, true).filter(|_| is_slot)?;
+        Some(self.graph().symbol(Symbol::Drive(drive)))
     }
 
     /// All slides and slots with their travels.
@@ -173,10 +230,14 @@ impl<'m> Placement<'m> {
         }
     }
 
-    /// A point of a link, along and across the direction that the link carries.
+    /// A place on a link, along and across the direction that the link carries.
     #[must_use]
-    pub fn point(&self, end: End) -> Vector<'m> {
-        self.carried(end.link, self.model.local(end))
+    pub fn point(&self, at: impl Into<Spot>) -> Vector<'m> {
+        let Spot { end, slot } = at.into();
+        match slot {
+            Some(slot) => self.slide_point(slot, end.link),
+            None => self.carried(end.link, self.model.local(end)),
+        }
     }
 
     /// A vector of a link's frame in ground axes.
@@ -205,11 +266,20 @@ impl<'m> Placement<'m> {
         self.turned(gear.arm[0].link, gear.centres(self.model))
     }
 
-    /// The direction of a slide along and across the direction that its links carry: the same vector for both.
+    /// The direction of a slide along and across the direction that its carrier has; of a slide both links carry the same.
     #[must_use]
     pub fn slide_along(&self, joint: JointId) -> Vector<'m> {
         let line = self.model.joint(joint).kind.line();
         line.map_or(self.direction(GROUND), |(carrier, axis)| self.carried(carrier, axis.vector(self.graph())))
+    }
+
+    /// The same along and across the direction of one of its links.
+    #[must_use]
+    pub fn slide_along_on(&self, joint: JointId, link: LinkId) -> Vector<'m> {
+        match self.driven_turn(joint) {
+            Some(_) => self.carried(link, self.slide_axis(joint, link)),
+            None => self.slide_along(joint),
+        }
     }
 
     /// The place of a joint on one of its links, along and across that link's direction: of a slide its runner, of a slot its pin, of
@@ -220,12 +290,17 @@ impl<'m> Placement<'m> {
         match data.kind.line() {
             Some((carrier, axis)) if carrier == link => {
                 let along = self.carried(carrier, axis.vector(self.graph()));
-                let travel = self.travel(joint);
-                let (own, travel) = if data.from.link == link { (data.from, travel) } else { (data.to, -travel) };
-                self.point(own) + along.scaled(travel)
+                let own = data.end_on(link).unwrap_or(data.to);
+                self.point(own) + along.scaled(self.travel_on(joint, link))
             }
             _ => self.point(data.end_on(link).unwrap_or(data.to)),
         }
+    }
+
+    /// How far the other link's point is ahead of that of the link that carries the line.
+    fn travel_on(&self, joint: JointId, carrier: LinkId) -> Expr<'m> {
+        let travel = self.travel(joint);
+        if self.model.joint(joint).from.link == carrier { travel } else { -travel }
     }
 
     /// The place of a point in ground axes.
@@ -276,9 +351,8 @@ impl<'m> Placement<'m> {
             if let Some(angle) = self.angles.get(&at) {
                 return Some(*angle + ahead);
             }
-            for joint in self.placed.iter().map(|joint| self.model.joint(*joint)) {
-                let (Some((_, turn)), Some(far)) = (joint.kind.turn(), joint.end_off(at)) else { continue };
-                let turn = self.graph().expr(turn);
+            for (id, joint) in self.placed.iter().map(|joint| (joint, self.model.joint(*joint))) {
+                let (Some((_, turn)), Some(far)) = (self.turn(*id), joint.end_off(at)) else { continue };
                 let turn = if joint.to.link == at { turn } else { -turn };
                 reached.entry(far.link).or_insert_with(|| {
                     open.push_back(far.link);
@@ -308,11 +382,13 @@ impl<'m> Placement<'m> {
         self.place(point) - self.turned(link, self.model.local(point))
     }
 
-    /// The orientation of a link that a slide or a weld joins to a placed one: they turn together.
+    /// The orientation of a link that a slide or a weld joins to a placed one: they turn together, or in a slot by a driven angle.
     #[must_use]
     pub fn along_slide(&self, joint: JointId, link: LinkId) -> Orientation<'m> {
-        let Some((turn, _)) = self.model.joint(joint).kind.turn() else { return self.orientation(link) };
-        let turn = turn.vector(self.graph());
+        if let Some(angle) = self.driven_turn(joint) {
+            return self.driven(joint, link, angle);
+        }
+        let Some((turn, _)) = self.turn(joint) else { return self.orientation(link) };
         let joint = self.model.joint(joint);
         let other = if joint.from.link == link { joint.to.link } else { joint.from.link };
         let Orientation { direction, axis } = self.orientation(other);
@@ -321,13 +397,10 @@ impl<'m> Placement<'m> {
         Orientation { direction, axis }
     }
 
-    /// The orientation of a link that a driven joint joins to a placed one.
+    /// The orientation of a link that a driven angle turns against a placed one.
     #[must_use]
     pub fn driven(&self, joint: JointId, link: LinkId, coordinate: Expr<'m>) -> Orientation<'m> {
         let data = self.model.joint(joint);
-        if let JointKind::Prismatic { .. } = data.kind {
-            return self.along_slide(joint, link);
-        }
         let turned = coordinate.direction();
         let (turned, other) =
             if data.to.link == link { (turned, data.from.link) } else { (turned.conjugate(), data.to.link) };
@@ -340,8 +413,8 @@ impl<'m> Placement<'m> {
     pub fn slide_axis(&self, joint: JointId, link: LinkId) -> Vector<'m> {
         let x_axis = Vector::new(self.graph().one(), self.graph().zero());
         let data = self.model.joint(joint);
-        let JointKind::Prismatic { carrier, axis, turn, .. } = data.kind else { return x_axis };
-        let (axis, turn) = (axis.vector(self.graph()), turn.vector(self.graph()));
+        let (Some((carrier, axis)), Some((turn, _))) = (data.kind.line(), self.turn(joint)) else { return x_axis };
+        let axis = axis.vector(self.graph());
         if carrier == link {
             axis
         } else if data.to.link == link {
@@ -361,18 +434,35 @@ impl<'m> Placement<'m> {
     }
 
     fn carrier_direction(&self, slide: JointId) -> Vector<'m> {
-        match self.model.joint(slide).kind {
-            JointKind::Prismatic { carrier, .. } => self.direction(carrier),
-            _ => self.direction(GROUND),
-        }
+        self.direction(self.model.joint(slide).kind.line().map_or(GROUND, |(carrier, _)| carrier))
     }
 
-    /// The shortest way between two points of placed links.
+    /// The orientation of a link of a slide whose direction is known: both links carry it, but for a slot's link that a drive turns.
     #[must_use]
-    pub fn way(&self, from: End, to: End) -> Way<'m> {
+    pub fn sliding(&self, joint: JointId, link: LinkId, direction: Vector<'m>) -> Orientation<'m> {
+        let axis = self.slide_axis(joint, link);
+        let carrier = self.model.joint(joint).kind.line().map(|(carrier, _)| carrier);
+        if self.driven_turn(joint).is_none() || carrier == Some(link) {
+            return Orientation { direction, axis };
+        }
+        let name = &self.model.link(link).name;
+        let turned = axis.conjugate().turned_by(direction);
+        let turned = turned.named_direction(&name.text, &format!("direction of {name}, from that of its slot"));
+        Orientation { direction: turned, axis: Vector::new(self.graph().one(), self.graph().zero()) }
+    }
+
+    /// The shortest way between two places on placed links.
+    #[must_use]
+    pub fn way(&self, from: impl Into<Spot>, to: impl Into<Spot>) -> Way<'m> {
+        let (from, to) = (from.into(), to.into());
         let mut segments: Vec<Segment<'m>> = Vec::new();
-        let mut at = from;
-        for joint in self.route(from.link, to.link) {
+        let mut at = from.end;
+        if let Some(slot) = from.slot {
+            push_segment(&mut segments, self.slid(slot, -self.travel_on(slot, at.link)));
+        }
+        let to_slot = to.slot.map(|slot| self.slid(slot, self.travel_on(slot, to.end.link)));
+        let to = to.end;
+        for joint in self.route(from.end.link, to.link) {
             let joint_data = self.model.joint(joint);
             let (Some(near), Some(far)) = (joint_data.end_on(at.link), joint_data.end_off(at.link)) else { continue };
             push_segment(&mut segments, self.within(at, near));
@@ -384,6 +474,7 @@ impl<'m> Placement<'m> {
             at = far;
         }
         push_segment(&mut segments, self.within(at, to));
+        to_slot.into_iter().for_each(|segment| push_segment(&mut segments, segment));
         segments.retain(|s| !s.along.is_zero());
         Way { segments, graph: self.graph() }
     }

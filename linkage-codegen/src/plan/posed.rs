@@ -40,6 +40,15 @@ impl<'m> Posture<'m> for Posed<'m, '_> {
         self.placement.frame(link)
     }
 
+    fn angle(&self, link: LinkId) -> Expr<'m> {
+        self.placement.angle(link)
+    }
+
+    fn is_geared(&self, link: LinkId) -> bool {
+        let model = self.placement.model;
+        self.placement.unwrapped_angle(link).is_some() && model.driven_angle(GROUND, link).is_none()
+    }
+
     fn velocity(&self, ends: [End; 2]) -> Vector<'m> {
         let Some(motion) = self.velocities else { return self.placement.graph().zero_vector() };
         let [first, second] = ends.map(|end| motion.of_point(end));

@@ -15,13 +15,13 @@ use super::balance::Balance;
 use super::framed::Framed;
 use super::heading;
 use super::pivots::Pivots;
-use super::placement::Placement;
+use super::placement::{Placement, Spot};
 use super::rules::Rule;
 use crate::diagnostics::Sink;
 use crate::equations::loads::Action;
 use crate::graph::{Expr, Graph, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
-use crate::model::{End, JointKind, Model, UnknownKind};
+use crate::model::{JointKind, Model, UnknownKind};
 use crate::topology::{Group, Input};
 
 /// The motion of a link: its rate of rotation, and the velocity of one of its places. Of accelerations the same with one dot more.
@@ -163,10 +163,11 @@ impl<'m, 'p> Motion<'m, 'p> {
         }
     }
 
-    /// The velocity of a joint's point on a link.
+    /// The velocity of a joint's place on a link.
     #[must_use]
-    pub fn of_point(&self, end: End) -> Framed<'m> {
-        self.of_place(end.link, self.placement.point(end))
+    pub fn of_point(&self, at: impl Into<Spot>) -> Framed<'m> {
+        let at = at.into();
+        self.of_place(at.end.link, self.placement.point(at))
     }
 
     /// The velocity of a joint: of its point, of a gear pair where the wheels touch, as a place of the link that keeps them apart.
@@ -200,7 +201,42 @@ impl<'m, 'p> Motion<'m, 'p> {
         let far = self.other(slide, link);
         let guided = self.of_place(far, self.placement.slide_point(slide, far));
         let velocity = guided.plus(&self.coriolis(slide, link), self.placement.direction(GROUND));
-        Twist { rate: self.rate(far), at: self.placement.slide_point(slide, link), velocity }
+        Twist {
+            rate: self.rate(far) + self.driven_rate(slide, far),
+            at: self.placement.slide_point(slide, link),
+            velocity,
+        }
+    }
+
+    /// The velocity of a joint's place on a link as the other link has it there: of a pin that is driven along a slot with what that adds.
+    #[must_use]
+    pub fn passed_on(&self, joint: JointId, link: LinkId) -> Framed<'m> {
+        let (far, ground) = (self.other(joint, link), self.placement.direction(GROUND));
+        let place = self.of_place(far, self.placement.slide_point(joint, far));
+        match self.driven_sliding(joint, link) {
+            Some(sliding) => {
+                place.plus(&self.along_slide(joint, sliding), ground).plus(&self.coriolis(joint, link), ground)
+            }
+            None => place,
+        }
+    }
+
+    /// How fast a drive slides a link along the other link of a slot.
+    fn driven_sliding(&self, slot: JointId, link: LinkId) -> Option<Expr<'m>> {
+        let joint = self.model().joint(slot);
+        let is_slot = matches!(joint.kind, JointKind::Slot { .. });
+        let rate = self.rate_of(Input::Drive(self.model().drive_of(slot, false).filter(|_| is_slot)?));
+        Some(if joint.to.link == link { rate } else { -rate })
+    }
+
+    /// The rate at which a drive turns the other link of a slot against this one.
+    #[must_use]
+    pub fn driven_rate(&self, slot: JointId, from: LinkId) -> Expr<'m> {
+        let joint = self.model().joint(slot);
+        let is_slot = matches!(joint.kind, JointKind::Slot { .. });
+        let drive = self.model().drive_of(slot, true).filter(|_| is_slot);
+        let rate = drive.map_or(self.graph().zero(), |drive| self.rate_of(Input::Drive(drive)));
+        if joint.from.link == from { rate } else { -rate }
     }
 
     /// A link that was carried along a slide also slides.
@@ -229,6 +265,9 @@ impl<'m, 'p> Motion<'m, 'p> {
     fn sliding(&self, joint: JointId, link: LinkId) -> Expr<'m> {
         if let Some(sliding) = self.sliding.get(&joint) {
             return if self.model().joint(joint).to.link == link { *sliding } else { -*sliding };
+        }
+        if let Some(driven) = self.driven_sliding(joint, link) {
+            return driven;
         }
         let far = self.other(joint, link);
         let [own, its] = [link, far].map(|link| self.of_place(link, self.placement.slide_point(joint, link)));

@@ -12,10 +12,23 @@ pub fn check_start(model: &Model, functions: &Functions, sink: &Sink) {
     if functions.near.is_none() || model.params.iter().any(|param| param.default.is_none()) {
         return;
     }
+    // Of closures that are chosen at run time, one choice must do.
+    let choices = 1u32 << model.given_closures().count().min(6);
+    let faults = (0..choices).map(|choice| fault(model, functions, choice));
+    let Some(fault) = faults.collect::<Option<Vec<_>>>().and_then(|mut faults| faults.pop()) else { return };
+    report(model, &fault, sink);
+}
+
+/// What goes wrong at the start, with the sides as the bits of a choice say.
+fn fault(model: &Model, functions: &Functions, choice: u32) -> Option<Fault> {
     let number = |node: Option<NodeId>| {
         node.and_then(|node| model.graph.constant_value(node)).map_or(f64::NAN, |value| value.to_f64())
     };
     let of = |symbol: Symbol| match symbol {
+        Symbol::Side(closure) => {
+            let index = model.given_closures().position(|(own, _)| own == closure).unwrap_or(0);
+            if choice >> index & 1 == 0 { 1.0 } else { -1.0 }
+        }
         Symbol::Drive(drive) => number(model.drive(drive).start.map(|(value, _)| value)),
         Symbol::Parameter(param) => number(model.param(param).default),
         _ => f64::NAN,
@@ -29,9 +42,12 @@ pub fn check_start(model: &Model, functions: &Functions, sink: &Sink) {
     };
     let prepared = run(&functions.prepare, &HashMap::new());
     let prepared = prepared.map(|values| functions.prepared.iter().copied().zip(values).collect::<HashMap<_, _>>());
-    let Err(fault) = prepared.and_then(|prepared| run(&functions.pose, &prepared)) else { return };
+    prepared.and_then(|prepared| run(&functions.pose, &prepared)).err()
+}
+
+fn report(model: &Model, fault: &Fault, sink: &Sink) {
     let of_drives = model.drives.iter().find_map(|drive| drive.start).map_or(model.name.place(), |(_, place)| place);
-    sink.report(match &fault {
+    sink.report(match fault {
         Fault::Failed(Failure::NoConvergence { group, .. }) => {
             let names: Vec<&str> = group.split(" + ").collect();
             let start = model.starts.iter().find(|start| names.contains(&model.link(start.link).name.text.as_str()));

@@ -52,6 +52,21 @@ impl Input {
     }
 }
 
+/// What a joint leaves its links, the drives of its group counted in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Freedom {
+    /// Nothing: a weld, or a joint whose coordinates are all driven. Its links are one body.
+    None,
+    /// To turn: a pin, and one in a slot along which it is driven.
+    Turn,
+    /// To slide: a slide, and a slot in which the pin's link is turned by a drive.
+    Slide,
+    /// Both: a slot.
+    TurnAndSlide,
+    /// To roll: a gear pair.
+    Roll,
+}
+
 /// An Assur group, or a driven link.
 #[derive(Clone, Debug)]
 pub struct Group {
@@ -71,6 +86,54 @@ impl Group {
     pub fn own_link(&self, model: &Model, joint: JointId) -> LinkId {
         let joint = model.joint(joint);
         if self.links.contains(&joint.from.link) { joint.from.link } else { joint.to.link }
+    }
+
+    /// The drive that an input stands for: itself, or that whose effort is the unknown.
+    #[must_use]
+    pub fn drive_of(model: &Model, input: Input) -> Option<DriveId> {
+        match input {
+            Input::Drive(drive) => Some(drive),
+            Input::Unknown(unknown) => match model.unknown(unknown).kind {
+                UnknownKind::Drive(drive) => Some(drive),
+                UnknownKind::Torque(..) | UnknownKind::Force { .. } | UnknownKind::Thrust(_) => None,
+            },
+        }
+    }
+
+    /// What one of its joints leaves free.
+    #[must_use]
+    pub fn freedom(&self, model: &Model, joint: JointId) -> Freedom {
+        let drives = || self.inputs.iter().filter_map(|input| Self::drive_of(model, *input)).map(|d| model.drive(d));
+        let driven = |turns: bool| drives().any(|drive| drive.joint == joint && drive.turns == turns);
+        match model.joint(joint).kind {
+            JointKind::Revolute if driven(true) => Freedom::None,
+            JointKind::Revolute => Freedom::Turn,
+            JointKind::Prismatic { .. } if driven(false) => Freedom::None,
+            JointKind::Prismatic { .. } => Freedom::Slide,
+            JointKind::Weld { .. } => Freedom::None,
+            JointKind::Slot { .. } => match (driven(true), driven(false)) {
+                (true, true) => Freedom::None,
+                (false, true) => Freedom::Turn,
+                (true, false) => Freedom::Slide,
+                (false, false) => Freedom::TurnAndSlide,
+            },
+            JointKind::Gear(_) => Freedom::Roll,
+        }
+    }
+
+    /// Whether it is a gear train: wheels and arms on a pin each, with a gear pair or a drive for each.
+    #[must_use]
+    pub fn is_train(&self, model: &Model) -> bool {
+        let joints = || self.outer.iter().chain(&self.inner);
+        let count = |kind: fn(&JointKind) -> bool| joints().filter(|joint| kind(&model.joint(**joint).kind)).count();
+        let gears = count(|kind| matches!(kind, JointKind::Gear(_)));
+        let pins = count(|kind| matches!(kind, JointKind::Revolute));
+        let turned = self.inputs.iter().all(|input| match input {
+            Input::Drive(drive) => model.drive(*drive).turns,
+            Input::Unknown(_) => true,
+        });
+        let size = self.links.len();
+        gears > 0 && turned && pins == size && gears + self.inputs.len() == size && gears + pins == joints().count()
     }
 
     /// Its kinds of joints in the order outer, inner, …: `RRP`.
@@ -110,6 +173,40 @@ enum Origin {
 }
 
 impl Topology {
+    /// The links of which gears tell the angle, though drives alone do not: wheels that other links turn, and what a fixed or driven angle
+    /// joins to one.
+    #[must_use]
+    pub fn geared(&self, model: &Model) -> BTreeSet<LinkId> {
+        let mut found = BTreeSet::new();
+        for group in &self.motion {
+            let gears = group.outer.iter().chain(&group.inner).filter_map(|joint| match model.joint(*joint).kind {
+                JointKind::Gear(gear) => Some((*joint, gear)),
+                _ => None,
+            });
+            for (joint, gear) in gears {
+                let [a, b] = model.joint(joint).ends().map(|end| end.link);
+                let geared = [a, b, gear.arm[0].link].into_iter().filter(|link| group.links.contains(link));
+                found.extend(geared);
+            }
+            if group.is_train(model) {
+                found.extend(group.links.iter().copied());
+            }
+        }
+        let turns =
+            |joint: &JointId| model.joint(*joint).kind.turn().is_some() || model.drive_of(*joint, true).is_some();
+        let joined: Vec<[LinkId; 2]> =
+            model.joint_ids().filter(turns).map(|joint| model.joint(joint).ends().map(|end| end.link)).collect();
+        while let Some(next) = joined.iter().find_map(|ends| match ends.map(|link| found.contains(&link)) {
+            [true, false] => Some(ends[1]),
+            [false, true] => Some(ends[0]),
+            _ => None,
+        }) {
+            found.insert(next);
+        }
+        found.retain(|link| model.driven_angle(GROUND, *link).is_none());
+        found
+    }
+
     /// Splits a linkage into groups. `None` if that is not possible; why is reported.
     pub fn of(model: &Model, sink: &Sink) -> Option<Self> {
         let drives: Vec<Input> = (0..model.drives.len()).map(|d| Input::Drive(DriveId::new(d))).collect();

@@ -117,8 +117,7 @@ pub fn worst<T: Number>(family: &Family, scalar: &str, epsilon: f64) -> (Measure
     let mut worst = Measures::default();
     let mut count = 0;
     for drive in &family.drives {
-        let arguments =
-            Arguments { drives: vec![*drive], loads: family.loads.clone(), params: Vec::new(), ..Arguments::default() };
+        let arguments = Arguments { drives: vec![*drive], loads: family.loads.clone(), ..Arguments::default() };
         if let Ok(measures) = measure::<T>(&linkage, &arguments, family.longest, epsilon) {
             worst = worst.worst(measures);
             count += 1;

@@ -22,7 +22,7 @@ pub struct General<T> {
     pub matrix: Vec<Vec<T>>,
     /// What each load case exerts.
     pub cases: Vec<(Case, Vec<T>)>,
-    /// The constraints' residuals.
+    /// The residuals of the constraints and of the drives.
     pub residuals: Vec<T>,
     pub sources: Vec<Source>,
 }
@@ -69,7 +69,14 @@ pub fn equations_at<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &
             None => residual,
         })
     });
-    let residuals = residuals.collect();
+    // The joints' coordinates are those that the drives give.
+    let drives = (0..linkage.model.drives.len()).map(DriveId::new).filter_map(|drive| {
+        let coordinate = drive_row(&linkage.model, graph, &Declared(&linkage.model), drive).residual?;
+        let coordinate = graph.evaluate(coordinate, &known, &mut HashMap::new());
+        let apart = coordinate.sub(&T::exactly(arguments.drives[drive.index()]));
+        Some(if linkage.model.drive(drive).turns { within_a_turn(&apart, &T::exactly(1.0)) } else { apart })
+    });
+    let residuals = residuals.collect::<Vec<T>>().into_iter().chain(drives).collect();
     let matrix = (0..lines).map(|line| columns.iter().map(|column| column[line].clone()).collect()).collect();
     let sources = linkage.system.rows.iter().map(|row| row.source).collect();
     General { matrix, cases, residuals, sources }

@@ -116,6 +116,14 @@ struct Builder {
     pins: Vec<(String, usize, usize)>,
     /// Driven joints and their coordinates.
     drives: Vec<(String, f64)>,
+    /// Whether pins and slides may be slots with a drive.
+    driven_slots: bool,
+    /// Whether closures may be arguments.
+    either: bool,
+    /// On which side each group closes: 1 or −1.
+    sides: Vec<f64>,
+    /// Radii, if dimensions are parameters.
+    radii: Option<Vec<f64>>,
 }
 
 /// A random linkage.
@@ -135,13 +143,19 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
         sines: 0.2,
         pins: Vec::new(),
         drives: Vec::new(),
+        driven_slots: false,
+        either: kind.joints,
+        sides: Vec::new(),
+        radii: kind.params.then(Vec::new),
     };
     let drive = builder.driven_link(kind.sliders);
     builder.drives.push(drive);
     for _ in 0..kind.dyads {
+        builder.driven_slots = kind.joints && builder.random.chance(0.3);
         if kind.joints && builder.random.chance(0.7) {
-            match builder.random.below(5) {
+            match builder.random.below(6) {
                 0 => builder.weld(),
+                5 => builder.split(true),
                 1 => builder.lever(),
                 2 => builder.runner(),
                 3 => builder.yoke(),
@@ -154,7 +168,7 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
             Some(2) => builder.sliding_pair(),
             Some(3) => builder.pinned_sliders(),
             Some(4) => builder.slider_on_slider(),
-            Some(5) => builder.cylinder(),
+            Some(5) => builder.split(false),
             _ => builder.pinned_dyad(),
         }
     }
@@ -181,6 +195,10 @@ pub fn sample_with_search(seed: u64, kind: Kind) -> Sample {
         sines: 0.2,
         pins: Vec::new(),
         drives: Vec::new(),
+        driven_slots: false,
+        either: false,
+        sides: Vec::new(),
+        radii: None,
     };
     let drive = builder.driven_link(kind.sliders);
     builder.drives.push(drive);
@@ -344,8 +362,18 @@ impl Builder {
         if self.random.chance(0.5) { (near, far) } else { (far, near) }
     }
 
+    /// A pin, or one in a slot along which it is driven.
     fn revolute(&mut self, name: &str, near: usize, far: usize) -> (usize, usize) {
         let (from, to) = self.arrow(near, far);
+        if self.driven_slots && self.random.chance(0.3) {
+            let (datum, angle) = (format!("{name}o"), self.random.range(-3.0, 3.0));
+            let at = self.bodies[to].points.iter().find(|(point, _)| point == name).expect("its point").1;
+            let travel = self.random.range(-2.0, 2.0);
+            self.bodies[from].points.push((datum.clone(), minus(at, direction(angle).map(|x| x * travel))));
+            let carrier_first = self.slot(name, (from, &datum), (to, name), angle);
+            self.drives.push((format!("{name}.travel"), if carrier_first { travel } else { -travel }));
+            return (from, to);
+        }
         let line = format!("revolute {name}: {} -> {};\n", self.bodies[from].name, self.bodies[to].name);
         self.items.push_str(&line);
         self.pins.push((name.to_owned(), from, to));
@@ -455,8 +483,7 @@ impl Builder {
         self.places.extend([(p.to_owned(), at_p), (q.to_owned(), at_q), (b.to_owned(), at_b)]);
         let left = cross(minus(at_q, at_p), minus(at_b, at_p)) > 0.0;
         let (start, end, left) = if self.random.chance(0.5) { (p, q, left) } else { (q, p, !left) };
-        let line = format!("assemble {b}: {}({start} -> {end});\n", if left { "left" } else { "right" });
-        self.items.push_str(&line);
+        self.assemble(b, if left { "left" } else { "right" }, &format!("{start} -> {end}"), left);
     }
 
     fn slider_dyad(&mut self) {
@@ -482,17 +509,8 @@ impl Builder {
         self.revolute(&b, rod, slider);
         let (from, to) = self.arrow(y, slider);
         let carrier = *self.random.pick(&[y, slider]);
-        let local = angle - self.bodies[carrier].angle;
-        // Along the axis the second point must lie on the line through the first, whichever link carries it.
-        let fixed = self.bodies[to].angle - self.bodies[from].angle;
-        let line = format!(
-            "prismatic {s}: {} -> {} along {local:?}rad of {}, angle {fixed:?}rad;\n",
-            self.bodies[from].name, self.bodies[to].name, self.bodies[carrier].name
-        );
-        self.items.push_str(&line);
-        let side = if dot(minus(at_b, at_p), e) > 0.0 { "ahead" } else { "behind" };
-        let line = format!("assemble {b}: {side}({p});\n");
-        self.items.push_str(&line);
+        self.guide(&s, (from, to), carrier, angle);
+        self.side(&b, &p, dot(minus(at_b, at_p), e));
         let on_line = if carrier == y { runner } else { guide };
         self.places.extend([(p, at_p), (b, at_b), (s, on_line)]);
     }
@@ -511,8 +529,8 @@ impl Builder {
         self.places.push((w, at));
     }
 
-    /// The item of a slot; the first of the ends carries it.
-    fn slot(&mut self, name: &str, (carrier, datum): (usize, &str), (other, pin): (usize, &str), angle: f64) {
+    /// The item of a slot; the first of the ends carries it. Whether that is also the first one of the item.
+    fn slot(&mut self, name: &str, (carrier, datum): (usize, &str), (other, pin): (usize, &str), angle: f64) -> bool {
         let local = angle - self.bodies[carrier].angle;
         let ends = [(carrier, datum), (other, pin)].map(|(link, point)| format!("{}.{point}", self.bodies[link].name));
         let [first, second] = if self.random.chance(0.5) { [0, 1] } else { [1, 0] };
@@ -521,6 +539,24 @@ impl Builder {
             ends[first], ends[second], self.bodies[carrier].name
         );
         self.items.push_str(&line);
+        first == 0
+    }
+
+    /// A slide with its line on one of its links, or a slot whose links a drive turns.
+    fn guide(&mut self, name: &str, (from, to): (usize, usize), carrier: usize, angle: f64) {
+        // Along the axis the second point must lie on the line through the first, whichever link carries it.
+        let local = angle - self.bodies[carrier].angle;
+        let fixed = self.bodies[to].angle - self.bodies[from].angle;
+        let ends = format!(
+            "{name}: {} -> {} along {local:?}rad of {}",
+            self.bodies[from].name, self.bodies[to].name, self.bodies[carrier].name
+        );
+        if self.driven_slots && self.random.chance(0.5) {
+            let _ = writeln!(self.items, "slot {ends};");
+            self.drives.push((format!("{name}.angle"), fixed));
+        } else {
+            let _ = writeln!(self.items, "prismatic {ends}, angle {fixed:?}rad;");
+        }
     }
 
     /// A direction that is not across the way from a place to another.
@@ -535,7 +571,14 @@ impl Builder {
 
     fn side(&mut self, inner: &str, outer: &str, along: f64) {
         let side = if along > 0.0 { "ahead" } else { "behind" };
-        self.items.push_str(&format!("assemble {inner}: {side}({outer});\n"));
+        self.assemble(inner, side, outer, along > 0.0);
+    }
+
+    /// A closure, now and then as an argument.
+    fn assemble(&mut self, inner: &str, side: &str, of: &str, plus: bool) {
+        let side = if self.either && self.random.chance(0.3) { "either" } else { side };
+        let _ = writeln!(self.items, "assemble {inner}: {side}({of});");
+        self.sides.push(if plus { 1.0 } else { -1.0 });
     }
 
     /// A lever on a pin, whose slot holds a pin of another link.
@@ -609,13 +652,7 @@ impl Builder {
         let link = self.link((&g, runner), (own, own_at));
         let (from, to) = self.arrow(x, link);
         let carrier = *self.random.pick(&[x, link]);
-        let local = slide - self.bodies[carrier].angle;
-        let fixed = self.bodies[to].angle - self.bodies[from].angle;
-        let line_of_slide = format!(
-            "prismatic {g}: {} -> {} along {local:?}rad of {}, angle {fixed:?}rad;\n",
-            self.bodies[from].name, self.bodies[to].name, self.bodies[carrier].name
-        );
-        self.items.push_str(&line_of_slide);
+        self.guide(&g, (from, to), carrier, slide);
         if carries {
             self.slot(&s, (link, &line), (y, &pin), angle);
         } else {
@@ -629,6 +666,8 @@ impl Builder {
         if self.pins.is_empty() {
             return self.pinned_dyad();
         }
+        // Its own pin is one that may hold further wheels.
+        self.driven_slots = false;
         let (centre, a, b) = self.random.pick(&self.pins.clone()).clone();
         let (arm, wheel) = self.arrow(a, b);
         let points = &self.bodies[arm].points;
@@ -665,9 +704,20 @@ impl Builder {
             let (angle, flank) = (self.random.range(0.1, 0.5), *self.random.pick(&["left", "right"]));
             let _ = write!(options, ", pressure_angle {angle:?}rad, flank {flank}");
         }
+        let written = radii.map(|radius| match &mut self.radii {
+            Some(radii) => {
+                radii.push(radius);
+                format!("r{}", radii.len() - 1)
+            }
+            None => format!("{radius:?}m"),
+        });
         let line = format!(
-            "gear {g}: {}.{} -> {}.{}, radii ({:?}m, {:?}m), phase {phase:?}m{options};\n",
-            self.bodies[first.0].name, first.1, self.bodies[second.0].name, second.1, radii[0], radii[1]
+            "gear {g}: {}.{} -> {}.{}, radii ({}), phase {phase:?}m{options};\n",
+            self.bodies[first.0].name,
+            first.1,
+            self.bodies[second.0].name,
+            second.1,
+            written.join(", ")
         );
         self.items.push_str(&line);
         let touch = plus(first.2, way.map(|x| x * signed[0] / (signed[0] + signed[1])));
@@ -682,13 +732,7 @@ impl Builder {
         self.bodies[from].points.push((name.to_owned(), start));
         self.bodies[to].points.push((name.to_owned(), end));
         let carrier = *self.random.pick(&[from, to]);
-        let local = angle - self.bodies[carrier].angle;
-        let fixed = self.bodies[to].angle - self.bodies[from].angle;
-        let line = format!(
-            "prismatic {name}: {} -> {} along {local:?}rad of {}, angle {fixed:?}rad;\n",
-            self.bodies[from].name, self.bodies[to].name, self.bodies[carrier].name
-        );
-        self.items.push_str(&line);
+        self.guide(name, (from, to), carrier, angle);
         let runner = if carrier == from { end } else { start };
         self.places.push((name.to_owned(), runner));
     }
@@ -714,8 +758,7 @@ impl Builder {
         self.slide(&s, first, second, angle);
         let ahead = dot(minus(at_q, at_p), e) > 0.0;
         let (of, ahead) = if self.random.chance(0.5) { (&p, ahead) } else { (&q, !ahead) };
-        let line = format!("assemble {s}: {}({of});\n", if ahead { "ahead" } else { "behind" });
-        self.items.push_str(&line);
+        self.assemble(&s, if ahead { "ahead" } else { "behind" }, of, ahead);
         self.places.extend([(p, at_p), (q, at_q)]);
     }
 
@@ -758,13 +801,20 @@ impl Builder {
         self.places.push((p, at));
     }
 
-    /// A dyad of three pins whose first link is a cylinder with its driven rod.
-    fn cylinder(&mut self) {
+    /// A dyad whose first link is two: welded, or a cylinder with its driven rod.
+    fn split(&mut self, welded: bool) {
         let before = self.bodies.len();
-        self.pinned_dyad();
-        // The second link becomes the tube, and a rod takes over its pin to the third one.
+        self.driven_slots = false;
+        if self.random.chance(0.3) {
+            self.slider_dyad();
+        } else {
+            self.pinned_dyad();
+        }
+        // The first link becomes the tube, and a rod takes over its pin to the second one.
         let (tube, other) = (before, before + 1);
-        let (pin, at) = self.bodies[other].points[1].clone();
+        let own = &self.bodies[other].points;
+        let shared = self.bodies[tube].points.iter().find(|(name, _)| own.iter().any(|(point, _)| point == name));
+        let (pin, at) = shared.expect("the inner pin").clone();
         let (s, rx) = (self.fresh('J'), self.place());
         let rod = self.link((&pin, at), (&format!("{s}x"), rx));
         let (old, new) = (self.bodies[tube].name.clone(), self.bodies[rod].name.clone());
@@ -780,6 +830,19 @@ impl Builder {
         self.items = lines.collect();
         // Its pin is no longer on the links that hold it for wheels.
         self.pins.retain(|(name, ..)| *name != pin);
+        if welded {
+            let at = self.place();
+            let (from, to) = self.arrow(tube, rod);
+            [tube, rod].into_iter().for_each(|link| self.bodies[link].points.push((s.clone(), at)));
+            let fixed = self.bodies[to].angle - self.bodies[from].angle;
+            let _ = writeln!(
+                self.items,
+                "weld {s}: {} -> {}, angle {fixed:?}rad;",
+                self.bodies[from].name, self.bodies[to].name
+            );
+            self.places.push((s, at));
+            return;
+        }
         let angle = self.random.range(-3.0, 3.0);
         self.slide(&s, tube, rod, angle);
         let ends = [tube, rod].map(|body| self.bodies[body].points.last().expect("its end").1);
@@ -969,7 +1032,10 @@ impl Builder {
 
     fn finish(self, loads: Vec<[f64; 2]>, motion: Vec<[f64; 2]>, kind: Kind) -> Sample {
         let mut text = format!("pub mod sample;\nscalar {};\n", kind.scalar);
-        let mut params = Vec::new();
+        let mut params = self.radii.clone().unwrap_or_default();
+        for index in 0..params.len() {
+            let _ = writeln!(text, "param r{index}: length;");
+        }
         let mut length = |value: f64, text: &mut String| {
             if kind.params {
                 let _ = writeln!(text, "param k{}: length;", params.len());
@@ -1008,11 +1074,12 @@ impl Builder {
         text.push_str(
             "scene all: equilibrium;\nscene parts: superposition;\nscene work: virtual_work;\nscene whole: position;\n",
         );
-        let arguments = Arguments { drives: self.drives.iter().map(|(_, at)| *at).collect(), loads, params, motion };
         let moving = self.bodies[1..].iter();
         let distances =
             moving.flat_map(|b| b.points.iter().flat_map(|p| b.points.iter().map(move |q| minus(p.1, q.1))));
         let longest = distances.map(size).fold(0.0, f64::max);
+        let drives = self.drives.iter().map(|(_, at)| *at).collect();
+        let arguments = Arguments { drives, loads, params, sides: self.sides, motion };
         Sample { text, arguments, places: self.places, longest }
     }
 }

@@ -186,7 +186,7 @@ fn slide_arm(
     let name = format!("travel_{}", data.name);
     let found = linkage.plan.pose.iter().find(|kept| kept.name == name).map(|found| kept[&found.node].to_f64());
     // The travel of a driven slide is an argument.
-    let travel = found.or(model.drive_of(joint).map(|drive| arguments.drives[drive.index()])).unwrap_or(0.0);
+    let travel = found.or(model.drive_of(joint, false).map(|drive| arguments.drives[drive.index()])).unwrap_or(0.0);
     let runner_elsewhere = data.place() != end;
     local[0].hypot(local[1]) + if runner_elsewhere { travel.abs() } else { 0.0 }
 }
@@ -196,15 +196,12 @@ fn over(value: f64, size: f64) -> f64 {
 }
 
 fn is_moment(linkage: &Linkage, name: &str) -> bool {
-    use linkage_codegen::model::JointKind;
     let unknown = linkage.model.unknowns.iter().find(|u| u.name == name);
     name.ends_with(".couple")
         || unknown.is_some_and(|unknown| match unknown.kind {
             UnknownKind::Torque(..) => true,
             UnknownKind::Force { .. } | UnknownKind::Thrust(_) => false,
-            UnknownKind::Drive(drive) => {
-                matches!(linkage.model.joint(linkage.model.drive(drive).joint).kind, JointKind::Revolute)
-            }
+            UnknownKind::Drive(drive) => linkage.model.drive(drive).turns,
         })
 }
 
@@ -258,7 +255,8 @@ fn free_body(
         sums.iter_mut().zip(&part).for_each(|(sum, part)| *sum = sum.add(part));
         column = columns.end;
     }
-    for ((case, exerted), (_, actions)) in general.cases.iter().zip(loads::cases(&loads::Symbolic(&linkage.model))) {
+    let symbolic = loads::Symbolic { model: &linkage.model, topology: &linkage.topology };
+    for ((case, exerted), (_, actions)) in general.cases.iter().zip(loads::cases(&symbolic)) {
         let LoadKind::Force { at, .. } = linkage.model.load(case.load).kind else { continue };
         if at.link != link {
             continue;

@@ -43,6 +43,8 @@ pub struct Arguments {
     /// The components of each load, zeros where it is constant; of a spring's further values, the third is the first again.
     pub loads: Vec<[f64; 2]>,
     pub params: Vec<f64>,
+    /// 1 or −1 for each closure that is chosen at run time, in the order of all closures.
+    pub sides: Vec<f64>,
     /// Rate and acceleration of each drive.
     pub motion: Vec<[f64; 2]>,
 }
@@ -52,6 +54,7 @@ impl Arguments {
         match symbol {
             Symbol::Drive(drive) => self.drives[drive.index()],
             Symbol::Load(load, part) => self.loads[load.index()][usize::from(part) % 2],
+            Symbol::Side(closure) => self.sides[closure.index()],
             Symbol::Parameter(param) => self.params[param.index()],
             Symbol::Driven(drive, order) => self.motion.get(drive.index()).map_or(f64::NAN, |motion| match order {
                 Order::Rate => motion[0],

@@ -18,7 +18,7 @@ linkage! {
 
     drive theta: A0 { rate: 3000rpm };
     unknown T12: torque(ground -> crank);
-    assemble B: either(A -> B0);
+    assemble B: left(A -> B0);
 
     load F13: force(coupler.C);
     load F14: force(rocker.D) = 100N @ 200deg;

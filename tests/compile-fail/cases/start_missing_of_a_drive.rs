@@ -1,30 +1,40 @@
 use linkage_runtime::{linkage, polar};
 
 linkage! {
-    pub mod machine;
+    pub mod stephenson;
 
     units { mm, N }
 
-    ground     { O: (0, 0), Q: (0, -350mm) }
-    link crank { O -> A: 140mm }
-    link lever { Q -> B: 720mm }
+    ground      { A: (0, 0), F: (150mm, 0), G: (250mm, 0) }
+    link crank  { A -> B: 40mm }
+    link plate  { B -> C: 100mm, D: (50mm, 60mm) }
+    link left   { F -> C: 90mm }
+    link rod    { D -> E: 110mm }
+    link right  { G -> E: 100mm }
 
-    revolute O: ground -> crank;
-    revolute Q: ground -> lever;
-    slot S: lever.Q -> crank.A along 0deg of lever;
+    revolute A: ground -> crank;
+    revolute B: crank -> plate;
+    revolute C: plate -> left;
+    revolute F: ground -> left;
+    revolute D: plate -> rod;
+    revolute E: rod -> right;
+    revolute G: ground -> right;
 
-    drive q: S.travel;
-    start crank: (0, 0), angle 60deg;
-    start lever: (0, -350mm), angle 80deg;
+    drive theta: G;
 
-    load F: force(lever.B);
+    start crank: (0, 0), angle 90deg;
+    start plate: (0, 40mm), angle 140deg;
+    start left:  (150mm, 0), angle -160deg;
+    start rod:   (80mm, 40mm), angle 20deg;
+
+    load W: force(plate.D);
 
     scene statics: equilibrium;
 }
 
 fn main() {
-    let loads = machine::Loads { F: polar(50.0, 4.0) };
-    let pose = machine::Pose::at(1.0).unwrap();
-    println!("{}", pose.statics(&loads).unwrap().effort_q);
-    println!("{}", machine::statics_at(1.0, &loads).unwrap().O);
+    let loads = stephenson::Loads { W: polar(50.0, 4.0) };
+    let pose = stephenson::Pose::at(1.0).unwrap();
+    println!("{}", pose.statics(&loads).unwrap().effort_theta);
+    println!("{}", stephenson::statics_at(1.0, &loads).unwrap().B);
 }

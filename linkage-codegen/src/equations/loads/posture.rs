@@ -4,6 +4,7 @@ use crate::equations::Body;
 use crate::graph::{Coordinate, Expr, Order, Symbol, Vector};
 use crate::model::ids::{GROUND, LinkId};
 use crate::model::{End, Model};
+use crate::topology::Topology;
 
 /// Where points and links are, as loads see them: in the symbols of the equations, or as a plan has placed them.
 pub trait Posture<'m> {
@@ -15,6 +16,12 @@ pub trait Posture<'m> {
 
     /// The direction of the x axis of a link's frame.
     fn frame(&self, link: LinkId) -> Vector<'m>;
+
+    /// The angle of the x axis of a link's frame.
+    fn angle(&self, link: LinkId) -> Expr<'m>;
+
+    /// Whether gears tell the angle of a link, with all its turns.
+    fn is_geared(&self, link: LinkId) -> bool;
 
     /// The velocity of the second point as seen from the first, ground axes.
     fn velocity(&self, ends: [End; 2]) -> Vector<'m>;
@@ -28,25 +35,39 @@ pub trait Posture<'m> {
 
 /// In the symbols of the unreduced equations.
 #[derive(Clone, Copy, Debug)]
-pub struct Symbolic<'m>(pub &'m Model);
+pub struct Symbolic<'m> {
+    /// The linkage.
+    pub model: &'m Model,
+    /// Its groups of motion: they tell which links gears turn.
+    pub topology: &'m Topology,
+}
 
 impl<'m> Posture<'m> for Symbolic<'m> {
     fn model(&self) -> &'m Model {
-        self.0
+        self.model
     }
 
     fn span(&self, ends: [End; 2]) -> (Vector<'m>, Option<Expr<'m>>) {
-        let [first, second] = ends.map(|end| Body::symbolic(&self.0.graph, end.link).point(self.0.local(end)));
+        let body = |link| Body::symbolic(&self.model.graph, link);
+        let [first, second] = ends.map(|end| body(end.link).point(self.model.local(end)));
         (second - first, None)
     }
 
     fn frame(&self, link: LinkId) -> Vector<'m> {
-        Body::symbolic(&self.0.graph, link).direction
+        Body::symbolic(&self.model.graph, link).direction
+    }
+
+    fn angle(&self, link: LinkId) -> Expr<'m> {
+        Body::symbolic(&self.model.graph, link).angle
+    }
+
+    fn is_geared(&self, link: LinkId) -> bool {
+        self.topology.geared(self.model).contains(&link)
     }
 
     fn velocity(&self, ends: [End; 2]) -> Vector<'m> {
         let [first, second] = ends.map(|end| {
-            let arm = Body::symbolic(&self.0.graph, end.link).turned(self.0.local(end));
+            let arm = Body::symbolic(&self.model.graph, end.link).turned(self.model.local(end));
             self.of_origin(end.link, Order::Rate) + arm.perp().scaled(self.turning(end.link, Order::Rate))
         });
         second - first
@@ -57,7 +78,7 @@ impl<'m> Posture<'m> for Symbolic<'m> {
     }
 
     fn acceleration(&self, link: LinkId, at: Vector<'m>) -> (Vector<'m>, LinkId) {
-        let arm = Body::symbolic(&self.0.graph, link).turned(at);
+        let arm = Body::symbolic(&self.model.graph, link).turned(at);
         let [rate, acceleration] = [Order::Rate, Order::Acceleration].map(|order| self.turning(link, order));
         let turning = arm.perp().scaled(acceleration) - arm.scaled(rate.squared());
         (self.of_origin(link, Order::Acceleration) + turning, GROUND)
@@ -66,7 +87,7 @@ impl<'m> Posture<'m> for Symbolic<'m> {
 
 impl<'m> Symbolic<'m> {
     fn moving(self, link: LinkId, which: Coordinate, order: Order) -> Expr<'m> {
-        let graph = &self.0.graph;
+        let graph = &self.model.graph;
         if link == GROUND { graph.zero() } else { graph.symbol(Symbol::Moving(link, which, order)) }
     }
 
@@ -77,8 +98,9 @@ impl<'m> Symbolic<'m> {
 
 /// The angle of the second link from the first, less a free angle.
 ///
-/// Where driven pins, slides and welds lead from one to the other, it is what these give, of any number of turns. Elsewhere only directions
-/// are known, and a turn is chosen: that of the angle nearest to the free one, or, of what drives do not turn, nearest to `near`.
+/// Where it follows from drives alone, it is what these give, of any number of turns; of a wheel that other links turn, what the gears give
+/// and the other link's own angle. Elsewhere only directions are known, and a turn is chosen: that of the angle nearest to the free one, or,
+/// of what drives do not turn, nearest to `near`.
 pub(super) fn wound<'m>(
     posture: &dyn Posture<'m>,
     [from, on]: [LinkId; 2],
@@ -90,6 +112,9 @@ pub(super) fn wound<'m>(
         return driven + rest - free;
     }
     let Some(near) = near else {
+        if posture.is_geared(from) || posture.is_geared(on) {
+            return posture.angle(on) - posture.angle(from) - free;
+        }
         let turned = posture.frame(on).resolved_along(posture.frame(from)).resolved_along(free.direction());
         return graph.atan2(turned.y, turned.x);
     };

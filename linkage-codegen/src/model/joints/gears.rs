@@ -2,8 +2,8 @@
 
 use super::NOWHERE;
 use crate::diagnostics::{Diagnostic, Sink};
-use crate::graph::Vector;
 use crate::graph::number::Number;
+use crate::graph::{Expr, Failure, NodeId, Vector};
 use crate::model::evaluate::Scope;
 use crate::model::ids::{JointId, LinkId};
 use crate::model::units::Kind;
@@ -32,13 +32,28 @@ pub(super) fn gear(scope: Scope<'_>, given: &ast::Joint, ends: [Option<End>; 2])
         None => graph.zero(),
     };
     let arm = ends.map(|end| end.unwrap_or(NOWHERE));
+    // What depends on parameters is checked when they are given.
+    let name = &given.name;
+    let failure = |requirement: String| Failure::Parameter { requirement };
+    let [first, second] = [first, second].map(|radius| {
+        let requirement = format!("{name}: the radius of a wheel must be positive");
+        let checked = radius.require_above(radius, graph.zero(), failure(requirement));
+        if checked.value().is_some() { checked } else { checked.known_positive() }
+    });
+    let first = if ring {
+        let requirement = format!("{name}: the ring must be larger than the wheel in it");
+        let checked = first.require_above(first, second, failure(requirement));
+        if checked.value().is_some() { checked } else { checked.known_positive() }
+    } else {
+        first
+    };
     let second = if ring { -second } else { second };
     let radii = [first.id(), second.id()];
     Ok(JointKind::Gear(Gear { radii, phase: phase.id(), incline: incline(scope, given)?.id(), arm }))
 }
 
 /// The tangent of the pressure angle with the sign of the flank.
-fn incline<'m>(scope: Scope<'m>, given: &ast::Joint) -> Result<crate::graph::Expr<'m>, Diagnostic> {
+fn incline<'m>(scope: Scope<'m>, given: &ast::Joint) -> Result<Expr<'m>, Diagnostic> {
     let sense = match &given.gear.flank {
         None => None,
         Some(word) if word.text == "left" => Some(1),
@@ -57,6 +72,10 @@ fn incline<'m>(scope: Scope<'m>, given: &ast::Joint) -> Result<crate::graph::Exp
                 return Err(Diagnostic::new(value.place, "a pressure angle lies between 0 and 90°")
                     .help("on which side it inclines the tooth force is said by `flank left` or `flank right`"));
             }
+            let requirement = format!("{}: its pressure angle must lie between 0 and 90°", given.name);
+            let failure = || Failure::Parameter { requirement: requirement.clone() };
+            let angle = angle.require_at_least(angle, scope.model.graph.zero(), failure());
+            let angle = angle.require_above(quarter, angle, failure());
             let Vector { x, y } = angle.direction();
             Ok(sense * (y / x))
         }
@@ -85,8 +104,9 @@ pub(super) fn arms(model: &mut Model, ast: &Ast, sink: &Sink) {
         match arm(model, id) {
             Some(arm) => {
                 let gear = Gear { arm, ..gear };
-                model.joints[id.index()].kind = JointKind::Gear(gear);
                 check_distance(model, ast, id, &gear, sink);
+                let gear = Gear { radii: filling(model, id, &gear), ..gear };
+                model.joints[id.index()].kind = JointKind::Gear(gear);
             }
             None => sink.report(loose(model, id)),
         }
@@ -131,6 +151,29 @@ fn loose(model: &Model, gear: JointId) -> Diagnostic {
         .help(format!("pin both to one link or to the ground, at their centres `{first}` and `{second}`"))
 }
 
+/// The radii, checked to fill the distance of the centres when the parameters are given on which that depends.
+fn filling(model: &Model, id: JointId, gear: &Gear) -> [NodeId; 2] {
+    let distance = gear.distance(model);
+    let [first, second] = gear.radii.map(|radius| model.graph.expr(radius));
+    let apart = 100 * (distance - (first + second)).abs();
+    if (distance - apart).value().is_some() {
+        return gear.radii;
+    }
+    let requirement = format!(
+        "{}: the radii of its wheels must fill the distance of their centres to a hundredth",
+        model.joint(id).name
+    );
+    let ring = second.sign() == Some(-1);
+    let [first, second] = [first, if ring { -second } else { second }].map(|radius| {
+        let failure = Failure::Parameter { requirement: requirement.clone() };
+        radius.require_at_least(distance, apart, failure).known_positive()
+    });
+    let second = if ring { -second } else { second };
+    // A ring is larger than its wheel.
+    let _ = (first + second).known_positive();
+    [first.id(), second.id()]
+}
+
 /// Radii that do not fill the distance of the centres are a slip, where they are known.
 fn check_distance(model: &Model, ast: &Ast, id: JointId, gear: &Gear, sink: &Sink) {
     let distance = gear.distance(model);
@@ -148,7 +191,7 @@ fn check_distance(model: &Model, ast: &Ast, id: JointId, gear: &Gear, sink: &Sin
     // A hundredth is more than decimals and shifted profiles make of it.
     let apart = 100 * (distance - (first + second)).abs() - distance;
     if apart.sign() == Some(1) {
-        let shown = |value: crate::graph::Expr<'_>| value.value().map_or(0.0, |number| number.to_f64());
+        let shown = |value: Expr<'_>| value.value().map_or(0.0, |number| number.to_f64());
         let unit = model.units.length.name;
         let (word, filled) =
             if second.sign() == Some(-1) { ("differ by", first + second) } else { ("add up to", first + second) };

@@ -1,9 +1,12 @@
 //! What all dyads share: two bodies, a joint between them, and an outer joint on each.
 //!
-//! For motion, links that a driven joint joins are one body: the drive says how they lie against each other, so that a cylinder with its
+//! Links that a weld or a driven joint joins are one body: the drive says how they lie against each other, so that a cylinder with its
 //! rod is a link whose length is an argument. The distance between two points of such a body is an expression in its drives. Once the
-//! first link of the body is placed, the others are placed from it as driven links; and once the force at its inner joint is known, they
-//! are solved as driven links, whose efforts are within the body.
+//! first link of the body is placed, the others are placed from it as driven or welded links; and once the force at its inner joint is
+//! known, they are solved as such, with the efforts and the reactions of the welds within the body.
+//!
+//! A slot along which its pin is driven is a pin whose place on the slot's link is an expression in the drive; one whose link is turned
+//! by a drive is a slide.
 
 use std::collections::BTreeSet;
 
@@ -11,30 +14,33 @@ use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Symbol, Vector};
-use crate::model::ids::{DriveId, JointId, LinkId, UnknownId};
-use crate::model::{End, JointKind, Model, UnknownKind};
+use crate::model::ids::{DriveId, GROUND, JointId, LinkId, UnknownId};
+use crate::model::{JointKind, Model};
 use crate::plan::assembly::{Assembly, DyadPivot};
 use crate::plan::balance::Balance;
+use crate::plan::framed::Framed;
 use crate::plan::pivots::{divisor, significant};
-use crate::plan::placement::{Orientation, Placement, Way};
+use crate::plan::placement::{Orientation, Placement, Spot, Way};
 use crate::plan::velocities::{Motion, Twist};
-use crate::topology::{Group, Input};
+use crate::topology::{Freedom, Group, Input};
 
 /// A body of a dyad.
 #[derive(Clone, Debug)]
 pub(super) struct Leg {
     /// Its outer joint.
     pub outer: JointId,
-    /// The outer joint's end on a link outside the dyad.
-    pub far: End,
-    /// The outer joint's end on the body.
-    pub near: End,
-    /// The inner joint's end on the body.
-    pub tip: End,
+    /// Whether that is a pin.
+    pinned: bool,
+    /// The outer joint's place on a link outside the dyad.
+    pub far: Spot,
+    /// The outer joint's place on the body.
+    pub near: Spot,
+    /// The inner joint's place on the body.
+    pub tip: Spot,
     /// Its links, that of the outer joint first.
     links: Vec<LinkId>,
-    /// The drives between its links.
-    drives: Vec<DriveId>,
+    /// The welds and driven joints between its links.
+    rigid: Vec<JointId>,
 }
 
 /// The parts of a dyad.
@@ -43,6 +49,8 @@ pub struct Dyad<'a> {
     pub(super) model: &'a Model,
     pub(super) legs: [Leg; 2],
     pub(super) inner: JointId,
+    /// Whether the inner joint is a pin.
+    pinned: bool,
 }
 
 /// The direction of a body between its joints, in the frame of its first link.
@@ -56,60 +64,55 @@ struct Arm<'m> {
     size: Expr<'m>,
 }
 
-/// A group as a dyad, if it is one. Of forces each link stays by itself.
+/// A group as a dyad, if it is one.
 pub(super) fn dyad<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
-    let no_effort = group.inputs.iter().all(|input| matches!(input, Input::Drive(_)));
-    no_effort.then(|| dyad_of_bodies(model, group)).flatten()
-}
-
-/// The same, but of forces too the links that a driven joint joins are one body; the effort of the drive is found within it.
-pub(super) fn dyad_of_bodies<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
-    let drive_within = |input: &Input| {
-        let drive = match *input {
-            Input::Drive(drive) => drive,
-            Input::Unknown(unknown) => match model.unknown(unknown).kind {
-                UnknownKind::Drive(drive) => drive,
-                UnknownKind::Torque(..) | UnknownKind::Force { .. } | UnknownKind::Thrust(_) => return None,
-            },
-        };
-        group.inner.contains(&model.drive(drive).joint).then_some(drive)
-    };
-    let slides_or_turns =
-        |joint: &JointId| matches!(model.joint(*joint).kind, JointKind::Revolute | JointKind::Prismatic { .. });
-    if !group.outer.iter().chain(&group.inner).all(slides_or_turns) {
+    let driven = |input: &Input| Group::drive_of(model, *input).is_some();
+    if !group.inputs.iter().all(driven) {
         return None;
     }
-    let drives = group.inputs.iter().map(drive_within).collect::<Option<Vec<DriveId>>>()?;
-    let is_driven = |joint: JointId| drives.iter().any(|drive| model.drive(*drive).joint == joint);
-    let &[inner] = group.inner.iter().copied().filter(|joint| !is_driven(*joint)).collect::<Vec<_>>().as_slice() else {
-        return None;
+    let freedom = |joint: JointId| group.freedom(model, joint);
+    let is_pin = |joint: JointId| match freedom(joint) {
+        Freedom::Turn => Some(true),
+        Freedom::Slide => Some(false),
+        Freedom::None | Freedom::TurnAndSlide | Freedom::Roll => None,
+    };
+    let (rigid, free): (Vec<JointId>, Vec<JointId>) =
+        group.inner.iter().partition(|joint| freedom(**joint) == Freedom::None);
+    let &[inner] = free.as_slice() else { return None };
+    let pinned = is_pin(inner)?;
+    let spot = |joint: JointId, pinned: bool, link: LinkId| {
+        let end = model.joint(joint).end_on(link).map(Spot::from);
+        if pinned { Spot::of_pin(model, joint, link) } else { end }
     };
     let leg = |outer: JointId| {
         let first = group.own_link(model, outer);
-        let (near, far) = (model.joint(outer).end_on(first)?, model.joint(outer).end_off(first)?);
-        let mut leg = Leg { outer, far, near, tip: near, links: vec![first], drives: Vec::new() };
-        while let Some((drive, link)) = next_driven(model, &drives, &leg.links) {
+        let outside = model.joint(outer).end_off(first)?.link;
+        let outer_pinned = is_pin(outer)?;
+        let (near, far) = (spot(outer, outer_pinned, first)?, spot(outer, outer_pinned, outside)?);
+        let mut leg = Leg { outer, pinned: outer_pinned, far, near, tip: near, links: vec![first], rigid: Vec::new() };
+        while let Some((joint, link)) = next_rigid(model, &rigid, &leg.links) {
             leg.links.push(link);
-            leg.drives.push(drive);
+            leg.rigid.push(joint);
         }
-        leg.tip = model.joint(inner).ends().into_iter().find(|end| leg.links.contains(&end.link))?;
+        let own = model.joint(inner).ends().into_iter().find(|end| leg.links.contains(&end.link))?.link;
+        leg.tip = spot(inner, pinned, own)?;
         Some(leg)
     };
     let &[a, b] = group.outer.as_slice() else { return None };
     let legs = [leg(a)?, leg(b)?];
     let links: BTreeSet<LinkId> = legs.iter().flat_map(|leg| leg.links.iter().copied()).collect();
     let apart = links.len() == legs[0].links.len() + legs[1].links.len();
-    (apart && links.len() == group.links.len()).then_some(Dyad { model, legs, inner })
+    (apart && links.len() == group.links.len()).then_some(Dyad { model, legs, inner, pinned })
 }
 
-/// A link that a drive places from one of these, and the drive.
-fn next_driven(model: &Model, drives: &[DriveId], from: &[LinkId]) -> Option<(DriveId, LinkId)> {
-    drives.iter().find_map(|drive| {
-        let mut ends = model.joint(model.drive(*drive).joint).ends().map(|end| end.link);
+/// A link that a weld or a driven joint places from one of these, and the joint.
+fn next_rigid(model: &Model, rigid: &[JointId], from: &[LinkId]) -> Option<(JointId, LinkId)> {
+    rigid.iter().find_map(|joint| {
+        let mut ends = model.joint(*joint).ends().map(|end| end.link);
         if from.contains(&ends[1]) {
             ends.swap(0, 1);
         }
-        (from.contains(&ends[0]) && !from.contains(&ends[1])).then_some((*drive, ends[1]))
+        (from.contains(&ends[0]) && !from.contains(&ends[1])).then_some((*joint, ends[1]))
     })
 }
 
@@ -120,26 +123,44 @@ pub(super) fn towards_unit<'m>(rough: Vector<'m>, name: &str) -> Vector<'m> {
     rough.scaled(factor.named(format!("unit_{name}"), format!("(3 − u·u)/2, u = rough_{name}")))
 }
 
-pub(super) fn is_pin(model: &Model, joint: JointId) -> bool {
-    matches!(model.joint(joint).kind, JointKind::Revolute)
+/// How a link is placed and held that a weld or driven joint joins to another one.
+fn rigid_rule(model: &Model, joint: JointId) -> &'static dyn Rule {
+    match model.joint(joint).kind {
+        JointKind::Revolute => &super::crank::Crank,
+        JointKind::Weld { .. } => &super::weld::Weld,
+        JointKind::Prismatic { .. } | JointKind::Slot { .. } | JointKind::Gear(_) => &super::slide::Slide,
+    }
 }
 
 impl Leg {
     /// The link of the outer joint.
     pub(super) fn link(&self) -> LinkId {
-        self.near.link
+        self.near.end.link
     }
 
     pub(super) fn is_single(&self) -> bool {
         self.links.len() == 1
     }
 
-    /// The driven links in an order in which they can be placed from one of its links.
-    fn driven_from(&self, model: &Model, first: LinkId) -> Vec<(DriveId, LinkId)> {
+    /// Whether its joints are always equally far apart.
+    fn is_constant(&self, model: &Model) -> bool {
+        let driven = |joint: &JointId| model.drives_of(*joint).next().is_some();
+        self.near.slot.is_none() && self.tip.slot.is_none() && !self.rigid.iter().any(driven)
+    }
+
+    /// The sum of the loads on it.
+    pub(super) fn total<'m>(&self, balance: &Balance<'m, '_>) -> Framed<'m> {
+        let ground = balance.placement.direction(GROUND);
+        let own = balance.total(self.link());
+        self.links[1..].iter().fold(own, |sum, link| sum.plus(&balance.total(*link), ground))
+    }
+
+    /// The other links in an order in which they can be placed from one of its links.
+    fn joined_to(&self, model: &Model, first: LinkId) -> Vec<(JointId, LinkId)> {
         let (mut placed, mut order) = (vec![first], Vec::new());
-        while let Some((drive, link)) = next_driven(model, &self.drives, &placed) {
+        while let Some((joint, link)) = next_rigid(model, &self.rigid, &placed) {
             placed.push(link);
-            order.push((drive, link));
+            order.push((joint, link));
         }
         order
     }
@@ -148,7 +169,7 @@ impl Leg {
 impl<'a> Dyad<'a> {
     /// Whether its outer joints and its inner one are pins: `[true, true, true]` is RRR.
     pub(super) fn pins(&self) -> [bool; 3] {
-        [self.legs[0].outer, self.inner, self.legs[1].outer].map(|joint| is_pin(self.model, joint))
+        [self.legs[0].pinned, self.pinned, self.legs[1].pinned]
     }
 
     pub(super) fn joint_name(&self, joint: JointId) -> &'a str {
@@ -167,34 +188,57 @@ impl<'a> Dyad<'a> {
 
     /// A leg that is held by two pins needs a length between them.
     pub(super) fn check_length(&self, leg: &Leg) -> RuleResult {
-        if leg.is_single() { super::check_length(self.model, leg.link(), [leg.outer, self.inner]) } else { Ok(()) }
+        if leg.is_single() && leg.is_constant(self.model) {
+            return super::check_length(self.model, leg.link(), [leg.outer, self.inner]);
+        }
+        if !leg.is_constant(self.model) || !self.constant_arm(leg).is_zero() {
+            return Ok(());
+        }
+        let [first, second] = [leg.outer, self.inner].map(|joint| &self.model.joint(joint).name);
+        let links: Vec<&str> = leg.links.iter().map(|link| self.model.link(*link).name.text.as_str()).collect();
+        let links = crate::diagnostics::list(&links);
+        let problem = format!("the welded links {links} have no length between their joints `{first}` and `{second}`");
+        Err(Diagnostic::new(self.model.link(leg.link()).name.place(), problem)
+            .help("put the two points apart, or join the two other links by one pin"))
+    }
+
+    /// From the outer joint of a leg to the inner one, where that is always the same, in the frame of its first link.
+    fn constant_arm(&self, leg: &Leg) -> Vector<'a> {
+        let (graph, model) = (&self.model.graph, self.model);
+        if leg.is_single() {
+            return model.local(leg.tip.end) - model.local(leg.near.end);
+        }
+        self.way_within(leg, leg.link(), Vector::new(graph.one(), graph.zero())).vector()
     }
 
     /// Distance of a leg's joints.
     pub(super) fn length(&self, leg: &Leg) -> Expr<'a> {
+        if !leg.is_constant(self.model) {
+            return self.arm(leg).size;
+        }
         if leg.is_single() {
             return super::length_between(self.model, leg.link(), [leg.outer, self.inner]);
         }
-        self.arm(leg).size
+        super::checked_length(self.model, self.constant_arm(leg).size(), &leg.links, [leg.outer, self.inner])
     }
 
     /// What the rounding of a leg's length is proportional to: nothing if the length is constant.
     pub(super) fn slack(&self, leg: &Leg) -> Expr<'a> {
-        if leg.is_single() {
+        if leg.is_constant(self.model) {
             return self.model.graph.zero();
         }
         self.way_within(leg, leg.link(), self.arm_axis(leg)).length()
     }
 
-    /// The direction from the outer joint to the inner one, in the frame of the leg's single link.
-    pub(super) fn axis(&self, leg: &Leg) -> Vector<'a> {
-        let (arm, length) = (self.model.local(leg.tip) - self.model.local(leg.near), self.length(leg));
+    /// The direction from the outer joint to the inner one, in the frame of the first link of a leg where it is always the same.
+    fn axis(&self, leg: &Leg) -> Vector<'a> {
+        let (arm, length) = (self.constant_arm(leg), self.length(leg));
         Vector::new(arm.x / length, arm.y / length)
     }
 
     /// The direction of a leg of a placed dyad from the outer joint to the inner one, in ground axes.
     pub(super) fn direction(&self, placement: &Placement<'a>, leg: &Leg) -> Vector<'a> {
-        if leg.is_single() {
+        if leg.is_constant(self.model) {
             return placement.turned(leg.link(), self.axis(leg));
         }
         let Arm { axis, along, size } = self.arm(leg);
@@ -208,8 +252,9 @@ impl<'a> Dyad<'a> {
         leg: &Leg,
         direction: Vector<'a>,
     ) -> Result<Vector<'a>, Diagnostic> {
-        if leg.is_single() {
+        if leg.is_constant(self.model) {
             assembly.placement.orient(leg.link(), Orientation { direction, axis: self.axis(leg) });
+            self.place_rest(assembly, leg, leg.link())?;
             return Ok(self.direction(&assembly.placement, leg));
         }
         let arm = self.arm(leg);
@@ -230,61 +275,128 @@ impl<'a> Dyad<'a> {
         Ok(self.direction(&assembly.placement, leg))
     }
 
-    /// The driven links of a leg as groups of their own, in the order in which they are placed from one of its links.
-    fn driven(&self, leg: &Leg, first: LinkId, input: fn(DriveId) -> Input) -> Vec<(&'static dyn Rule, Group)> {
-        let driven = |(drive, link): (DriveId, LinkId)| -> (&'static dyn Rule, Group) {
-            let joint = self.model.drive(drive).joint;
-            let rule: &dyn Rule = if is_pin(self.model, joint) { &super::crank::Crank } else { &super::slide::Slide };
-            (rule, Group { links: vec![link], inner: Vec::new(), outer: vec![joint], inputs: vec![input(drive)] })
+    /// The other links of a leg as groups of their own, in the order in which they are placed from one of its links.
+    fn joined(&self, leg: &Leg, first: LinkId, input: fn(DriveId) -> Input) -> Vec<(&'static dyn Rule, Group)> {
+        let group = |(joint, link): (JointId, LinkId)| {
+            let inputs = self.model.drives_of(joint).map(input).collect();
+            let group = Group { links: vec![link], inner: Vec::new(), outer: vec![joint], inputs };
+            (rigid_rule(self.model, joint), group)
         };
-        leg.driven_from(self.model, first).into_iter().map(driven).collect()
+        leg.joined_to(self.model, first).into_iter().map(group).collect()
     }
 
     /// Places the other links of a leg from one of them.
     pub(super) fn place_rest(&self, assembly: &mut Assembly<'a>, leg: &Leg, placed: LinkId) -> RuleResult {
-        self.driven(leg, placed, Input::Drive).iter().try_for_each(|(rule, group)| rule.place(assembly, group))
+        self.joined(leg, placed, Input::Drive).iter().try_for_each(|(rule, group)| rule.place(assembly, group))
+    }
+
+    /// The moment of the loads on a leg about its outer joint, times a factor.
+    pub(super) fn moment(&self, balance: &Balance<'a, '_>, leg: &Leg, factor: Expr<'a>) -> Expr<'a> {
+        let placement = balance.placement;
+        let own = balance.moment(leg.link(), placement.point(leg.near), factor);
+        leg.links[1..].iter().fold(own, |sum, link| {
+            if balance.is_free(*link) {
+                return sum;
+            }
+            // About a place on the link, and with the arm of that place.
+            let at = self.place_on(leg, *link);
+            let direction = placement.direction(*link);
+            let arm = placement.way(leg.near, at).resolved_along(direction).scaled(factor);
+            let force = balance.total(*link).along(direction);
+            sum + (balance.moment(*link, placement.point(at), factor) + arm.cross(force))
+        })
     }
 
     /// The moment of the loads on a leg about its outer joint, over its length.
     pub(super) fn moment_over_length(&self, balance: &Balance<'a, '_>, leg: &Leg) -> Expr<'a> {
-        let (placement, length) = (balance.placement, self.length(leg));
-        let inverse = balance.graph().one() / length;
-        let own = balance.moment(leg.link(), placement.point(leg.near), inverse);
-        leg.links[1..].iter().fold(own, |sum, link| {
-            // About a place on the link, and with the arm of that place.
-            let at = self.place_on(leg, *link);
-            let direction = placement.direction(*link);
-            let arm = placement.way(leg.near, at).resolved_along(direction).scaled(inverse);
-            let force = balance.total(*link).along(direction);
-            sum + (balance.moment(*link, placement.point(at), inverse) + arm.cross(force))
-        })
+        self.moment(balance, leg, balance.graph().one() / self.length(leg))
     }
 
-    /// A joint's end on a link of a leg: the inner joint's where it is one.
-    fn place_on(&self, leg: &Leg, link: LinkId) -> End {
-        let ends = leg.drives.iter().filter_map(|drive| self.model.joint(self.model.drive(*drive).joint).end_on(link));
-        if leg.tip.link == link { leg.tip } else { ends.last().unwrap_or(leg.near) }
+    /// A joint's place on a link of a leg: the inner joint's where it is one.
+    fn place_on(&self, leg: &Leg, link: LinkId) -> Spot {
+        let ends = leg.rigid.iter().filter_map(|joint| self.model.joint(*joint).end_on(link));
+        if leg.tip.end.link == link { leg.tip } else { ends.last().map_or(leg.near, Spot::from) }
     }
 
-    /// The efforts within a leg and the reaction of its outer joint, once the force at its inner joint is on it.
+    /// The inner pin exerts a force on a leg, and the opposite one on the other leg. Gives the force on the leg as it was named.
+    pub(super) fn pin_inner(&self, balance: &mut Balance<'a, '_>, leg: &Leg, force: Framed<'a>) -> Framed<'a> {
+        let force = balance.pin(self.inner, leg.tip.end.link, force);
+        if !leg.is_single() {
+            balance.push(leg.tip.end.link, balance.placement.point(leg.tip), force);
+        }
+        force
+    }
+
+    /// The inner slide holds the force `across` that acts on a leg across it, and the moment of its loads about its outer pin; the other
+    /// leg gets the opposite.
+    pub(super) fn guide_inner(&self, balance: &mut Balance<'a, '_>, leg: &Leg, across: Expr<'a>) {
+        let pin = balance.placement.point(leg.near);
+        if leg.is_single() {
+            super::slide::guide(balance, self.inner, leg.link(), across, pin);
+            return;
+        }
+        let link = leg.tip.end.link;
+        let arm = balance
+            .placement
+            .way(leg.near, self.meeting(leg))
+            .resolved_along(balance.placement.slide_direction(self.inner))
+            .x;
+        let moment = self.moment(balance, leg, balance.graph().one()) - arm * across;
+        super::slide::react(balance, self.inner, link, across, moment);
+        // What it exerts on the leg itself: the opposite of what the other link got.
+        balance.push(link, balance.placement.slide_point(self.inner, link), self.guided(balance, leg));
+        balance.couple(link, -moment);
+    }
+
+    /// What the inner slide exerts on a leg.
+    pub(super) fn guided(&self, balance: &Balance<'a, '_>, leg: &Leg) -> Framed<'a> {
+        let reaction = balance.reaction(self.inner).force;
+        if self.model.joint(self.inner).to.link == leg.tip.end.link { reaction } else { reaction.opposite() }
+    }
+
+    /// The efforts and welds within a leg and the reaction of its outer joint, once the force of its inner joint is on it.
     pub(super) fn balance_rest(&self, balance: &mut Balance<'a, '_>, leg: &Leg) -> RuleResult {
         let effort = |drive: DriveId| Input::Unknown(UnknownId::new(drive.index()));
-        self.driven(leg, leg.link(), effort).iter().rev().try_for_each(|(rule, group)| rule.balance(balance, group))?;
-        let held = balance.total(leg.link());
-        balance.pin(leg.outer, leg.link(), held.opposite());
+        self.joined(leg, leg.link(), effort).iter().rev().try_for_each(|(rule, group)| rule.balance(balance, group))?;
+        let (link, held) = (leg.link(), balance.total(leg.link()));
+        if leg.pinned {
+            balance.pin(leg.outer, link, held.opposite());
+        } else {
+            let across = held.along(balance.placement.slide_direction(leg.outer)).y;
+            super::slide::guide(balance, leg.outer, link, across, balance.placement.point(self.place_on(leg, link)));
+        }
         Ok(())
+    }
+
+    /// Where the links of the inner joint meet, on a leg: at the pin, or at the runner of the slide.
+    fn meeting(&self, leg: &Leg) -> Spot {
+        if self.pinned {
+            return leg.tip;
+        }
+        let line = self.model.joint(self.inner).kind.line();
+        let carries = line.is_some_and(|(carrier, _)| carrier == leg.tip.end.link);
+        Spot { end: leg.tip.end, slot: carries.then_some(self.inner) }
+    }
+
+    /// The velocity of the inner pin as a leg has it: of one that is driven along a slot of the leg, with what that adds.
+    pub(super) fn velocity_of_pin(&self, motion: &Motion<'a, '_>, leg: &Leg) -> Framed<'a> {
+        let joint = self.model.joint(self.inner);
+        match (leg.tip.slot, joint.end_off(leg.tip.end.link)) {
+            (Some(_), Some(pin)) => motion.passed_on(self.inner, pin.link),
+            _ => motion.of_point(leg.tip.end),
+        }
     }
 
     /// Moves a leg about its outer joint: its first link turns at this rate, the others as their drives say.
     pub(super) fn turn(&self, motion: &mut Motion<'a, '_>, leg: &Leg, rate: Expr<'a>) -> RuleResult {
-        let (at, velocity) = (motion.placement.point(leg.near), motion.of_point(leg.far));
+        let (at, velocity) = (motion.placement.point(leg.near), motion.passed_on(leg.outer, leg.link()));
         motion.found(leg.link(), Twist { rate, at, velocity });
         self.follow_rest(motion, leg, leg.link())
     }
 
     /// The motion of the other links of a leg, once that of one of them is found.
     pub(super) fn follow_rest(&self, motion: &mut Motion<'a, '_>, leg: &Leg, found: LinkId) -> RuleResult {
-        self.driven(leg, found, Input::Drive).iter().try_for_each(|(rule, group)| rule.follow(motion, group))
+        self.joined(leg, found, Input::Drive).iter().try_for_each(|(rule, group)| rule.follow(motion, group))
     }
 
     pub(super) fn pivot_name(&self) -> String {
@@ -345,13 +457,19 @@ impl<'a> Dyad<'a> {
         Arm { axis, along, size }
     }
 
-    /// What the first link of a body carries: the direction of its driven slide, so that what lies along that stays so.
+    /// What the first link of a body carries: the direction of its driven slide or slot, so that what lies along that stays so.
     fn arm_axis(&self, leg: &Leg) -> Vector<'a> {
         let graph = &self.model.graph;
-        let driven = leg.drives.iter().map(|drive| self.model.drive(*drive).joint);
-        let own = |joint: &JointId| self.model.joint(*joint).end_on(leg.link()).is_some();
-        let slide = driven.filter(own).find(|joint| !is_pin(self.model, *joint));
         let x_axis = Vector::new(graph.one(), graph.zero());
+        let mut pins = [leg.near, leg.tip].into_iter().filter(|spot| spot.end.link == leg.link());
+        if let Some(slot) = pins.find_map(|spot| spot.slot) {
+            return self.model.joint(slot).kind.line().map_or(x_axis, |(_, axis)| axis.vector(graph));
+        }
+        let slides = |joint: &JointId| {
+            let joint = self.model.joint(*joint);
+            joint.kind.line().is_some() && joint.end_on(leg.link()).is_some()
+        };
+        let slide = leg.rigid.iter().copied().find(slides);
         slide.map_or(x_axis, |slide| Placement::of_ground(self.model).slide_axis(slide, leg.link()))
     }
 
@@ -362,12 +480,17 @@ impl<'a> Dyad<'a> {
         let x_axis = Vector::new(graph.one(), graph.zero());
         let mut placement = Placement::of_ground(self.model);
         placement.suppose(supposed, Orientation { direction: x_axis, axis });
-        for (drive, link) in leg.driven_from(self.model, supposed) {
-            let joint = self.model.drive(drive).joint;
-            let coordinate = graph.symbol(Symbol::Drive(drive));
-            let orientation = placement.driven(joint, link, coordinate);
+        for (joint, link) in leg.joined_to(self.model, supposed) {
+            let orientation = match self.model.joint(joint).kind {
+                JointKind::Revolute => {
+                    let turn =
+                        self.model.drive_of(joint, true).map_or(graph.zero(), |d| graph.symbol(Symbol::Drive(d)));
+                    placement.driven(joint, link, turn)
+                }
+                _ => placement.along_slide(joint, link),
+            };
             placement.suppose(link, orientation);
-            if is_pin(self.model, joint) { placement.connect(joint) } else { placement.set_travel(joint, coordinate) }
+            placement.connect(joint);
         }
         placement.way(leg.near, leg.tip)
     }

@@ -74,9 +74,13 @@ pub fn rule_of(model: &Model, group: &Group) -> Option<&'static dyn Rule> {
 /// The distance of two pins of a link; of one that depends on parameters it is checked when they are given.
 fn length_between(model: &Model, link: LinkId, pins: [JointId; 2]) -> Expr<'_> {
     let [a, b] = pins.map(|pin| model.joint(pin).end_on(link).unwrap_or(model.joint(pin).from));
-    let length = model.distance(link, a.point, b.point);
+    checked_length(model, model.distance(link, a.point, b.point), &[link], pins)
+}
+
+/// The distance of two pins of a body; one that depends on parameters is checked when they are given.
+fn checked_length<'m>(model: &'m Model, length: Expr<'m>, links: &[LinkId], pins: [JointId; 2]) -> Expr<'m> {
     let [first, second] = pins.map(|pin| &model.joint(pin).name);
-    let requirement = format!("{}: its joints {first} and {second} must be apart", model.link(link).name);
+    let requirement = format!("{}: its joints {first} and {second} must be apart", model.link_names(links));
     let checked = length.require_above(length, model.graph.zero(), Failure::Parameter { requirement });
     if checked.value().is_some() { checked } else { checked.known_positive() }
 }

@@ -173,7 +173,7 @@ fn lay_out<'m>(
     }
     let mut travels: Vec<(JointId, Expr<'m>)> = Vec::new();
     let mut travel_of = |joint: JointId| {
-        let along = driven(group, model, joint).filter(|drive| !model.drive(*drive).turns);
+        let along = driven(group, model, joint, false);
         let known = along.map(|drive| placement.graph().symbol(Symbol::Drive(drive)));
         let has_line = model.joint(joint).kind.line().is_some();
         has_line.then(|| known.unwrap_or_else(|| seek(Place::Travel(joint)).x))
@@ -231,7 +231,7 @@ fn led<'m>(
             .map(|angle| if data.to.link == link { angle + turn } else { angle - turn });
         return Some((link, placement.along_slide(joint, link), angle));
     }
-    let drive = driven(group, model, joint).filter(|drive| model.drive(*drive).turns)?;
+    let drive = driven(group, model, joint, true)?;
     let turn = placement.graph().symbol(Symbol::Drive(drive));
     let other = data.end_off(link)?.link;
     let angle =
@@ -258,10 +258,8 @@ fn counted(model: &Model, group: &Group) -> BTreeSet<LinkId> {
         [a, b, gear.arm[0].link]
     };
     let mut counted: BTreeSet<LinkId> = gears(model, group).flat_map(of).collect();
-    let leads = |joint: &JointId| {
-        model.joint(*joint).kind.turn().is_some()
-            || driven(group, model, *joint).is_some_and(|drive| model.drive(drive).turns)
-    };
+    let leads =
+        |joint: &JointId| model.joint(*joint).kind.turn().is_some() || driven(group, model, *joint, true).is_some();
     let leading: Vec<JointId> = group.outer.iter().chain(&group.inner).copied().filter(leads).collect();
     loop {
         let before = counted.len();
@@ -277,9 +275,11 @@ fn counted(model: &Model, group: &Group) -> BTreeSet<LinkId> {
     }
 }
 
-fn driven(group: &Group, model: &Model, joint: JointId) -> Option<DriveId> {
+/// The drive of a joint's angle, or of its travel.
+fn driven(group: &Group, model: &Model, joint: JointId, turns: bool) -> Option<DriveId> {
+    let own = |drive: &DriveId| model.drive(*drive).joint == joint && model.drive(*drive).turns == turns;
     group.inputs.iter().find_map(|input| match input {
-        Input::Drive(drive) => (model.drive(*drive).joint == joint).then_some(*drive),
+        Input::Drive(drive) => Some(*drive).filter(own),
         Input::Unknown(_) => None,
     })
 }

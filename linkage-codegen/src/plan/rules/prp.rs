@@ -51,8 +51,7 @@ impl Rule for Prp {
         let Some(dyad) = sliders(assembly.model(), group) else { return Ok(()) };
         let [first, second] = &dyad.legs;
         for leg in &dyad.legs {
-            let orientation = assembly.placement.along_slide(leg.outer, leg.link());
-            assembly.placement.orient(leg.link(), orientation);
+            assembly.placement.orient_along(leg.outer, leg.link());
             dyad.place_rest(assembly, leg, leg.link())?;
             assembly.placement.connect(leg.outer);
         }
@@ -81,13 +80,13 @@ impl Rule for Prp {
         let [first, second] = &dyad.legs;
         let pin = dyad.joint_name(dyad.inner);
         let [one, two] = [first, second].map(|leg| balance.placement.slide_direction(leg.outer));
-        let loads = balance.total(first.link()).along(one);
+        let loads = first.total(balance).along(one);
         let along = |leg: &Leg| {
             format!("±ΣF of the loads on {} along the slide {}", dyad.link_name(leg), dyad.joint_name(leg.outer))
         };
         let own =
             (-loads.x).named(balance.name(&format!("{pin}_along_{}", dyad.joint_name(first.outer))), along(first));
-        let needed = balance.total(second.link()).along(two).x;
+        let needed = second.total(balance).along(two).x;
         let needed =
             needed.named(balance.name(&format!("{pin}_along_{}", dyad.joint_name(second.outer))), along(second));
         let across = if own.is_zero() && needed.is_zero() {
@@ -107,13 +106,14 @@ impl Rule for Prp {
         };
         let force = Framed { components: Vector::new(own, across), axes: one };
         // The pin puts its part on the second slider.
-        let force = balance.pin(dyad.inner, first.link(), force).along(one);
-        let at = |leg: &Leg| balance.placement.point(leg.tip);
-        let (first_at, second_at) = (at(first), at(second));
-        super::slide::guide(balance, first.outer, first.link(), loads.y + force.y, first_at);
-        let held = balance.total(second.link()).along(two).y;
-        super::slide::guide(balance, second.outer, second.link(), held, second_at);
-        Ok(())
+        let force = dyad.pin_inner(balance, first, force).along(one);
+        if first.is_single() {
+            let at = balance.placement.point(first.tip);
+            super::slide::guide(balance, first.outer, first.link(), loads.y + force.y, at);
+        } else {
+            dyad.balance_rest(balance, first)?;
+        }
+        dyad.balance_rest(balance, second)
     }
 
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
@@ -123,7 +123,7 @@ impl Rule for Prp {
             motion.found(leg.link(), motion.carried(leg.outer, leg.link()));
             dyad.follow_rest(motion, leg, leg.link())?;
         }
-        let carried = dyad.legs.each_ref().map(|leg| motion.of_point(leg.tip));
+        let carried = dyad.legs.each_ref().map(|leg| dyad.velocity_of_pin(motion, leg));
         let gap = motion.lacking(dyad.inner, &carried[1], &carried[0]);
         let across = -motion.part(&gap, motion.placement.slide_direction(second.outer).perp());
         let speed = if across.is_zero() {
@@ -137,10 +137,16 @@ impl Rule for Prp {
         motion.records(first.outer, first.link(), speed);
         let sliding = motion.along_slide(first.outer, speed);
         let velocity = carried[0].plus(&sliding, motion.placement.direction(GROUND));
-        dyad.legs.iter().try_for_each(|leg| {
-            let at = motion.placement.point(leg.tip);
-            motion.found(leg.tip.link, Twist { rate: motion.rate(leg.tip.link), at, velocity });
-            dyad.follow_rest(motion, leg, leg.tip.link)
-        })
+        // The pin's own link first: of a slot that its pin is driven along, the carrier follows.
+        let legs = || dyad.legs.iter();
+        legs().filter(|leg| leg.tip.slot.is_none()).chain(legs().filter(|leg| leg.tip.slot.is_some())).try_for_each(
+            |leg| {
+                let link = leg.tip.end.link;
+                let velocity = if leg.tip.slot.is_some() { motion.passed_on(dyad.inner, link) } else { velocity };
+                let at = motion.placement.point(leg.tip);
+                motion.found(link, Twist { rate: motion.rate(link), at, velocity });
+                dyad.follow_rest(motion, leg, link)
+            },
+        )
     }
 }

@@ -54,9 +54,8 @@ impl Rule for Rpp {
     fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
         let Some(dyad) = sliders(assembly.model(), group) else { return Ok(()) };
         let [pinned, slider] = &dyad.legs;
-        for (leg, slide, link) in [(slider, slider.outer, slider.link()), (pinned, dyad.inner, pinned.tip.link)] {
-            let orientation = assembly.placement.along_slide(slide, link);
-            assembly.placement.orient(link, orientation);
+        for (leg, slide, link) in [(slider, slider.outer, slider.link()), (pinned, dyad.inner, pinned.tip.end.link)] {
+            assembly.placement.orient_along(slide, link);
             dyad.place_rest(assembly, leg, link)?;
             assembly.placement.connect(slide);
         }
@@ -75,7 +74,7 @@ impl Rule for Rpp {
         let own = (-gap.y / sine).named(format!("t_{outer}"), format!("tₒ = (g × eᵢ)/{}", dyad.pivot_name()));
         let further = (gap.x - own * cosine).named(format!("t_{inner}"), "tᵢ = g·eᵢ − tₒ (eₒ·eᵢ)");
         dyad.set_travel(assembly, slider.outer, slider.link(), own);
-        dyad.set_travel(assembly, dyad.inner, pinned.tip.link, further);
+        dyad.set_travel(assembly, dyad.inner, pinned.tip.end.link, further);
         assembly.placement.connect(pinned.outer);
         Ok(())
     }
@@ -85,7 +84,7 @@ impl Rule for Rpp {
         let [pinned, slider] = &dyad.legs;
         let [outer, inner] = slides(&dyad).map(|slide| dyad.joint_name(slide));
         let e = balance.placement.slide_direction(slider.outer);
-        let load = balance.total(slider.link()).along(e);
+        let load = slider.total(balance).along(e);
         let name = dyad.link_name(slider);
         let along = load.x.named(
             balance.name(&format!("{outer}_along")),
@@ -103,15 +102,19 @@ impl Rule for Rpp {
             (-(along / sine))
                 .named(balance.name(&format!("{inner}_across")), format!("−{outer}_along/{}", dyad.pivot_name()))
         };
-        let pin = balance.placement.point(pinned.near);
-        super::slide::guide(balance, dyad.inner, pinned.link(), -across, pin);
-        let ground = balance.placement.direction(GROUND);
-        let guided = balance.reaction(dyad.inner).force;
-        let guided =
-            if balance.model().joint(dyad.inner).to.link == pinned.link() { guided } else { guided.opposite() };
-        let held = balance.total(pinned.link()).plus(&guided, ground);
-        balance.pin(pinned.outer, pinned.link(), held.opposite());
+        dyad.guide_inner(balance, pinned, -across);
+        if pinned.is_single() {
+            let ground = balance.placement.direction(GROUND);
+            let guided = dyad.guided(balance, pinned);
+            let held = balance.total(pinned.link()).plus(&guided, ground);
+            balance.pin(pinned.outer, pinned.link(), held.opposite());
+        } else {
+            dyad.balance_rest(balance, pinned)?;
+        }
         // The inner slide has put its part on the first slider.
+        if !slider.is_single() {
+            return dyad.balance_rest(balance, slider);
+        }
         let at = balance.placement.slide_point(dyad.inner, slider.link());
         let held = balance.total(slider.link()).along(e).y;
         super::slide::guide(balance, slider.outer, slider.link(), held, at);
@@ -121,12 +124,12 @@ impl Rule for Rpp {
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let Some(dyad) = sliders(motion.model(), group) else { return Ok(()) };
         let [pinned, slider] = &dyad.legs;
-        let pin = motion.of_point(pinned.far);
+        let pin = motion.passed_on(pinned.outer, pinned.link());
         // Neither slides: the way from the outer guide's runner to the pin goes through the inner slide.
         motion.found(slider.link(), motion.carried(slider.outer, slider.link()));
         dyad.follow_rest(motion, slider, slider.link())?;
-        motion.found(pinned.tip.link, motion.carried(dyad.inner, pinned.tip.link));
-        dyad.follow_rest(motion, pinned, pinned.tip.link)?;
+        motion.found(pinned.tip.end.link, motion.carried(dyad.inner, pinned.tip.end.link));
+        dyad.follow_rest(motion, pinned, pinned.tip.end.link)?;
         let gap = motion.lacking(pinned.outer, &pin, &motion.of_point(pinned.near));
         let across = -motion.part(&gap, motion.placement.slide_direction(dyad.inner).perp());
         let speed = if across.is_zero() {

@@ -23,11 +23,11 @@ use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::{GROUND, JointId};
 use crate::model::{Model, Side};
-use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found};
+use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::pivots::Pivots;
-use crate::plan::placement::{Orientation, Placement};
+use crate::plan::placement::Placement;
 use crate::plan::velocities::Motion;
 use crate::topology::Group;
 
@@ -37,7 +37,7 @@ pub(super) struct Rpr;
 /// The group as an RPR dyad, the slide's first link first.
 fn sliding_pair<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
     let mut dyad = dyad(model, group).filter(|dyad| dyad.pins() == [true, false, true])?;
-    if dyad.legs[0].tip != model.joint(dyad.inner).from {
+    if dyad.legs[0].tip.end != model.joint(dyad.inner).from {
         dyad.legs.swap(0, 1);
     }
     Some(dyad)
@@ -75,7 +75,7 @@ impl Rule for Rpr {
         let one = balance.graph().one();
         let moments = dyad.legs.each_ref().map(|leg| {
             let (pin, link) = (dyad.joint_name(leg.outer), dyad.link_name(leg));
-            let moment = balance.moment(leg.link(), balance.placement.point(leg.near), one);
+            let moment = dyad.moment(balance, leg, one);
             moment.named(balance.name(&format!("moment_{link}")), format!("ΣM({pin}) of the loads on {link}"))
         });
         let moment = moments[0] + moments[1];
@@ -92,18 +92,18 @@ impl Rule for Rpr {
         let model = balance.model();
         let runner = model.joint(dyad.inner).place().link;
         let (leg, other, acting) =
-            if runner == second.link() { (second, first, -across) } else { (first, second, across) };
+            if runner == second.tip.end.link { (second, first, -across) } else { (first, second, across) };
         let loads = balance.total(leg.link());
-        let pin = balance.placement.point(leg.near);
-        super::slide::guide(balance, dyad.inner, leg.link(), acting, pin);
-        let guided = balance.reaction(dyad.inner).force;
-        let guided = if leg.link() == second.link() { guided } else { guided.opposite() };
-        let ground = balance.placement.direction(GROUND);
-        balance.pin(leg.outer, leg.link(), loads.plus(&guided, ground).opposite());
+        dyad.guide_inner(balance, leg, acting);
+        if leg.is_single() {
+            let ground = balance.placement.direction(GROUND);
+            let held = loads.plus(&dyad.guided(balance, leg), ground);
+            balance.pin(leg.outer, leg.link(), held.opposite());
+        } else {
+            dyad.balance_rest(balance, leg)?;
+        }
         // The guide has put its part on the other link.
-        let held = balance.total(other.link());
-        balance.pin(other.outer, other.link(), held.opposite());
-        Ok(())
+        dyad.balance_rest(balance, other)
     }
 
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
@@ -113,14 +113,14 @@ impl Rule for Rpr {
         // If the bodies that slide along each other did not turn; what drives within the legs turn them by is taken off.
         let own = turns_within(&dyad, motion)?;
         let ground = motion.placement.direction(GROUND);
-        let carried = place_on(&dyad, motion, first).plus(&motion.coriolis(dyad.inner, second.tip.link), ground);
+        let carried = place_on(&dyad, motion, first).plus(&motion.coriolis(dyad.inner, second.tip.end.link), ground);
         let gap = motion.lacking(dyad.inner, &place_on(&dyad, motion, second), &carried);
         let across = motion.part(&gap, e.perp());
         let rate = if across.is_zero() { across } else { across / reach(&dyad, motion.placement, motion.pivots) };
         let [one, other] = [first, second].map(|leg| dyad.link_name(leg));
         let how = format!(" and {other}: the pins' relative {{velocity}} across the slide over {}", pivot_name(&dyad));
         let rate = motion.named_rate(rate, &one, &how);
-        if [first, second].into_iter().all(Leg::is_single) {
+        if [first, second].into_iter().all(Leg::is_single) && !is_turned(&dyad) {
             // Turning, the slide's places on the two links move apart along it.
             let arm =
                 |leg: &Leg| motion.placement.slide_point(dyad.inner, leg.link()) - motion.placement.point(leg.near);
@@ -133,12 +133,17 @@ impl Rule for Rpr {
     }
 }
 
-/// Supposes that the links that slide along each other do not turn. Gives what drives turn them by within their legs.
+/// Supposes that the carrier of the slide does not turn, nor the other link against it but for a drive. Gives what their first links must
+/// turn back for that.
 fn turns_within<'m>(dyad: &Dyad<'m>, motion: &mut Motion<'m, '_>) -> Result<[Expr<'m>; 2], Diagnostic> {
     let mut own = [motion.graph().zero(); 2];
     for (leg, own) in dyad.legs.iter().zip(&mut own) {
         dyad.turn(motion, leg, *own)?;
-        *own = motion.rate(leg.tip.link);
+        // In a slot the drive turns the other link against its carrier.
+        let link = leg.tip.end.link;
+        let carrier = dyad.model.joint(dyad.inner).kind.line().map_or(link, |(carrier, _)| carrier);
+        let wanted = if carrier == link { motion.graph().zero() } else { motion.driven_rate(dyad.inner, carrier) };
+        *own = motion.rate(link) - wanted;
         if !own.is_zero() {
             dyad.turn(motion, leg, -*own)?;
         }
@@ -148,7 +153,7 @@ fn turns_within<'m>(dyad: &Dyad<'m>, motion: &mut Motion<'m, '_>) -> Result<[Exp
 
 /// The velocity of the slide's place on a leg.
 fn place_on<'m>(dyad: &Dyad<'m>, motion: &Motion<'m, '_>, leg: &Leg) -> Framed<'m> {
-    motion.of_place(leg.tip.link, motion.placement.slide_point(dyad.inner, leg.tip.link))
+    motion.of_place(leg.tip.end.link, motion.placement.slide_point(dyad.inner, leg.tip.end.link))
 }
 
 fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> RuleResult {
@@ -159,7 +164,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let side = side(assembly, group, dyad)?;
     // From P to the slide and from the slide to Q, along and across it: the same for every pose, but for drives within the bodies.
     let [from_p, from_q] = [first, second].map(|leg| {
-        let link = leg.tip.link;
+        let link = leg.tip.end.link;
         dyad.way_within(leg, link, assembly.placement.slide_axis(dyad.inner, link))
     });
     let offset = from_p.vector() - from_q.vector();
@@ -167,7 +172,9 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let way = assembly.placement.way(first.far, second.far);
     let d = way.vector().named(&format!("d_{slide}"), &format!("d, from {p} to {q}"));
     let d2 = d.squared().named(format!("D2_{slide}"), "d·d");
-    let length = [first, second].into_iter().fold(way.length(), |sum, leg| sum + dyad.slack(leg));
+    let slack = [first, second].into_iter().fold(way.length(), |sum, leg| sum + dyad.slack(leg));
+    // A driven angle between the links makes h and what is fixed along the slide rounded too.
+    let length = if is_turned(dyad) { slack + from_p.length() + from_q.length() } else { slack };
     let rounding = |of: &str, value: Expr<'m>| {
         value.named(format!("rounding_{of}_{slide}"), format!("what rounding makes of {of}_{slide} = 0"))
     };
@@ -181,7 +188,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         d2.require_above(d2, close, failure).known_positive()
     };
     let (s, reach) = if h.is_zero() {
-        let s = side * d2.sqrt();
+        let s = side.of(d2.sqrt());
         (s, s)
     } else {
         let s2 = (d2 - h.squared()).named(format!("s2_{slide}"), format!("s² = D2_{slide} − h²"));
@@ -192,7 +199,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
             gap: (-s2 / (d2.sqrt() + h.abs())).id(),
         };
         let s2 = s2.require_at_least(s2, -limit, failure);
-        let s = side * s2.non_negative().sqrt();
+        let s = side.of(s2.non_negative().sqrt());
         (s, s.where_above(s2, limit))
     };
     let s = s.named(format!("s_{slide}"), format!("s = ±√(D2_{slide} − h²), + where {q} is ahead of {p}"));
@@ -226,30 +233,36 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     Ok(())
 }
 
+/// Whether a drive turns the links of the slide against each other.
+fn is_turned(dyad: &Dyad<'_>) -> bool {
+    dyad.model.drive_of(dyad.inner, true).is_some()
+}
+
 /// Both links carry the slide's direction.
 fn place<'m>(assembly: &mut Assembly<'m>, dyad: &Dyad<'m>, direction: Vector<'m>) -> RuleResult {
     for leg in &dyad.legs {
-        let link = leg.tip.link;
-        let axis = assembly.placement.slide_axis(dyad.inner, link);
-        assembly.placement.orient(link, Orientation { direction, axis });
+        let link = leg.tip.end.link;
+        let orientation = assembly.placement.sliding(dyad.inner, link, direction);
+        assembly.placement.orient(link, orientation);
         dyad.place_rest(assembly, leg, link)?;
     }
     Ok(())
 }
 
 /// The sign of s, by the closure.
-fn side(assembly: &mut Assembly<'_>, group: &Group, dyad: &Dyad<'_>) -> Result<i64, Diagnostic> {
+fn side<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'_>) -> Result<Sign<'m>, Diagnostic> {
     let slide = dyad.joint_name(dyad.inner);
     let outer: [JointId; 2] = dyad.legs.each_ref().map(|leg| leg.outer);
     let [p, q] = outer.map(|joint| dyad.joint_name(joint));
     let Some(closure) = assembly.closure(dyad.inner) else {
         return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], p));
     };
-    let ahead = match (closure.side, outer.iter().position(|joint| closure.of == [*joint])) {
-        (Side::Ahead, Some(index)) => index == 0,
-        (Side::Behind, Some(index)) => index == 1,
+    let sign = match (closure.side, outer.iter().position(|joint| closure.of == [*joint])) {
+        (Side::Ahead | Side::Behind | Side::Either, Some(0)) => assembly.sign(closure, Side::Ahead),
+        (Side::Ahead | Side::Behind | Side::Either, Some(_)) => assembly.sign(closure, Side::Ahead).opposite(),
         _ => {
-            let lies = format!("along the slide `{slide}`, `{q}` lies ahead of `{p}` or behind it");
+            let noun = dyad.model.joint(dyad.inner).kind.noun();
+            let lies = format!("along the {noun} `{slide}`, `{q}` lies ahead of `{p}` or behind it");
             let across = matches!(closure.side, Side::Left | Side::Right);
             let problem =
                 if across { format!("`{}` is for dyads of three pins: {lies}", closure.side.word()) } else { lies };
@@ -261,5 +274,5 @@ fn side(assembly: &mut Assembly<'_>, group: &Group, dyad: &Dyad<'_>) -> Result<i
         return Err(Diagnostic::new(closure.smooth_place, "a dyad with a slide does not fold")
             .help("`smooth` is for dyads of three pins: leave it out"));
     }
-    Ok(if ahead { 1 } else { -1 })
+    Ok(sign)
 }

@@ -19,7 +19,7 @@ use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::{GROUND, JointId};
 use crate::model::{Model, Side};
-use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::assembly::{Assembly, DyadPivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::placement::Way;
@@ -64,9 +64,8 @@ impl Rule for Rrp {
         let (outer, slider) = (dyad.joint_name(rod_leg.outer), dyad.link_name(slider_leg));
         let e = balance.placement.slide_direction(slide);
         let u = dyad.direction(balance.placement, rod_leg);
-        let load = balance.total(slider_leg.link()).along(e);
-        let about = balance.placement.point(rod_leg.near);
-        let across = (-balance.moment(rod_leg.link(), about, balance.graph().one() / dyad.length(rod_leg))).named(
+        let load = slider_leg.total(balance).along(e);
+        let across = (-dyad.moment_over_length(balance, rod_leg)).named(
             balance.name(&format!("{inner}_across_{rod}")),
             format!("−ΣM({outer})/|{outer} {inner}| of the loads on {rod}"),
         );
@@ -88,8 +87,15 @@ impl Rule for Rrp {
         let ground = balance.placement.direction(GROUND);
         let loads = balance.total(rod_leg.link());
         // The pin puts its part on the slider, whose moments give the couple of the guide.
-        let force = balance.pin(dyad.inner, rod_leg.link(), force);
-        balance.pin(rod_leg.outer, rod_leg.link(), loads.plus(&force, ground).opposite());
+        let force = dyad.pin_inner(balance, rod_leg, force);
+        if rod_leg.is_single() {
+            balance.pin(rod_leg.outer, rod_leg.link(), loads.plus(&force, ground).opposite());
+        } else {
+            dyad.balance_rest(balance, rod_leg)?;
+        }
+        if !slider_leg.is_single() {
+            return dyad.balance_rest(balance, slider_leg);
+        }
         let pin = balance.placement.point(slider_leg.tip);
         super::slide::guide(balance, slide, slider_leg.link(), load.y - side, pin);
         Ok(())
@@ -107,7 +113,11 @@ impl Rule for Rrp {
         motion.found(slider_leg.link(), motion.carried(slide, slider_leg.link()));
         dyad.follow_rest(motion, slider_leg, slider_leg.link())?;
         dyad.turn(motion, rod_leg, motion.graph().zero())?;
-        let gap = motion.lacking(dyad.inner, &motion.of_point(slider_leg.tip), &motion.of_point(rod_leg.tip));
+        let gap = motion.lacking(
+            dyad.inner,
+            &dyad.velocity_of_pin(motion, slider_leg),
+            &dyad.velocity_of_pin(motion, rod_leg),
+        );
         let cosine = motion.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
         let rod = dyad.link_name(rod_leg);
         let across = motion.part(&gap, e.perp());
@@ -133,8 +143,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     dyad.check_length(rod_leg)?;
     let lies = format!("along the slide `{}`, `{inner}` lies ahead of `{outer}` or behind it", dyad.joint_name(slide));
     let ahead = ahead(assembly, group, dyad.inner, rod_leg.outer, lies)?;
-    let orientation = assembly.placement.along_slide(slide, slider_leg.link());
-    assembly.placement.orient(slider_leg.link(), orientation);
+    assembly.placement.orient_along(slide, slider_leg.link());
     dyad.place_rest(assembly, slider_leg, slider_leg.link())?;
     let e = assembly.placement.slide_direction(slide);
     // With the travel still zero, the way goes from A over the guide to B.
@@ -162,20 +171,20 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     Ok(())
 }
 
-/// Whether the inner joint is declared to lie ahead of the outer pin along a line; `lies` says what there is to choose.
-pub(super) fn ahead(
-    assembly: &mut Assembly<'_>,
+/// The sign of how far the inner joint is declared to lie ahead of the outer pin along a line; `lies` says what there is to choose.
+pub(super) fn ahead<'m>(
+    assembly: &mut Assembly<'m>,
     group: &Group,
     inner: JointId,
     outer: JointId,
     lies: String,
-) -> Result<bool, Diagnostic> {
+) -> Result<Sign<'m>, Diagnostic> {
     let model = assembly.model();
     let [name, of] = [inner, outer].map(|joint| &model.joint(joint).name.text);
     let Some(closure) = assembly.closure(inner) else {
         return Err(assembly.missing_closure(group, inner, [Side::Ahead, Side::Behind], of));
     };
-    if !matches!(closure.side, Side::Ahead | Side::Behind) || closure.of != [outer] {
+    if !matches!(closure.side, Side::Ahead | Side::Behind | Side::Either) || closure.of != [outer] {
         let across = matches!(closure.side, Side::Left | Side::Right);
         let problem =
             if across { format!("`{}` is for dyads of three pins: {lies}", closure.side.word()) } else { lies };
@@ -186,7 +195,7 @@ pub(super) fn ahead(
         return Err(Diagnostic::new(closure.smooth_place, "a group with a slider or a slot does not fold")
             .help("`smooth` is for dyads of three pins: leave it out"));
     }
-    Ok(closure.side == Side::Ahead)
+    Ok(assembly.sign(closure, Side::Ahead))
 }
 
 /// Where a link of length r on a pin meets a line.
@@ -209,7 +218,7 @@ pub(super) fn meet<'m>(
     (r, slack): (Expr<'m>, Expr<'m>),
     way: &Way<'m>,
     e: Vector<'m>,
-    ahead: bool,
+    ahead: Sign<'m>,
     [inner, outer]: [&str; 2],
     group: String,
 ) -> Meeting<'m> {
@@ -227,8 +236,13 @@ pub(super) fn meet<'m>(
     };
     let failure = Failure::CannotAssemble { group, joint: inner.into(), gap: (g.abs() - r).id() };
     let h2 = h2.require_at_least(h2, -rounding, failure);
-    let h = if ahead { 1 } else { -1 } * h2.non_negative().sqrt();
-    let h = h.named(format!("h_{inner}"), if ahead { "h = √(h²), ahead" } else { "h = −√(h²), behind" });
+    let h = ahead.of(h2.non_negative().sqrt());
+    let equation = match ahead {
+        Sign::Plus => "h = √(h²), ahead".to_owned(),
+        Sign::Minus => "h = −√(h²), behind".to_owned(),
+        Sign::Given(..) => format!("h = side_{inner} √(h²)"),
+    };
+    let h = h.named(format!("h_{inner}"), equation);
     let (cosine, sine) = (
         (h / r).named(pivot_name.clone(), "sin μ = u·e = h/r"),
         (g / r).named(format!("g_over_r_{inner}"), "u·n = g/r"),

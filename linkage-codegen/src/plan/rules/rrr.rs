@@ -14,17 +14,17 @@
 //! Forces, by the textbooks' resolution along and across the links: with `m₁`, `m₂` the moments of the loads about P and Q, the
 //! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`.
 
-use super::dyad::{Dyad, Leg, dyad_of_bodies, towards_unit};
+use super::dyad::{Dyad, Leg, dyad, towards_unit};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Scalar, Vector};
 use crate::model::{Closure, End, Model, Side};
-use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found};
+use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::half_angle::{HalfAngle, first_dyad_on};
-use crate::plan::placement::Way;
+use crate::plan::placement::{Spot, Way};
 use crate::plan::velocities::Motion;
 use crate::topology::Group;
 
@@ -34,7 +34,7 @@ pub(super) struct Rrr;
 /// The group as an RRR dyad, if it is one. Its first leg is the one whose outer pin the closure names first.
 #[must_use]
 pub fn pinned_dyad<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
-    let mut dyad = dyad_of_bodies(model, group).filter(|dyad| dyad.pins() == [true; 3])?;
+    let mut dyad = dyad(model, group).filter(|dyad| dyad.pins() == [true; 3])?;
     let closure = model.closures.iter().find(|c| c.joint == dyad.inner);
     if closure.is_some_and(|c| c.of.first() == Some(&dyad.legs[1].outer)) {
         dyad.legs.swap(0, 1);
@@ -44,9 +44,15 @@ pub fn pinned_dyad<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
 
 impl<'a> Dyad<'a> {
     /// The outer pins, on the links outside the group.
-    #[must_use]
-    pub fn outer_ends(&self) -> [End; 2] {
+    fn outer_spots(&self) -> [Spot; 2] {
         self.legs.each_ref().map(|leg| leg.far)
+    }
+
+    /// The same, if they do not move along slots there.
+    #[must_use]
+    pub fn outer_ends(&self) -> Option<[End; 2]> {
+        let spots = self.outer_spots();
+        spots.iter().all(|spot| spot.slot.is_none()).then(|| spots.map(|spot| spot.end))
     }
 
     fn check_lengths(&self) -> RuleResult {
@@ -130,16 +136,13 @@ impl Rule for Rrr {
         let force = Framed { components: Vector::new(along, across), axes: u1 };
         let ground = balance.placement.direction(crate::model::ids::GROUND);
         let loads = [first, second].map(|leg| balance.total(leg.link()));
-        let force = balance.pin(dyad.inner, first.tip.link, force);
+        let force = dyad.pin_inner(balance, first, force);
         for (leg, loads, force) in [(first, loads[0], force), (second, loads[1], force.opposite())] {
             if leg.is_single() {
                 balance.pin(leg.outer, leg.link(), loads.plus(&force, ground).opposite());
-                continue;
+            } else {
+                dyad.balance_rest(balance, leg)?;
             }
-            if leg.tip == first.tip {
-                balance.push(leg.tip.link, balance.placement.point(leg.tip), force);
-            }
-            dyad.balance_rest(balance, leg)?;
         }
         Ok(())
     }
@@ -151,7 +154,7 @@ impl Rule for Rrr {
         // Where the inner pin would be if the legs' first links did not turn: v_P + ω₁ r₁ u₁⊥ = v_Q + ω₂ r₂ u₂⊥, multiplied by u₂ and by
         // u₁.
         dyad.legs.iter().try_for_each(|leg| dyad.turn(motion, leg, motion.graph().zero()))?;
-        let [first, second] = dyad.legs.each_ref().map(|leg| motion.of_point(leg.tip));
+        let [first, second] = dyad.legs.each_ref().map(|leg| dyad.velocity_of_pin(motion, leg));
         let gap = motion.lacking(dyad.inner, &second, &first);
         let sine = motion.pivots.dividing_sine(u1, u2, &dyad.pivot_name(), &dyad.group_name());
         let rates = [(u2, &dyad.legs[0]), (u1, &dyad.legs[1])].map(|(along, leg)| {
@@ -173,16 +176,16 @@ struct Closing<'m> {
     d2: Expr<'m>,
     /// `K = ±√(p q)`.
     k: Expr<'m>,
-    /// Whether that is the negative root.
-    negative: bool,
+    /// The sign of that root.
+    sign: Sign<'m>,
     /// What must exceed what for `sin μ` to be more than rounding.
     significant: Vec<(Expr<'m>, Expr<'m>)>,
 }
 
 impl Closing<'_> {
     /// The sign before `K`.
-    fn sign(&self) -> &'static str {
-        if self.negative { "−" } else { "" }
+    fn sign(&self) -> String {
+        self.sign.text()
     }
 }
 
@@ -195,9 +198,10 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         return Err(assembly.missing_closure(group, dyad.inner, [Side::Left, Side::Right], &of));
     };
     check_closure(dyad, closure, &of)?;
-    let [p, q] = dyad.outer_ends();
-    let closing = match half_angle(assembly, dyad, [p, q]) {
-        Some((arms, swapped)) => by_half_angle(dyad, closure, &arms, swapped)?,
+    let [p, q] = dyad.outer_spots();
+    let side = assembly.sign(closure, Side::Left);
+    let closing = match dyad.outer_ends().and_then(|ends| half_angle(assembly, dyad, ends)) {
+        Some((arms, swapped)) => by_half_angle(dyad, (closure, side), &arms, swapped)?,
         None => {
             if closure.smooth_at.is_some() {
                 return Err(not_folding(
@@ -206,7 +210,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
                     "its outer joints do not hang on the two links of one driven pin",
                 ));
             }
-            by_distance(dyad, closure, &assembly.placement.way(p, q))
+            by_distance(dyad, side, &assembly.placement.way(p, q))
         }
     };
     let (r1, r2) = (dyad.length(first), dyad.length(second));
@@ -278,7 +282,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {
     let outer = dyad.legs.each_ref().map(|leg| leg.outer);
-    let fits = matches!(closure.side, Side::Left | Side::Right) && closure.of == outer;
+    let fits = matches!(closure.side, Side::Left | Side::Right | Side::Either) && closure.of == outer;
     if fits {
         return Ok(());
     }
@@ -361,7 +365,7 @@ impl<'m> Margin<'m> {
 
 fn by_half_angle<'m>(
     dyad: &Dyad<'m>,
-    closure: &Closure,
+    (closure, side): (&Closure, Sign<'m>),
     arms: &HalfAngle<'m>,
     swapped: bool,
 ) -> Result<Closing<'m>, Diagnostic> {
@@ -430,8 +434,8 @@ fn by_half_angle<'m>(
     };
     let factor = (p_factor * q_factor).sqrt();
     let root = root.named(format!("root_{joint}"), format!("√(p_{joint} q_{joint}) but for constant factors"));
-    let sign = side_sign(dyad, closure, arms, [p.folds, q.folds])?;
-    let k = sign * (factor * root).named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
+    let sign = side_sign(dyad, (closure, side), arms, [p.folds, q.folds])?;
+    let k = sign.of((factor * root).named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})")));
     let significant = [(p, c), (q, s)].map(|(margin, half)| {
         if margin.folds {
             (half.abs().named(format!("fold_{joint}"), "distance from the fold"), angle_rounding)
@@ -439,7 +443,7 @@ fn by_half_angle<'m>(
             (margin.value, margin.rounding)
         }
     });
-    Ok(Closing { d, d2, k, negative: sign < 0, significant: significant.to_vec() })
+    Ok(Closing { d, d2, k, sign, significant: significant.to_vec() })
 }
 
 /// The failure to assemble, with the gap: how much too far apart (`p < 0`) or too close together (`q < 0`) the outer pins are.
@@ -451,8 +455,12 @@ fn gap<'m>(dyad: &Dyad<'m>, value: Expr<'m>, far: bool, d2: Expr<'m>) -> Failure
 }
 
 /// The sign of K: of the side, and in a smooth motion of the fold factor at the stated angle.
-fn side_sign(dyad: &Dyad<'_>, closure: &Closure, arms: &HalfAngle<'_>, folds: [bool; 2]) -> Result<i64, Diagnostic> {
-    let side = if closure.side == Side::Left { 1 } else { -1 };
+fn side_sign<'m>(
+    dyad: &Dyad<'_>,
+    (closure, side): (&Closure, Sign<'m>),
+    arms: &HalfAngle<'_>,
+    folds: [bool; 2],
+) -> Result<Sign<'m>, Diagnostic> {
     let Some(at) = closure.smooth_at else { return Ok(side) };
     let Some(at) = dyad.model.graph.constant_value(at) else {
         return Err(Diagnostic::new(
@@ -468,12 +476,12 @@ fn side_sign(dyad: &Dyad<'_>, closure: &Closure, arms: &HalfAngle<'_>, folds: [b
             format!("at this angle the dyad is folded: `{}` is on neither side", dyad.joint_name(dyad.inner)),
         )
         .help("state the side at an angle away from the folds")),
-        sign => Ok(side * sign),
+        sign => Ok(if sign > 0 { side } else { side.opposite() }),
     }
 }
 
 /// The general form: from the vector between the outer pins.
-fn by_distance<'m>(dyad: &Dyad<'m>, closure: &Closure, way: &Way<'m>) -> Closing<'m> {
+fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m> {
     let joint = dyad.joint_name(dyad.inner);
     let [r1, r2] = dyad.lengths();
     let graph = r1.graph();
@@ -510,11 +518,9 @@ fn by_distance<'m>(dyad: &Dyad<'m>, closure: &Closure, way: &Way<'m>) -> Closing
         let failure = Failure::CoincidentPivots { group: dyad.group_name(), joint: joint.into() };
         d2.require_above(d2, close, failure)
     };
-    let side = if closure.side == Side::Left { 1 } else { -1 };
     let root =
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
-    let k = side * root;
-    Closing { d, d2, k, negative: side < 0, significant: vec![(p, p_rounding), (q, q_rounding)] }
+    Closing { d, d2, k: sign.of(root), sign, significant: vec![(p, p_rounding), (q, q_rounding)] }
 }
 
 /// The least and the largest distance that constant parts of a way can make up.

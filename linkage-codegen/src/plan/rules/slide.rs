@@ -14,16 +14,19 @@ use crate::plan::framed::Framed;
 use crate::plan::pivots::Pivots;
 use crate::plan::placement::Placement;
 use crate::plan::velocities::Motion;
-use crate::topology::{Group, Input};
+use crate::topology::{Freedom, Group, Input};
 
 /// The rule.
 pub(super) struct Slide;
 
-/// The link, its slide and what closes it.
+/// The link, its slide and what closes it. A slot that is driven both ways is a slide that turns.
 fn parts(model: &Model, group: &Group) -> Option<(LinkId, JointId, Input)> {
-    match (group.links.as_slice(), group.outer.as_slice(), group.inputs.as_slice()) {
-        ([link], [slide], [input]) if matches!(model.joint(*slide).kind, JointKind::Prismatic { .. }) => {
-            Some((*link, *slide, *input))
+    let (&[link], &[slide]) = (group.links.as_slice(), group.outer.as_slice()) else { return None };
+    match (model.joint(slide).kind, group.inputs.as_slice()) {
+        (JointKind::Prismatic { .. }, &[input]) => Some((link, slide, input)),
+        (JointKind::Slot { .. }, _) if group.freedom(model, slide) == Freedom::None => {
+            let travel = |input: &Input| Group::drive_of(model, *input).is_some_and(|drive| !model.drive(drive).turns);
+            Some((link, slide, group.inputs.iter().copied().find(travel)?))
         }
         _ => None,
     }
@@ -40,8 +43,7 @@ impl Rule for Slide {
 
     fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
         let Some((link, slide, Input::Drive(drive))) = parts(assembly.model(), group) else { return Ok(()) };
-        let orientation = assembly.placement.along_slide(slide, link);
-        assembly.placement.orient(link, orientation);
+        assembly.placement.orient_along(slide, link);
         let travel = assembly.coordinate(drive);
         assembly.placement.set_travel(slide, travel);
         Ok(())
@@ -107,20 +109,34 @@ pub(super) fn guide<'m>(
     across: Expr<'m>,
     about: Vector<'m>,
 ) {
-    let model = balance.model();
-    let (joint, name) = (&model.joint(slide).name, &model.link(link).name);
     let runner = balance.placement.slide_point(slide, link);
-    let arm = (about - runner).dot(balance.placement.slide_along(slide));
+    let arm = (about - runner).dot(balance.placement.slide_along_on(slide, link));
     let one = balance.graph().one();
     let moment = balance.moment(link, about, one) + arm * across;
+    react(balance, slide, link, across, moment);
+}
+
+/// The reaction of a slide that holds the force `across` on a link and its moment about the runner.
+pub(super) fn react<'m>(
+    balance: &mut Balance<'m, '_>,
+    slide: JointId,
+    link: LinkId,
+    across: Expr<'m>,
+    moment: Expr<'m>,
+) {
+    let model = balance.model();
+    let (joint, name) = (&model.joint(slide).name, &model.link(link).name);
     let second = model.joint(slide).to.link == link;
+    let couple_name = match (model.joint(slide).kind, model.effort_of(slide, true)) {
+        (JointKind::Slot { .. }, Some(effort)) => model.unknown(effort).name.clone(),
+        _ => format!("{joint}_couple"),
+    };
     let (normal, couple, sign) = if second { (-across, -moment, "−") } else { (across, moment, "") };
     let normal = normal.named(
         balance.name(&format!("{joint}_normal")),
         format!("{sign}ΣF of what acts on {name} across the slide {joint}"),
     );
-    let couple =
-        couple.named(balance.name(&format!("{joint}_couple")), format!("{sign}ΣM({joint}) of what acts on {name}"));
+    let couple = couple.named(balance.name(&couple_name), format!("{sign}ΣM({joint}) of what acts on {name}"));
     let axes = balance.placement.slide_direction(slide);
     let force = Framed { components: Vector::new(balance.graph().zero(), normal), axes };
     balance.slide(slide, link, force, couple);

@@ -14,19 +14,20 @@
 //! **Slot and slide**: with m the slide's direction and Q the vector from the slot's point to the pin at no travel, the travel is
 //! `x = ∓(n·Q)/(n·m)`, and the sum of the forces along the slide gives the normal force. `n·m = e × m` is the pivot.
 
+use super::dyad::towards_unit;
 use super::rrp::{Meeting, ahead, meet};
 use super::slide::guide;
 use super::{Rule, RuleResult};
-use crate::graph::{Expr, Failure, Vector};
+use crate::graph::{Expr, Failure, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model};
-use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::assembly::{Assembly, DyadPivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::pivots::{Pivots, divisor};
-use crate::plan::placement::{Orientation, Placement};
+use crate::plan::placement::{Orientation, Placement, Spot};
 use crate::plan::velocities::{Motion, Twist};
-use crate::topology::Group;
+use crate::topology::{Freedom, Group};
 
 /// The rule of a link with a slot and a pin.
 pub(super) struct SlotAndPin;
@@ -46,20 +47,26 @@ struct Parts<'a> {
     held: JointId,
 }
 
-fn parts<'a>(model: &'a Model, group: &Group, holds: fn(&JointKind) -> bool) -> Option<Parts<'a>> {
-    let (&[link], &[a, b], []) = (&*group.links, &*group.outer, &*group.inputs) else { return None };
+/// The link of a group, if it is held by a slot and by a joint that leaves this freedom.
+fn parts<'a>(model: &'a Model, group: &Group, leaves: Freedom) -> Option<Parts<'a>> {
+    let (&[link], &[a, b]) = (&*group.links, &*group.outer) else { return None };
+    if !group.inputs.iter().all(|input| Group::drive_of(model, *input).is_some()) {
+        return None;
+    }
+    let freedom = |joint: JointId| group.freedom(model, joint);
     [(a, b), (b, a)].into_iter().find_map(|(slot, held)| {
         let JointKind::Slot { carrier, .. } = model.joint(slot).kind else { return None };
-        holds(&model.joint(held).kind).then_some(Parts { model, link, slot, carries: carrier == link, held })
+        let fits = freedom(slot) == Freedom::TurnAndSlide && freedom(held) == leaves;
+        fits.then_some(Parts { model, link, slot, carries: carrier == link, held })
     })
 }
 
 fn with_pin<'a>(model: &'a Model, group: &Group) -> Option<Parts<'a>> {
-    parts(model, group, |kind| matches!(kind, JointKind::Revolute))
+    parts(model, group, Freedom::Turn)
 }
 
 fn with_slide<'a>(model: &'a Model, group: &Group) -> Option<Parts<'a>> {
-    parts(model, group, |kind| matches!(kind, JointKind::Prismatic { .. }))
+    parts(model, group, Freedom::Slide)
 }
 
 impl<'m> Parts<'m> {
@@ -75,6 +82,26 @@ impl<'m> Parts<'m> {
     fn far(&self, joint: JointId) -> LinkId {
         let data = self.model.joint(joint);
         if data.to.link == self.link { data.from.link } else { data.to.link }
+    }
+
+    /// Whether the pin that holds the link moves in a slot of the link.
+    fn carries_held(&self) -> bool {
+        matches!(self.model.joint(self.held).kind, JointKind::Slot { carrier, .. } if carrier == self.link)
+    }
+
+    /// The place of the pin that holds the link in its frame, and what its rounding is proportional to: nothing if it does not move there.
+    fn held_at(&self) -> (Vector<'m>, Expr<'m>) {
+        let (model, graph) = (self.model, &self.model.graph);
+        let held = model.joint(self.held);
+        let end = held.end_on(self.link).unwrap_or(held.to);
+        match (held.kind.line(), model.drive_of(self.held, false)) {
+            (Some((carrier, axis)), Some(drive)) if carrier == self.link => {
+                let travel = self.signed(self.held, graph.symbol(Symbol::Drive(drive)));
+                let along = axis.vector(graph).scaled(travel);
+                (model.local(end) + along, model.local(end).size() + travel.abs())
+            }
+            _ => (model.local(end), graph.zero()),
+        }
     }
 
     /// The travel of a joint from the link that carries its line to the other one, by the joint's own sign.
@@ -105,9 +132,7 @@ impl<'m> Parts<'m> {
         let name = format!("arm_{}", self.joint_name(self.slot));
         let arm = placement.arm(self.slot, self.held).unwrap_or_else(|| {
             let graph = placement.graph();
-            let ends = self.model.joint(self.held).end_on(self.link);
-            let pin = ends.map_or_else(|| graph.zero_vector(), |end| placement.point(end));
-            let reach = placement.slide_point(self.slot, self.link) - pin;
+            let reach = placement.slide_point(self.slot, self.link) - placement.slide_point(self.held, self.link);
             let normal = placement.slide_direction(self.slot).perp();
             let arm = if self.carries {
                 reach.dot(placement.slide_along(self.slot))
@@ -148,7 +173,7 @@ impl Rule for SlotAndPin {
 
     fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
         let Some(parts) = with_pin(balance.model(), group) else { return Ok(()) };
-        let about = balance.placement.point(balance.end(parts.held, parts.link));
+        let about = balance.placement.slide_point(parts.held, parts.link);
         let moment = balance.moment(parts.link, about, balance.graph().one());
         let normal = if moment.is_zero() { moment } else { -(moment / parts.arm(balance.placement)) };
         let (pin, name) = (parts.joint_name(parts.held), parts.name());
@@ -160,9 +185,8 @@ impl Rule for SlotAndPin {
 
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
         let Some(parts) = with_pin(motion.model(), group) else { return Ok(()) };
-        let data = parts.model.joint(parts.held);
-        let (Some(near), Some(far)) = (data.end_on(parts.link), data.end_off(parts.link)) else { return Ok(()) };
-        let (at, velocity) = (motion.placement.point(near), motion.of_point(far));
+        let at = motion.placement.slide_point(parts.held, parts.link);
+        let velocity = motion.passed_on(parts.held, parts.link);
         // If the link did not turn.
         motion.found(parts.link, Twist { rate: motion.graph().zero(), at, velocity });
         let gap = parts.missing(motion);
@@ -177,17 +201,18 @@ impl Rule for SlotAndPin {
 }
 
 /// A lever with its own slot.
-fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool) {
+fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<'m>) {
     let Parts { model, link, slot, held, .. } = *parts;
     let graph = assembly.graph();
-    let (pin, pivot) = (model.joint(slot), model.joint(held));
+    let pin = model.joint(slot);
     let (Some(own), Some(to)) = (pin.end_on(link), pin.end_off(link)) else { return };
-    let (Some(near), Some(from)) = (pivot.end_on(link), pivot.end_off(link)) else { return };
+    let Some(from) = Spot::of_pin(model, held, parts.far(held)) else { return };
     let Some((_, axis)) = pin.kind.line() else { return };
     let axis = axis.vector(graph);
     let (name, at, about) = (parts.name(), parts.joint_name(slot), parts.joint_name(held));
     // From the pin O to the slot's point, along and across the slot.
-    let datum = (model.local(own) - model.local(near)).resolved_along(axis);
+    let (near, slack) = parts.held_at();
+    let datum = (model.local(own) - near).resolved_along(axis);
     let h = datum.y;
     let way = assembly.placement.way(from, to);
     let d = way.vector().named(&format!("d_{at}"), &format!("d, from {about} to the pin in the slot"));
@@ -197,17 +222,22 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool) 
         let rounding = graph.epsilons(2) * way.length();
         let failure = Failure::CoincidentPivots { group: name.into(), joint: at.into() };
         let size = size.require_above(size, rounding, failure).known_positive();
-        let s = if ahead { size } else { -size };
+        let s = ahead.of(size);
         (s, Vector::new(d.x / s, d.y / s))
     } else {
         let square = (d2 - h.squared()).named(format!("s2_{at}"), "s² = d·d − h²");
-        let rounding = graph.epsilons(2) * (h.squared() + size * way.length());
+        let rounding = graph.epsilons(2) * (h.squared() + h.abs() * slack + size * way.length());
         let rounding = rounding.named(format!("rounding_s2_{at}"), format!("what rounding makes of s2_{at} = 0"));
         let gap = (h.abs() - size).id();
         let failure = Failure::CannotAssemble { group: name.into(), joint: at.into(), gap };
         let square = square.require_at_least(square, -rounding, failure);
-        let s = if ahead { 1 } else { -1 } * square.non_negative().sqrt();
-        let s = s.named(format!("s_{at}"), if ahead { "s = √(s²), ahead" } else { "s = −√(s²), behind" });
+        let s = ahead.of(square.non_negative().sqrt());
+        let equation = match ahead {
+            Sign::Plus => "s = √(s²), ahead".to_owned(),
+            Sign::Minus => "s = −√(s²), behind".to_owned(),
+            Sign::Given(..) => format!("s = side_{at} √(s²)"),
+        };
+        let s = s.named(format!("s_{at}"), equation);
         let rough = Vector::new(s / d2, -(h / d2)).turned_by(d);
         let rough = rough.named_direction(&format!("rough_{name}"), "d (s − i h)/(d·d)");
         let correction =
@@ -232,22 +262,40 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool) 
 }
 
 /// A link whose end runs in a placed slot.
-fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: bool) -> RuleResult {
+fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<'m>) -> RuleResult {
     let Parts { model, link, slot, held, .. } = *parts;
-    super::check_length(model, link, [held, slot])?;
-    let r = super::length_between(model, link, [held, slot]);
-    let (data, pivot) = (model.joint(slot), model.joint(held));
+    let data = model.joint(slot);
     let (Some(own), Some(to)) = (data.end_on(link), data.end_off(link)) else { return Ok(()) };
-    let (Some(near), Some(from)) = (pivot.end_on(link), pivot.end_off(link)) else { return Ok(()) };
+    let Some(from) = Spot::of_pin(model, held, parts.far(held)) else { return Ok(()) };
+    let (near, slack) = parts.held_at();
+    let arm = model.local(own) - near;
+    let moves = parts.carries_held();
+    let r = if moves {
+        let r = arm.size();
+        let failure = Failure::CoincidentPivots { group: parts.name().into(), joint: parts.joint_name(slot).into() };
+        let r = r.named(format!("length_{}", parts.name()), "distance of the pins in the two slots");
+        r.require_above(r, r.graph().epsilons(4) * slack, failure).known_positive()
+    } else {
+        super::check_length(model, link, [held, slot])?;
+        super::length_between(model, link, [held, slot])
+    };
     let (name, at, about) = (parts.name(), parts.joint_name(slot), parts.joint_name(held));
     let e = assembly.placement.slide_direction(slot);
     let way = assembly.placement.way(from, to);
-    let Meeting { q, h, cosine, sine, pivot } = meet((r, r.graph().zero()), &way, e, ahead, [at, about], name.into());
+    let Meeting { q, h, cosine, sine, pivot } = meet((r, slack), &way, e, ahead, [at, about], name.into());
     let direction = Vector::new(cosine, sine).turned_by(e);
-    let direction = direction.named_direction(name, &format!("direction of {name} from {about} to {at}"));
-    let arm = model.local(own) - model.local(near);
     let axis = Vector::new(arm.x / r, arm.y / r);
-    assembly.placement.orient(link, Orientation { direction, axis });
+    let orientation = if moves {
+        // Its own slot moves the pin in the link: the link carries the direction of its frame.
+        let rough = axis.conjugate().turned_by(direction).named_direction(&format!("rough_{name}"), "");
+        let meaning = format!("direction of {name}, from that between the pins {about} and {at}");
+        let direction = towards_unit(rough, name).named_direction(name, &meaning);
+        Orientation { direction, axis: Vector::new(r.graph().one(), r.graph().zero()) }
+    } else {
+        let meaning = format!("direction of {name} from {about} to {at}");
+        Orientation { direction: direction.named_direction(name, &meaning), axis }
+    };
+    assembly.placement.orient(link, orientation);
     assembly.placement.connect(held);
     let travel = parts.signed(slot, h - q.x).named(format!("travel_{at}"), format!("travel in the slot {at}"));
     assembly.placement.set_travel(slot, travel);
@@ -271,8 +319,7 @@ impl Rule for SlotAndSlide {
         let Some(parts) = with_slide(assembly.model(), group) else { return Ok(()) };
         let Parts { model, link, slot, held: slide, .. } = parts;
         let data = model.joint(slot);
-        let orientation = assembly.placement.along_slide(slide, link);
-        assembly.placement.orient(link, orientation);
+        assembly.placement.orient_along(slide, link);
         // With the travel still zero, the way goes over the guide.
         assembly.placement.connect(slide);
         let carried_by_first = data.kind.line().is_some_and(|(carrier, _)| carrier == data.from.link);
@@ -333,7 +380,7 @@ fn inclination<'m>(placement: &Placement<'m>, pivots: &Pivots<'m>, parts: &Parts
     let name = format!("sin_{}", parts.joint_name(parts.slot));
     let carrier = parts.model.joint(parts.slot).kind.line().map_or(GROUND, |(carrier, _)| carrier);
     if placement.direction(carrier) == placement.direction(parts.link) {
-        let [slot, slide] = [parts.slot, parts.held].map(|joint| placement.slide_along(joint));
+        let [slot, slide] = [placement.slide_along(parts.slot), placement.slide_along_on(parts.held, parts.link)];
         return (divisor(slot.cross(slide).named(name.clone(), "n·m"), &name, parts.name()), slot.dot(slide));
     }
     let [slot, slide] = [parts.slot, parts.held].map(|joint| placement.slide_direction(joint));

@@ -62,18 +62,7 @@ impl Rule for Train {
     }
 
     fn fits(&self, model: &Model, group: &Group) -> bool {
-        let gears = joints(group).filter(|joint| matches!(model.joint(*joint).kind, JointKind::Gear(_))).count();
-        let pins = joints(group).filter(|joint| matches!(model.joint(*joint).kind, JointKind::Revolute)).count();
-        let turned = group.inputs.iter().all(|input| match input {
-            Input::Drive(drive) => model.drive(*drive).turns,
-            Input::Unknown(_) => true,
-        });
-        let size = group.links.len();
-        gears > 0
-            && turned
-            && pins == size
-            && gears + group.inputs.len() == size
-            && gears + pins == joints(group).count()
+        group.is_train(model)
     }
 
     fn place(&self, assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {

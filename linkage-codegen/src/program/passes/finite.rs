@@ -66,6 +66,9 @@ fn bounds_of(program: &Program, graph: &Graph, value: ValueId, known: &mut Vec<O
         Definition::Input(Input::Symbol(Symbol::Drive(_)) | Input::Kept(_) | Input::Prepared(_)) => {
             Bounds::finite(scalar)
         }
+        Definition::Input(Input::Symbol(symbol @ Symbol::Side(_))) => {
+            graph.bounds_of_op(&Op::<ValueId>::Symbol(*symbol), |_| Bounds::ANY)
+        }
         Definition::Input(Input::Symbol(_) | Input::Known(_)) => Bounds::ANY,
         Definition::Computed(op) => {
             for operand in op.operands() {

@@ -1,0 +1,149 @@
+//! Gears as a user has them: torsion springs on wheels that turn many times, and radii that are parameters.
+
+use core::f64::consts::TAU;
+
+use linkage_runtime::{Error, Vector2, linkage};
+
+linkage! {
+    /// A planetary train in a fixed ring, with springs on its wheels.
+    mod train;
+    units { mm, N }
+    ground       { O: (0, 0) }
+    link sun     { O -> k: 20mm }
+    link carrier { O -> C: 37.5mm }
+    link planet  { C: (0, 0), p: (10mm, 0) }
+    revolute Os: ground.O -> sun.O;
+    revolute Oc: ground.O -> carrier.O;
+    revolute C: carrier -> planet;
+    gear Gs: sun.O -> planet.C, radii (25mm, 12.5mm);
+    gear Gr: ground.O -> planet.C, radii (50mm, 12.5mm), internal;
+    drive q: Os;
+    load A: torsion(ground -> planet) { rate: 2N*mm/rad, free: 10deg };
+    load B: torsion(planet -> carrier) { rate: 3N*mm/rad, free: _ };
+    load C1: torsion(sun -> planet) { rate: 1N*mm/rad, free: 0 };
+    scene work: virtual_work;
+    scene statics: equilibrium;
+    scene where: position -> (sun.angle, planet.angle, carrier.angle);
+    scene check: verify;
+}
+
+#[test]
+fn torsion_springs_on_wheels_count_all_turns() -> Result<(), Error> {
+    let loads = train::Loads { B: train::LoadsB { free: 0.25 } };
+    for q in [0.3, 2.0, 10.0, -35.0, 40.0 * TAU + 0.1] {
+        // Willis: with the ring at rest the carrier makes a third of the sun's turns, and the planet turns at −1.
+        let (carrier, planet) = (q / 3.0, -q);
+        let angles = train::r#where_at(q)?;
+        assert!((angles.carrier_angle - carrier).abs() < 1e-12 * (1.0 + q.abs()));
+        assert!((angles.planet_angle - planet).abs() < 1e-12 * (1.0 + q.abs()));
+        let held = [2.0 * (planet - 10f64.to_radians()), 3.0 * (carrier - planet - 0.25), planet - q];
+        let rates = [-1.0, 4.0 / 3.0, -2.0];
+        let work = train::work_at(q, &loads)?;
+        let expected: f64 = held.iter().zip(rates).map(|(moment, rate)| moment * rate).sum();
+        assert!((work.effort_q - expected).abs() < 1e-11 * (1.0 + expected.abs()), "{} {expected}", work.effort_q);
+        let terms = [work.A, work.B, work.C1];
+        for (term, (moment, rate)) in terms.iter().zip(held.iter().zip(rates)) {
+            assert!((term.work + moment * rate).abs() < 1e-11 * (1.0 + moment.abs()));
+        }
+        assert!((train::statics_at(q, &loads)?.effort_q - expected).abs() < 1e-11 * (1.0 + expected.abs()));
+        assert!(train::check_at(q, &loads)?.general < 1e-11);
+    }
+    Ok(())
+}
+
+linkage! {
+    /// A pinion in a ring on a rocker, which turns it several times to and fro.
+    mod pinion;
+    units { mm, N }
+    ground       { O: (0, 0), Q: (140mm, 0), R: (140mm, 57mm) }
+    link crank   { O -> A: 60mm }
+    link coupler { A -> B: 100mm }
+    link rocker  { Q -> B: 120mm }
+    link wheel   { R -> p: 5mm }
+    link arm     { R -> a: 20mm }
+    revolute O: ground -> crank;
+    revolute A: crank -> coupler;
+    revolute B: coupler -> rocker;
+    revolute Q: ground -> rocker;
+    revolute R: ground -> wheel;
+    gear G: rocker.Q -> wheel.R, radii (60mm, 3mm), internal, pressure_angle 20deg, flank left;
+    weld W: wheel.R -> arm.R, angle 30deg;
+    drive q: O;
+    assemble B: left(A -> Q);
+    load K: torsion(ground -> wheel) { rate: 2N*mm/rad, free: 100deg };
+    load L: torsion(arm -> coupler) { rate: 1N*mm/rad, free: 0 };
+    scene parts: virtual_work;
+    scene where: position -> (wheel.angle, arm.angle, coupler.angle, rocker.angle);
+    scene check: verify;
+}
+
+#[test]
+fn a_wheel_that_a_rocker_turns_counts_its_turns_too() -> Result<(), Error> {
+    let (mut low, mut high) = (f64::MAX, f64::MIN);
+    let mut before: Option<(f64, f64)> = None;
+    for step in 0..200 {
+        let q = f64::from(step) * 0.05;
+        let angles = pinion::r#where_at(q)?;
+        (low, high) = (low.min(angles.wheel_angle), high.max(angles.wheel_angle));
+        assert!((angles.arm_angle - angles.wheel_angle - 30f64.to_radians()).abs() < 1e-13);
+        let terms = pinion::parts_at(q)?;
+        // By the angle that the results show.
+        let moment = -2.0 * (angles.wheel_angle - 100f64.to_radians());
+        assert!((terms.K.work - moment * terms.K.velocity).abs() < 1e-11 * (1.0 + terms.K.work.abs()));
+        let moment = -(angles.coupler_angle - angles.arm_angle);
+        assert!((terms.L.work - moment * terms.L.velocity).abs() < 1e-11 * (1.0 + terms.L.work.abs()));
+        // Which is one motion, without jumps.
+        if let Some((angle, rate)) = before {
+            let mean = f64::midpoint(rate, terms.K.velocity);
+            assert!((angles.wheel_angle - angle - mean * 0.05).abs() < 0.02, "{q}");
+        }
+        before = Some((angles.wheel_angle, terms.K.velocity));
+        assert!(pinion::check_at(q)?.general < 1e-11);
+    }
+    assert!(high - low > 2.0 * TAU, "{low} {high}");
+    Ok(())
+}
+
+linkage! {
+    mod adjustable;
+    units { mm, N }
+    param ra: length = 30mm;
+    param rb: length;
+    param alpha: angle = 20deg;
+    ground { O: (0, 0), Q: (70mm, 0), R: (0, 45mm) }
+    link a { O -> k: 20mm }
+    link b { Q: (0, 0), T: (25mm, 0) }
+    link c { R: (0, 0) }
+    revolute O: ground -> a;
+    revolute Q: ground -> b;
+    revolute R: ground -> c;
+    gear G: a.O -> b.Q, radii (ra, rb), phase ra / 6, pressure_angle alpha, flank right;
+    gear H: c.R -> a.O, radii (45mm + ra, ra), internal;
+    drive q: O;
+    load F: force(b.T);
+    load K: torsion(ground -> c) { rate: 5N*mm/rad, free: 0 };
+    scene statics: equilibrium;
+}
+
+#[test]
+fn radii_may_be_parameters() -> Result<(), Error> {
+    use adjustable::{Linkage, Loads, Params};
+    let linkage = Linkage::new(&Params { ra: 30.0, rb: 40.0, alpha: 20f64.to_radians() })?;
+    let loads = Loads { F: Vector2::new(0.0, 100.0) };
+    let held = adjustable::statics_at(&linkage, 9.0, &loads)?;
+    // 30 θa + 40 θb = 5: the force of 100 N at 25 mm turns b by its cosine, and c, in whose ring a runs, turns with a: 75 θc = 30 θa + ….
+    let b = (5.0 - 30.0 * 9.0) / 40.0;
+    let tooth = 100.0 * 25.0 * f64::cos(b) / 40.0;
+    assert!((held.G.tangential - tooth).abs() < 1e-12 * tooth.abs(), "{} {tooth}", held.G.tangential);
+    assert!((held.G.force.x + held.G.tangential * 20f64.to_radians().tan()).abs() < 1e-12 * tooth.abs());
+    let refused = |ra: f64, rb: f64, alpha: f64, what: &str| match Linkage::new(&Params { ra, rb, alpha }) {
+        Err(Error::Parameter { requirement }) => assert!(requirement.contains(what), "{requirement}"),
+        other => panic!("{other:?}"),
+    };
+    refused(30.0, 41.0, 0.3, "G: the radii of its wheels must fill the distance of their centres to a hundredth");
+    refused(30.0, -40.0, 0.3, "G: the radius of a wheel must be positive");
+    refused(30.0, 40.0, 1.6, "G: its pressure angle must lie between 0 and 90°");
+    refused(30.0, 40.0, -0.1, "G: its pressure angle must lie between 0 and 90°");
+    assert!(matches!(Linkage::new(&Params { ra: f64::NAN, rb: 40.0, alpha: 0.3 }), Err(Error::NotFinite { .. })));
+    Ok(())
+}
