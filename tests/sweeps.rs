@@ -279,3 +279,27 @@ fn what_is_placed_by_iteration_goes_on_from_the_position_before() {
         assert_eq!([t, x, y, power].map(|row| row[index].to_bits()), expected.map(f64::to_bits), "position {index}");
     }
 }
+
+linkage! {
+    /// A four-bar whose side is chosen at run time, for a whole sweep.
+    mod sided;
+    ground { A0: (0, 0), B0: (1m, 0) } link crank { A0 -> A: 0.25m } link coupler { A -> B: 1m } link rocker { B0 -> B: 0.5m }
+    revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+    drive theta: A0; assemble B: either(A -> B0); load M: moment(rocker) = 1N*m;
+    scene hold: equilibrium -> (effort_theta);
+    scene cycle: sweep(hold);
+}
+
+#[test]
+fn a_side_is_chosen_for_the_whole_sweep() {
+    let theta = [0.5, 1.0, 1.5];
+    for side in [linkage_runtime::Side::Left, linkage_runtime::Side::Right] {
+        let closures = sided::Closures { B: side };
+        let mut efforts = [0.0; 3];
+        let inputs = sided::CycleInputs { theta: Series::Each(&theta) };
+        sided::cycle(closures, &inputs, sided::Cycle { effort_theta: &mut efforts }).expect("regular");
+        for (theta, effort) in theta.into_iter().zip(efforts) {
+            assert_eq!(effort, sided::hold_at(theta, closures).expect("regular").effort_theta);
+        }
+    }
+}
