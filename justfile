@@ -13,7 +13,7 @@ test *arguments:
 
 # The tests that take minutes.
 long:
-    .ci/run long
+    cargo test --release --workspace --exclude linkage-compile-fail --all-features --tests -- --ignored
 
 # Looks at snapshots that have changed, and accepts or refuses them (`cargo install cargo-insta`).
 review:

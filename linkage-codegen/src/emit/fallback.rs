@@ -91,7 +91,9 @@ fn wrenches(model: &Model) -> bool {
 /// The sweeps, but for those that have the name of a scene.
 fn sweeps(model: &Model, runtime: &TokenStream) -> TokenStream {
     let mut seen: BTreeSet<String> = model.scenes.iter().map(|scene| type_name(&scene.name.text)).collect();
-    let distinct = model.sweeps.iter().filter(|sweep| seen.insert(type_name(&sweep.name.text)));
+    let taken: BTreeSet<String> = model.scenes.iter().map(|scene| format!("{}_at", scene.name)).collect();
+    let distinct = model.sweeps.iter().filter(|sweep| !taken.contains(&sweep.name.text));
+    let distinct = distinct.filter(|sweep| seen.insert(type_name(&sweep.name.text)));
     let all = distinct.map(|sweep| {
         let scene = &model.scenes[sweep.scene];
         let output = match scene.method {
