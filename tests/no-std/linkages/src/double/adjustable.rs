@@ -66,6 +66,10 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
         Ok(prepared) => prepared,
         Err(error) => return digest.refusal(error),
     };
+    match linkage::Limits::of(&params) {
+        Ok(limits) => limits.B.transmission.into_iter().for_each(|extreme| digest.put((extreme.angle, extreme.at))),
+        Err(error) => digest.refusal(error),
+    }
     let linkage = &prepared;
     digest.result(linkage::statics_at(linkage, theta, &loads));
     digest.result(linkage::parts_at(linkage, theta, &loads));
