@@ -7,6 +7,7 @@
 mod bodies;
 pub mod joints;
 pub mod loads;
+pub(crate) mod poses;
 
 pub use bodies::Body;
 use joints::{Component, Ends, Shape, Teeth};
