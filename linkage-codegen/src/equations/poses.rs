@@ -9,7 +9,7 @@ use super::{Declared, Row, Source, drive_row, joint_rows};
 use crate::graph::real::Real;
 use crate::graph::{Coordinate, NodeId, Symbol};
 use crate::model::Model;
-use crate::model::ids::{DriveId, GROUND, LinkId};
+use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
 
 /// What stays open of a closed pose, in lengths of the linkage.
 const CLOSED: f64 = 1e-11;
@@ -23,6 +23,7 @@ const DEPENDENT: f64 = 1e-7;
 pub(crate) struct Pose(pub(crate) Vec<[f64; 3]>);
 
 /// The constraints of a linkage, in numbers.
+#[derive(Clone)]
 pub(crate) struct Poses<'m> {
     model: &'m Model,
     rows: Vec<(Row, f64)>,
@@ -59,11 +60,35 @@ impl<'m> Poses<'m> {
     }
 
     /// The drives have these coordinates.
-    pub(crate) fn driven(&mut self, drives: impl Iterator<Item = (DriveId, f64)>) {
+    pub(crate) fn driven(mut self, drives: impl Iterator<Item = (DriveId, f64)>) -> Self {
         for (drive, value) in drives {
             let row = drive_row(self.model, &self.model.graph, &Declared(self.model), drive);
             self.rows.push((row, value));
         }
+        self
+    }
+
+    /// Of some joints alone.
+    pub(crate) fn only(mut self, keeps: &dyn Fn(JointId) -> bool) -> Self {
+        self.rows.retain(|(row, _)| match row.source {
+            Source::Joint(joint, _) => keeps(joint),
+            Source::Drive(drive) => keeps(self.model.drive(drive).joint),
+            Source::Unknown(_) => true,
+        });
+        self
+    }
+
+    /// What the coordinate of a drive is in a pose.
+    pub(crate) fn coordinate(&self, drive: DriveId, pose: &Pose) -> f64 {
+        let alone = Self { rows: Vec::new(), ..self.clone() }.driven([(drive, 0.0)].into_iter());
+        let scale = if self.model.drive(drive).turns { alone.length } else { 1.0 };
+        alone.lines(pose, &[]).first().map_or(f64::NAN, |(_, open, _)| open / scale)
+    }
+
+    /// How far the constraints are from being dependent: the smallest pivot of an elimination, over the largest.
+    pub(crate) fn firmness(&self, pose: &Pose, links: &[LinkId]) -> f64 {
+        let lines = self.lines(pose, links).into_iter().map(|(.., line)| line).filter(|line| line.iter().any(|x| *x != 0.0));
+        smallest_pivot(lines.collect(), 3 * links.len())
     }
 
     /// A length of the linkage.
@@ -77,7 +102,8 @@ impl<'m> Poses<'m> {
         self.model.graph.evaluate(node, &known, &mut HashMap::new())
     }
 
-    fn parameter(&self, symbol: Symbol) -> f64 {
+    /// A parameter's default.
+    pub(crate) fn parameter(&self, symbol: Symbol) -> f64 {
         let graph = &self.model.graph;
         match symbol {
             Symbol::Parameter(param) => {
@@ -249,6 +275,29 @@ pub(crate) fn rank_and_kernel(mut matrix: Vec<Line>, columns: usize) -> (usize, 
     });
     let kernel = kernel.collect();
     (rank, kernel)
+}
+
+/// The smallest pivot of an elimination over the largest; zero of dependent lines.
+fn smallest_pivot(mut matrix: Vec<Line>, columns: usize) -> f64 {
+    let mut first = 0.0;
+    let mut last = 0.0;
+    for rank in 0..columns.min(matrix.len()) {
+        let candidates = (rank..matrix.len()).flat_map(|row| (rank..columns).map(move |column| (row, column)));
+        let pivot = candidates.max_by(|a, b| matrix[a.0][a.1].abs().total_cmp(&matrix[b.0][b.1].abs()));
+        let Some((row, column)) = pivot.filter(|(row, column)| matrix[*row][*column] != 0.0) else { return 0.0 };
+        matrix.swap(rank, row);
+        matrix.iter_mut().for_each(|line| line.swap(rank, column));
+        let top = matrix[rank].clone();
+        last = top[rank].abs();
+        if rank == 0 {
+            first = last;
+        }
+        for line in &mut matrix[rank + 1..] {
+            let factor = line[rank] / top[rank];
+            line.iter_mut().zip(&top).for_each(|(x, t)| *x -= factor * t);
+        }
+    }
+    if first > 0.0 && matrix.len() >= columns { last / first } else { 0.0 }
 }
 
 /// Numbers between −1 and 1 (xorshift): always the same ones.

@@ -18,6 +18,7 @@ mod reactions;
 mod resultants;
 pub mod rules;
 pub(crate) mod scenes;
+pub(crate) mod starts;
 mod sweeps;
 mod velocities;
 

@@ -87,6 +87,15 @@ impl Group {
     }
 }
 
+/// Whether two plates with a pin each, joined by two rods, are far enough from a singular pose: a rough start must not be beyond it.
+pub(super) fn ring_is_firm([a, b, c, d, e, f]: [Place; 6], base: Place) -> bool {
+    let mut group = Group { links: vec![1, 2, 3, 4], ..Group::default() };
+    for (first, second, at) in [(0, 1, a), (0, 2, b), (1, 3, c), (3, 2, e), (1, 4, d), (4, 2, f)] {
+        group.pin(first, second, at);
+    }
+    group.firmness(base) > 0.08
+}
+
 impl Builder {
     /// A group, with starts near to where it is.
     pub(super) fn iterated(&mut self) {
