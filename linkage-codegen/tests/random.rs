@@ -138,7 +138,7 @@ fn drawn(seed: u64) -> Sample {
     let kind = Kind {
         dyads,
         sliders: true,
-        joints: seed % 3 != 0,
+        joints: !seed.is_multiple_of(3),
         unknown_anywhere: seed % 2 == 1,
         moving: seed % 11 == 3,
         params: seed % 5 == 4,
@@ -153,7 +153,7 @@ fn check(seeds: core::ops::Range<u64>, exactly: u64) -> usize {
         let sample = drawn(seed);
         let Some(linkage) = supported(&sample) else { return false };
         check_in_doubles(&sample, &linkage);
-        if seed % exactly == 0 {
+        if seed.is_multiple_of(exactly) {
             check_exactly(&sample, &linkage);
         }
         true

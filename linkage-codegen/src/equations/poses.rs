@@ -87,7 +87,8 @@ impl<'m> Poses<'m> {
 
     /// How far the constraints are from being dependent: the smallest pivot of an elimination, over the largest.
     pub(crate) fn firmness(&self, pose: &Pose, links: &[LinkId]) -> f64 {
-        let lines = self.lines(pose, links).into_iter().map(|(.., line)| line).filter(|line| line.iter().any(|x| *x != 0.0));
+        let lines =
+            self.lines(pose, links).into_iter().map(|(.., line)| line).filter(|line| line.iter().any(|x| *x != 0.0));
         smallest_pivot(lines.collect(), 3 * links.len())
     }
 
@@ -248,7 +249,8 @@ pub(crate) fn rank_and_kernel(mut matrix: Vec<Line>, columns: usize) -> (usize, 
     while rank < matrix.len().min(columns) {
         let candidates = (rank..matrix.len()).flat_map(|row| (rank..columns).map(move |column| (row, column)));
         let pivot = candidates.max_by(|a, b| matrix[a.0][a.1].abs().total_cmp(&matrix[b.0][b.1].abs()));
-        let Some((row, column)) = pivot.filter(|(row, column)| matrix[*row][*column].abs() > DEPENDENT * largest) else {
+        let Some((row, column)) = pivot.filter(|(row, column)| matrix[*row][*column].abs() > DEPENDENT * largest)
+        else {
             break;
         };
         matrix.swap(rank, row);

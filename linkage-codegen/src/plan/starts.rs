@@ -5,10 +5,11 @@ use std::collections::HashMap;
 use crate::equations::poses::{Pose, Poses, Random};
 use crate::graph::{NodeId, Symbol};
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
-use crate::model::{JointKind, Model};
+use crate::model::{JointKind, Model, Start};
 
-/// Poses from which one that closes is looked for.
+/// Poses from which one that closes is looked for, first with the links that have a start there, then with all of them anywhere.
 const TRIES: u64 = 60;
+const NEAR: u64 = 12;
 /// Poses that close, of which the best is taken.
 const CLOSED: usize = 6;
 
@@ -42,7 +43,10 @@ impl Wanted<'_, '_> {
         let mut best: Option<(f64, Pose, Vec<f64>)> = None;
         let mut closed = 0;
         for seed in 0..TRIES {
-            let Some(pose) = whole.closed(self.rough(&whole, &mut Random::new(seed)), &links) else { continue };
+            if seed == NEAR && best.is_some() {
+                break;
+            }
+            let Some(pose) = whole.closed(self.rough(&whole, seed), &links) else { continue };
             // Round coordinates of the drives, and the pose that is there.
             let value = |drive: &DriveId| match held.iter().find(|(own, _)| own == drive) {
                 Some((_, value)) => *value,
@@ -50,9 +54,11 @@ impl Wanted<'_, '_> {
             };
             let values: Vec<f64> = drives.iter().map(value).collect();
             let Some(pose) = self.at(&own, pose, &values) else { continue };
-            let firm = own.firmness(&pose, self.group);
-            if best.as_ref().is_none_or(|(other, ..)| firm > *other) {
-                best = Some((firm, pose, values));
+            // The nearest to what is declared, or else the farthest from a singular one.
+            let worth =
+                if model.starts.is_empty() { own.firmness(&pose, self.group) } else { -self.distance(&own, &pose) };
+            if best.as_ref().is_none_or(|(other, ..)| worth > *other) {
+                best = Some((worth, pose, values));
             }
             closed += 1;
             if closed == CLOSED {
@@ -74,14 +80,26 @@ impl Wanted<'_, '_> {
         Some(drives.chain(links).collect())
     }
 
-    /// A pose to begin with: as declared, and else anywhere.
-    fn rough(&self, poses: &Poses<'_>, random: &mut Random) -> Pose {
-        let mut pose = poses.anywhere(random);
-        for start in &self.model.starts {
-            let nodes = [start.origin.x, start.origin.y, start.angle];
-            pose.0[start.link.index()] = nodes.map(|node| poses.constant(node));
+    /// A pose to begin with.
+    fn rough(&self, poses: &Poses<'_>, seed: u64) -> Pose {
+        let mut pose = poses.anywhere(&mut Random::new(seed));
+        if seed < NEAR {
+            for start in &self.model.starts {
+                pose.0[start.link.index()] = declared(poses, start);
+            }
         }
         pose
+    }
+
+    /// How far the links that have a start are from there.
+    fn distance(&self, poses: &Poses<'_>, pose: &Pose) -> f64 {
+        let turn = core::f64::consts::TAU;
+        let of = |start: &Start| {
+            let ([x, y, angle], at) = (declared(poses, start), pose.0[start.link.index()]);
+            let angle = angle - at[2];
+            (x - at[0]).hypot(y - at[1]) + poses.length() * (angle - turn * (angle / turn).round()).abs()
+        };
+        self.model.starts.iter().map(of).sum()
     }
 
     /// The pose with these coordinates of the drives, near to that which was found.
@@ -108,11 +126,7 @@ impl Wanted<'_, '_> {
 
     /// Three digits are enough.
     fn rounded(&self, drive: DriveId, value: f64, length: f64) -> f64 {
-        if self.model.drive(drive).turns {
-            degrees_of(value).to_radians()
-        } else {
-            round(value, unit_of(length))
-        }
+        if self.model.drive(drive).turns { degrees_of(value).to_radians() } else { round(value, unit_of(length)) }
     }
 
     fn length(&self, value: f64, length: f64) -> String {
@@ -125,6 +139,10 @@ impl Wanted<'_, '_> {
         let turn = core::f64::consts::TAU;
         if counts { angle } else { angle - turn * (angle / turn).round() }
     }
+}
+
+fn declared(poses: &Poses<'_>, start: &Start) -> [f64; 3] {
+    [start.origin.x, start.origin.y, start.angle].map(|node| poses.constant(node))
 }
 
 /// What a start is of.
@@ -156,7 +174,11 @@ fn unit_of(length: f64) -> f64 {
 
 fn round(value: f64, unit: f64) -> f64 {
     // A tenth is no double, its inverse is.
-    let rounded = if unit < 1.0 { (value * (1.0 / unit).round()).round() / (1.0 / unit).round() } else { (value / unit).round() * unit };
+    let rounded = if unit < 1.0 {
+        (value * (1.0 / unit).round()).round() / (1.0 / unit).round()
+    } else {
+        (value / unit).round() * unit
+    };
     if rounded == 0.0 { 0.0 } else { rounded }
 }
 

@@ -30,7 +30,8 @@ pub(super) fn check(model: &Model, sink: &Sink) -> bool {
     let drives = i64::try_from(drives).unwrap_or(0);
     if mobility < drives && pinned_twice.is_none() {
         let redundant = redundant::find(model);
-        if let Some(redundant) = redundant.filter(|found| i64::try_from(found.mobility).is_ok_and(|own| own >= drives)) {
+        if let Some(redundant) = redundant.filter(|found| i64::try_from(found.mobility).is_ok_and(|own| own >= drives))
+        {
             sink.report(redundant.report(counts));
             return false;
         }

@@ -131,7 +131,7 @@ impl Constraints {
         };
         let shared: Vec<(JointId, Component)> =
             (0..constraints).filter(|i| takes_part(*i)).map(|i| (self.lines[i].0, self.lines[i].1)).collect();
-        let driven = |joint: JointId| model.drives.iter().any(|drive| drive.joint == joint);
+        let driven = |joint: JointId| is_driven(model, joint);
         let share: BTreeSet<JointId> = shared.iter().map(|(joint, _)| *joint).collect();
         let joints = share.iter().copied().filter(|joint| !driven(*joint));
         let joints = joints.filter(|joint| self.without(&|other| other != *joint, None).0 == rank).collect();
@@ -148,7 +148,12 @@ impl Constraints {
     }
 
     /// Of a link on two pins that of the pins which may slide along it: then nothing else is lost.
-    fn slot(&self, model: &Model, link: LinkId, (rank, share): (usize, &BTreeSet<JointId>)) -> Option<(JointId, [End; 2])> {
+    fn slot(
+        &self,
+        model: &Model,
+        link: LinkId,
+        (rank, share): (usize, &BTreeSet<JointId>),
+    ) -> Option<(JointId, [End; 2])> {
         let own: Vec<JointId> = model.joint_ids().filter(|joint| model.joint(*joint).end_on(link).is_some()).collect();
         let [a, b] = own.as_slice() else { return None };
         let pin = |joint: JointId| matches!(model.joint(joint).kind, JointKind::Revolute) && share.contains(&joint);
@@ -172,15 +177,18 @@ impl Redundant<'_> {
     /// The linkage as a whole is refused for it.
     pub(super) fn report(&self, counts: String) -> Diagnostic {
         let model = self.model;
-        let place = match (self.joints.last(), self.links.last(), self.shared.last()) {
-            (Some(joint), _, _) => model.joint(*joint).name.place(),
-            (None, Some(link), _) if !self.is_of_couples() => model.link(*link).name.place(),
-            (_, _, Some((joint, _))) => model.joint(*joint).name.place(),
-            _ => model.name.place(),
+        let joint = self.joints.last().or(self.shared.last().map(|(joint, _)| joint));
+        let link = self.links.last().filter(|_| self.joints.is_empty() && !self.is_of_couples());
+        let place = match (link, joint) {
+            (Some(link), _) => model.link(*link).name.place(),
+            (None, Some(joint)) => model.joint(*joint).name.place(),
+            (None, None) => model.name.place(),
         };
+        // Slides alone keep each other's links from turning whatever their directions are.
+        let why = if self.is_of_couples() { "all the same" } else { "only because of its special dimensions" };
         Diagnostic::new(
             place,
-            format!("{}: the linkage moves only because of its special dimensions, and its reactions have no single answer", self.problem()),
+            format!("{}: the linkage moves {why}, and its reactions have no single answer", self.problem()),
         )
         .note(counts)
         .note(self.reason())
@@ -246,7 +254,7 @@ impl Redundant<'_> {
         let number = number(self.surplus.min(names.len()));
         let couples: Vec<&str> = {
             let of_couple = |(joint, component): &(JointId, Component)| match model.joint(*joint).kind {
-                JointKind::Prismatic { .. } if *component == Component::Couple => {
+                JointKind::Prismatic { .. } if *component == Component::Couple && !is_driven(model, *joint) => {
                     Some(model.joint(*joint).name.text.as_str())
                 }
                 _ => None,
@@ -254,11 +262,12 @@ impl Redundant<'_> {
             self.shared.iter().filter_map(of_couple).collect()
         };
         let mut ways = Vec::new();
+        let some = if names.len() == 1 { list(&names) } else { format!("{number} of {}", list(&names)) };
         if !self.joints.is_empty() {
-            ways.push(format!("take {number} of {} out", list(&names)));
+            ways.push(format!("take {some} out"));
         } else if !self.links.is_empty() && !self.is_of_couples() {
             let its = if self.surplus == 1 { "its" } else { "their" };
-            ways.push(format!("take {number} of {} out, with {its} joints", list(&names)));
+            ways.push(format!("take {some} out, with {its} joints"));
         }
         if let Some((pin, [first, second])) = self.slot {
             let joint = model.joint(pin);
@@ -286,10 +295,17 @@ impl Redundant<'_> {
             ));
         }
         if ways.is_empty() {
-            return format!("release one of {}: take it out, or let it leave its links another freedom", list(&self.shared_joints()));
+            return format!(
+                "release one of {}: take it out, or let it leave its links another freedom",
+                list(&self.shared_joints())
+            );
         }
         ways.join(", or ")
     }
+}
+
+fn is_driven(model: &Model, joint: JointId) -> bool {
+    model.drives.iter().any(|drive| drive.joint == joint)
 }
 
 fn number(count: usize) -> &'static str {

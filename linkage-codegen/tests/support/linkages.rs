@@ -324,7 +324,9 @@ impl Builder {
             // The rates at which the plates' turns stretch the legs.
             let (u, v) = (unit(minus(e, c)), unit(minus(f, d)));
             let rates = [cross(minus(c, a), u), cross(minus(e, b), u), cross(minus(d, a), v), cross(minus(f, b), v)];
-            if (rates[0] * rates[3] - rates[1] * rates[2]).abs() > 0.6 && iterated::ring_is_firm([a, b, c, d, e, f], self.base) {
+            if (rates[0] * rates[3] - rates[1] * rates[2]).abs() > 0.6
+                && iterated::ring_is_firm([a, b, c, d, e, f], self.base)
+            {
                 break [a, b, c, d, e, f];
             }
         };

@@ -352,7 +352,13 @@ impl Builder {
 
     /// A crank beside a rod of another leg on the same link, which turns it by its wheel, and a rod from the crank to the plate; a rod alone
     /// if there is no such leg.
-    fn geared_crank(&mut self, group: &mut Group, foot: usize, plate: usize, [(f, at_f), (t, at_t)]: [(&str, Place); 2]) {
+    fn geared_crank(
+        &mut self,
+        group: &mut Group,
+        foot: usize,
+        plate: usize,
+        [(f, at_f), (t, at_t)]: [(&str, Place); 2],
+    ) {
         self.driven_slots = false;
         let beside = group.cranks.iter().position(|(.., other)| *other == foot);
         let Some((turning, pin, at, _)) = beside.map(|index| group.cranks.swap_remove(index)) else {
