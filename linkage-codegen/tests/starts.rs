@@ -82,3 +82,18 @@ fn dimensions_that_are_given_later_leave_the_numbers_open() {
     let message = message(&CYLINDERS.replace("length = 2m", "length"));
     assert!(message.contains("with the numbers of your linkage, write"), "{message}");
 }
+
+#[test]
+fn a_start_far_off_is_said_with_lines_that_close() {
+    let links = |plate: &str| {
+        format!(
+            "start theta: 132deg; start crank: (0, 0), angle 90deg; start plate: (0, 40mm), angle {plate};
+         start left: (150mm, 0), angle -160deg; start rod: (80mm, 40mm), angle 20deg;"
+        )
+    };
+    support::compile(&format!("{TRIAD} {}", links("-45deg")));
+    let message = message(&format!("{TRIAD} {}", links("140deg")));
+    let lines = lines(&message);
+    assert_eq!(lines.len(), 4, "{message}");
+    support::compile(&format!("{TRIAD} start theta: 132deg; {}", lines.concat()));
+}

@@ -4,15 +4,16 @@ use std::collections::HashMap;
 
 use super::{Fault, Functions, Input, Run};
 use crate::diagnostics::{Diagnostic, Sink, list};
-use crate::graph::{Failure, NodeId, Stage, Symbol};
+use crate::graph::{Failure, NodeId, Symbol};
 use crate::model::Model;
-use crate::model::ids::LinkId;
+use crate::model::ids::{GROUND, LinkId};
 use crate::model::units::Kind;
 use crate::plan::Plan;
 use crate::plan::starts::{Item, Wanted};
+use crate::topology::Topology;
 
 /// Refuses a linkage that cannot be posed at the start of its drives. With a parameter that has no default, only a run tells.
-pub fn check_start(model: &Model, plan: &Plan, functions: &Functions, sink: &Sink) {
+pub fn check_start(model: &Model, (topology, plan): (&Topology, &Plan), functions: &Functions, sink: &Sink) {
     if functions.near.is_none() || model.params.iter().any(|param| param.default.is_none()) {
         return;
     }
@@ -20,7 +21,7 @@ pub fn check_start(model: &Model, plan: &Plan, functions: &Functions, sink: &Sin
     let choices = 1u32 << model.given_closures().count().min(6);
     let faults = (0..choices).map(|choice| fault(model, functions, choice));
     let Some(fault) = faults.collect::<Option<Vec<_>>>().and_then(|mut faults| faults.pop()) else { return };
-    report(model, plan, &fault, sink);
+    report(model, (topology, plan), &fault, sink);
 }
 
 /// The number of a symbol at the start, with the sides as the bits of a choice say.
@@ -67,17 +68,18 @@ fn gap(model: &Model, links: &str) -> Option<f64> {
 }
 
 /// Starts of a group with which it closes.
-fn closing(model: &Model, plan: &Plan, group: &[LinkId]) -> Option<Vec<String>> {
+fn closing(model: &Model, (topology, plan): (&Topology, &Plan), group: &[LinkId]) -> Option<Vec<String>> {
+    let earlier = topology.motion.iter().take_while(|other| !other.links.iter().any(|link| group.contains(link)));
+    let earlier: Vec<LinkId> = earlier.flat_map(|other| other.links.iter().copied()).chain([GROUND]).collect();
     let placed = |link: LinkId| {
         let at = &plan.links[link.index()];
-        let before = [at.origin.x, at.origin.y, at.angle].map(|node| model.graph.expr(node).stage() < Stage::Iterated);
-        (before == [true; 3]).then_some([at.origin.x, at.origin.y, at.angle])
+        earlier.contains(&link).then_some([at.origin.x, at.origin.y, at.angle])
     };
     let items = Wanted { model, group, placed: &placed }.starts()?;
     Some(items.into_iter().filter(|(item, _)| matches!(item, Item::Link(_))).map(|(_, line)| line).collect())
 }
 
-fn report(model: &Model, plan: &Plan, fault: &Fault, sink: &Sink) {
+fn report(model: &Model, stages: (&Topology, &Plan), fault: &Fault, sink: &Sink) {
     let of_drives = model.drives.iter().find_map(|drive| drive.start).map_or(model.name.place(), |(_, place)| place);
     sink.report(match fault {
         Fault::Failed(Failure::NoConvergence { group, .. }) => {
@@ -92,7 +94,7 @@ fn report(model: &Model, plan: &Plan, fault: &Fault, sink: &Sink) {
             let found = Diagnostic::new(place, format!("{} cannot be closed from their starting pose", list(&names)))
                 .note(format!("the iteration does not arrive{left}"))
                 .note("the start is too far from a closed pose, or beyond a pose at which they lock");
-            match closing(model, plan, &links) {
+            match closing(model, stages, &links) {
                 Some(lines) => found.help(format!(
                     "say more closely where they are when the drives are at their start: they close, among other poses, with\n{}",
                     lines.join("\n")
