@@ -89,7 +89,7 @@ fn solve(model: &Model, sink: &Sink) -> Option<(Topology, System, Plan, Function
     let plan = Plan::of(model, &topology, &system, sink)?;
     let functions = Functions::of(&model.graph, &plan);
     program::check_range(model, &functions, sink);
-    program::check_start(model, &functions, sink);
+    program::check_start(model, (&topology, &plan), &functions, sink);
     // Last, as its expressions share the graph: they change no function.
     let limits = Limits::of(model, &topology);
     Some((topology, system, plan, functions, limits))

@@ -7,7 +7,7 @@ use super::ids::{GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
 use super::sweeps;
-use super::{Along, End, Method, Model, Scene, Spot, Wanted};
+use super::{Along, End, JointKind, Method, Model, Scene, Spot, Wanted};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
 use crate::syntax::{METHODS, PLANNED_METHODS};
@@ -616,7 +616,20 @@ fn check_values(model: &Model, sink: &Sink) {
             values.insert(format!("{}_{part}_before", link.name), format!("is a direction of `{}`", link.name));
         }
     }
+    // Only wheels, and what is joined to them, keep an angle.
+    let gears = model.joints.iter().any(|joint| matches!(joint.kind, JointKind::Gear(_)));
+    for link in model.links.iter().filter(|_| gears) {
+        for name in [format!("angle_{}", link.name), format!("angle_{}_before", link.name)] {
+            values.insert(name, format!("is an angle of `{}`", link.name));
+        }
+    }
     for joint in &model.joints {
+        for pivot in joint.pivot_names() {
+            values.insert(pivot, format!("is a pivot of `{}`", joint.name));
+        }
+        if matches!(joint.kind, JointKind::Slot { .. }) {
+            values.insert(format!("arm_{}", joint.name), format!("is the lever arm of `{}`", joint.name));
+        }
         values.insert(format!("travel_{}", joint.name), format!("is the travel of `{}`", joint.name));
         values.insert(format!("travel_{}_before", joint.name), format!("is a travel of `{}`", joint.name));
     }

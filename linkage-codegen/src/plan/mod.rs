@@ -18,6 +18,7 @@ mod reactions;
 mod resultants;
 pub mod rules;
 pub(crate) mod scenes;
+pub(crate) mod starts;
 mod sweeps;
 mod velocities;
 
@@ -232,7 +233,10 @@ fn unsupported(model: &Model, group: &Group, what: &str) -> Diagnostic {
     let class = "its class is not supported yet";
     Diagnostic::new(place, format!("there is no rule to {what} the group of {}: {class}", list(&links)))
         .note(format!("its joints are {} ({letters})", list(&joints)))
-        .help("supported are gear trains on pins, and groups of pins, slides, slots and welds of every class: another drive or unknown may split the linkage so")
+        .help(format!(
+            "groups of joints of every kind are solved, with up to {} unknowns, and wheels whose arm is placed before them or with them: another drive or unknown may split the linkage so",
+            linear::CORE
+        ))
 }
 
 /// The heading of a group's steps.
