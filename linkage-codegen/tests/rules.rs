@@ -9,7 +9,7 @@ use support::numbers::Extended;
 use support::{Arguments, Number, compile, scene};
 
 /// A linkage for each class of groups, with the class named, drives at which it closes, and how the rule is used.
-const CASES: [(&str, &[&[f64]], &str); 74] = [
+const CASES: [(&str, &[&[f64]], &str); 80] = [
     // Motion and forces of a crank, its arrow either way, with an inclined dyad.
     (
         "link on a pin",
@@ -137,6 +137,55 @@ const CASES: [(&str, &[&[f64]], &str); 74] = [
          revolute O: ground -> boom; revolute P: ground -> tube; revolute Q: rod -> boom; prismatic lift: tube.G -> rod.Q along 10deg of rod, angle 50deg;
          drive reach: lift; assemble Q: left(P -> O);
          load F: force(boom.T) = (3N, -2N); load H: force(tube.G) = (1N, 4N); load J: force(rod.G) = (2N, 1N);",
+    ),
+    // Cylinders of which one part alone is loaded, or both, the line carried by either.
+    (
+        "RRR dyad",
+        &[&[1.4], &[1.8], &[-1.1]],
+        "ground { O: (0, 0), P: (1m, -0.5m) } link boom { O -> Q: 1.5m, T: (2m, 0.3m) } link tube { P: (0, 0.1m), G: (0.1m, 0.5m) } link rod { Q: (0, 0), G: (0.3m, 0.2m) }
+         revolute O: ground -> boom; revolute P: ground -> tube; revolute Q: rod -> boom; prismatic lift: tube.G -> rod.Q along 10deg of tube, angle 50deg;
+         drive reach: lift; assemble Q: left(P -> O); load F: force(boom.T) = (3N, -2N); load J: force(rod.G) = (2N, 1N);",
+    ),
+    (
+        "RRR dyad",
+        &[&[1.4], &[1.8], &[-1.1]],
+        "ground { O: (0, 0), P: (1m, -0.5m) } link boom { O -> Q: 1.5m, T: (2m, 0.3m) } link tube { P: (0, 0.1m), G: (0.1m, 0.5m) } link rod { Q: (0, 0), G: (0.3m, 0.2m) }
+         revolute O: ground -> boom; revolute P: ground -> tube; revolute Q: rod -> boom; prismatic lift: tube.G -> rod.Q along 10deg of rod, angle 50deg;
+         drive reach: lift; assemble Q: left(O -> P); load F: force(boom.T) = (3N, -2N); load J: force(tube.G) = (2N, 1N); load M: moment(boom -> tube) = 2N*m;",
+    ),
+    (
+        "RRR dyad",
+        &[&[1.4], &[1.8], &[-1.1]],
+        "ground { O: (0, 0), P: (1m, -0.5m) } link boom { O -> Q: 1.5m, T: (2m, 0.3m) } link tube { P: (0, 0.1m), G: (0.1m, 0.5m) } link rod { Q: (0, 0), G: (0.3m, 0.2m) }
+         revolute O: ground -> boom; revolute P: ground -> tube; revolute Q: rod -> boom; prismatic lift: rod.Q -> tube.G along 10deg of tube, angle 50deg;
+         drive reach: lift; assemble Q: left(O -> P); load F: force(rod.G) in boom = (3N, -2N); load J: force(tube.G) = (2N, 1N); load M: moment(rod) = 2N*m;",
+    ),
+    // The same of more parts, one of them held beside the way from pin to pin: the middle alone is loaded, or what is beside it, or the ends.
+    (
+        "RRR dyad",
+        &[&[0.6], &[0.9]],
+        "ground { O: (0, 0), P: (1m, -0.5m) } link boom { O -> Q: 1.5m, T: (2m, 0.3m) } link foot { P: (0, 0.1m), W: (0.1m, 0.5m) } link tube { W: (0.1m, 0), G: (0.3m, 0.2m), V: (0.2m, 0.2m) }
+         link arm { V: (0, 0), K: (0.4m, 0.3m) } link rod { Q: (0, 0), G: (0.3m, 0.2m) }
+         revolute O: ground -> boom; revolute P: ground -> foot; weld W: foot -> tube, angle 20deg; weld V: arm -> tube, angle 35deg; revolute Q: rod -> boom;
+         prismatic lift: tube.G -> rod.Q along 80deg of tube, angle 50deg; drive reach: lift; assemble Q: left(P -> O);
+         load F: force(boom.T) = (3N, -2N); load J: force(tube.G) = (2N, 1N); load H: force(arm.K) = (-1N, 3N);",
+    ),
+    (
+        "RRR dyad",
+        &[&[0.6], &[0.9]],
+        "ground { O: (0, 0), P: (1m, -0.5m) } link boom { O -> Q: 1.5m, T: (2m, 0.3m) } link foot { P: (0, 0.1m), W: (0.1m, 0.5m) } link tube { W: (0.1m, 0), G: (0.3m, 0.2m), V: (0.2m, 0.2m) }
+         link arm { V: (0, 0), K: (0.4m, 0.3m) } link rod { Q: (0, 0), G: (0.3m, 0.2m) }
+         revolute O: ground -> boom; revolute P: ground -> foot; weld W: foot -> tube, angle 20deg; weld V: arm.V -> foot.W, angle 35deg; revolute Q: rod -> boom;
+         prismatic lift: tube.G -> rod.Q along 80deg of rod, angle 50deg; drive reach: lift; assemble Q: left(P -> O);
+         load F: force(boom.T) = (3N, -2N); load J: force(rod.G) = (2N, 1N); load H: force(arm.K) = (-1N, 3N);",
+    ),
+    (
+        "RRP dyad",
+        &[&[0.4], &[2.0]],
+        "ground { O: (0, 0), G: (0, 0.2m) } link crank { O -> A: 1m } link b1 { A: (0.1m, 0.2m), W: (1m, 0.3m), P: (1m, 1m) } link b2 { W: (0.2m, 0), B: (1.5m, 0.3m), P: (0.3m, 0.2m) }
+         link s { B: (0.1m, 0.3m), G: (0.2m, 0.1m), P: (1m, 1m) }
+         revolute O: ground -> crank; revolute A: crank -> b1; weld W: b2 -> b1, angle 20deg; revolute B: b2 -> s; prismatic G: s -> ground along 10deg, angle 15deg; drive q: O;
+         assemble B: ahead(A); load H: force(b2.P) = (1N, 4N); load J: force(s.P) = (2N, 4N); load M: moment(s -> b2) = 3N*m;",
     ),
     // Coupler and rocker, driven against each other.
     (

@@ -109,6 +109,11 @@ impl<'m, 'p> Balance<'m, 'p> {
         *couple = *couple + moment;
     }
 
+    /// Puts a force at a place and a couple in the stead of all that acts on a link.
+    pub fn reduce(&mut self, link: LinkId, at: Vector<'m>, force: Framed<'m>, couple: Expr<'m>) {
+        self.wrenches[link.index()] = Wrench { forces: vec![(at, force)], couple };
+    }
+
     /// The sum of the forces on a link.
     #[must_use]
     pub fn total(&self, link: LinkId) -> Framed<'m> {
@@ -142,9 +147,18 @@ impl<'m, 'p> Balance<'m, 'p> {
     /// A pin exerts a force on a link; the other link gets the opposite one. Gives the force on the link as it was named: in ground
     /// axes, by the joint's own sign.
     pub fn pin(&mut self, joint: JointId, on: LinkId, force: Framed<'m>) -> Framed<'m> {
+        let force = self.name_pin(joint, on, force);
+        if let Some(far) = self.model().joint(joint).end_off(on) {
+            self.push(far.link, self.placement.slide_point(joint, far.link), force.opposite());
+        }
+        force
+    }
+
+    /// The same, with the force not yet on the other link.
+    pub fn name_pin(&mut self, joint: JointId, on: LinkId, force: Framed<'m>) -> Framed<'m> {
         let data = self.model().joint(joint);
         if let JointKind::Slot { .. } = data.kind {
-            return self.pin_in_slot(joint, on, force);
+            return self.name_pin_in_slot(joint, on, force);
         }
         let sign = if data.to.link == on { 1 } else { -1 };
         let signed = |v: Vector<'m>| if sign > 0 { v } else { -v };
@@ -153,15 +167,11 @@ impl<'m, 'p> Balance<'m, 'p> {
         let reaction = signed(force.ground()).named(&self.name(&data.name.text), &meaning);
         let reaction = self.ground_force(reaction);
         self.reactions.insert(joint, Reaction { force: reaction, couple: None });
-        let force = if sign > 0 { reaction } else { reaction.opposite() };
-        if let Some(far) = data.end_off(on) {
-            self.push(far.link, self.placement.point(far), force.opposite());
-        }
-        force
+        if sign > 0 { reaction } else { reaction.opposite() }
     }
 
     /// The same of a pin in a slot along which it is driven: the slot exerts the part across it, and the drive that along it.
-    fn pin_in_slot(&mut self, slot: JointId, on: LinkId, force: Framed<'m>) -> Framed<'m> {
+    fn name_pin_in_slot(&mut self, slot: JointId, on: LinkId, force: Framed<'m>) -> Framed<'m> {
         let data = self.model().joint(slot);
         let second = data.to.link == on;
         let axes = self.placement.slide_direction(slot);
@@ -181,11 +191,7 @@ impl<'m, 'p> Balance<'m, 'p> {
         let reaction = Framed { components: Vector::new(self.graph().zero(), normal), axes };
         self.reactions.insert(slot, Reaction { force: reaction, couple: None });
         let force = Framed { components: Vector::new(along, normal), axes };
-        let force = if second { force } else { force.opposite() };
-        if let Some(far) = data.end_off(on) {
-            self.push(far.link, self.placement.slide_point(slot, far.link), force.opposite());
-        }
-        force
+        if second { force } else { force.opposite() }
     }
 
     /// The force of a pin on one of its links, found before.

@@ -93,20 +93,19 @@ pub fn scotch_yoke([crank, offset, angle]: [f64; 3], random: &mut Random) -> Str
     )
 }
 
-/// A boom that a cylinder lifts, its rod's end beside the cylinder's line.
-///
-/// The load is on the tube. Forces are passed on from the rod to the tube, so that the rounding of the rod's loads is left over in the
-/// tube's moments; on a tube without loads of its own it is large beside them where it is small beside the rod's.
+/// A boom that a cylinder lifts, its rod's end beside the cylinder's line, with forces on two of the three.
 pub fn boom([ground, boom, offset]: [f64; 3], random: &mut Random) -> String {
     let angle = random.range(0.0, 360.0);
     let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
     let side = random.pick(&["left", "right"]);
+    let carrier = random.pick(&["tube", "rod"]);
+    let (first, second) = random.pick(&[("boom.T", "tube.D"), ("boom.T", "rod.E"), ("tube.D", "rod.E")]);
     format!(
         "pub mod sample; ground {{ O: (0, 0), P: {ground:?}m @ {angle:?}deg }} link boom {{ O -> Q: {boom:?}m, T: ({x:?}m, {y:?}m) }}
-         link tube {{ P: (0, 0), D: ({y:?}m, {x:?}m) }} link rod {{ Q: (0, {offset:?}m), S: (0, 0) }}
+         link tube {{ P: (0, 0), D: ({y:?}m, {x:?}m) }} link rod {{ Q: (0, {offset:?}m), S: (0, 0), E: ({x:?}m, {y:?}m) }}
          revolute O: ground -> boom; revolute P: ground -> tube; revolute Q: rod -> boom;
-         prismatic lift: tube.P -> rod.S along 0deg of tube; drive extension: lift; assemble Q: {side}(P -> O);
-         load F: force(boom.T); load H: force(tube.D); {SCENES}"
+         prismatic lift: tube.P -> rod.S along 0deg of {carrier}; drive extension: lift; assemble Q: {side}(P -> O);
+         load F: force({first}); load H: force({second}); {SCENES}"
     )
 }
 

@@ -22,7 +22,7 @@ use super::{Arguments, Number, from_pose, pose};
 pub struct Measures {
     /// Largest deviation of a direction's size from one.
     pub unit: f64,
-    /// Largest constraint residual over the longest link.
+    /// Largest constraint residual over the longest side of a loop: the longest link, or a travel that no length bounds.
     pub closure: f64,
     /// Normwise backward error of the equilibrium equations.
     pub backward: f64,
@@ -76,7 +76,8 @@ pub fn measure<T: Number>(
         kept.iter().map(|(node, value)| (*node, Extended::exactly(value.to_f64()))).collect();
     let general = equations_at(linkage, arguments, &extended);
     let unit = direction_error(linkage, &extended) / epsilon;
-    let closure = general.residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs())) / (longest * epsilon);
+    let side = longest.max(farthest(linkage, &extended));
+    let closure = general.residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs())) / (side * epsilon);
     let unit_pose = normalised(linkage, &extended);
     let general = equations_at(linkage, arguments, &unit_pose);
     let solution = unknowns(linkage, &general, &all);
@@ -92,6 +93,16 @@ pub fn measure<T: Number>(
     let name = &linkage.model.unknowns[0].name;
     let torque = over((all[name].to_f64() - work[name].to_f64()).abs(), terms) / epsilon;
     Ok(Measures { unit, closure, backward, free_body, torque })
+}
+
+/// How far something slides where two slides alone hold a pin: that grows beyond all lengths as they become parallel, and is a number of
+/// the pose, with a rounding of its own.
+fn farthest(linkage: &Linkage, kept: &HashMap<NodeId, Extended>) -> f64 {
+    if !linkage.plan.motion_rules.contains(&"PRP dyad") {
+        return 0.0;
+    }
+    let travels = linkage.plan.pose.iter().filter(|found| found.name.starts_with("travel_"));
+    travels.map(|found| kept[&found.node].to_f64().abs()).fold(0.0, f64::max)
 }
 
 /// The pose with all directions brought to unit size.

@@ -43,6 +43,32 @@ pub(super) struct Leg {
     rigid: Vec<JointId>,
 }
 
+/// How the pins of a leg share the loads on it across the line between them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Share<'m> {
+    /// The moment of the loads about the outer pin over the length: what the inner pin has to hold.
+    pub inner: Expr<'m>,
+    /// Where a joint within the leg passes on what neither of the pins tells well.
+    cut: Option<Cut<'m>>,
+}
+
+/// A joint within a leg that two pins hold, between its first link or its last one and the others.
+#[derive(Clone, Copy, Debug)]
+struct Cut<'m> {
+    /// The link from the equilibrium of which the joint is found.
+    from: LinkId,
+    /// The link towards which all other joints are found.
+    towards: LinkId,
+    /// The force that the outer side passes on, across the leg.
+    across: Expr<'m>,
+    /// The loads on the outer side.
+    outer: Framed<'m>,
+    /// The loads on the inner side, along the leg.
+    along: Expr<'m>,
+    /// The moment of the loads on the link's own side about its pin.
+    moment: Expr<'m>,
+}
+
 /// The parts of a dyad.
 #[derive(Clone, Debug)]
 pub struct Dyad<'a> {
@@ -123,6 +149,13 @@ pub(super) fn towards_unit<'m>(rough: Vector<'m>, name: &str) -> Vector<'m> {
     rough.scaled(factor.named(format!("unit_{name}"), format!("(3 − u·u)/2, u = rough_{name}")))
 }
 
+/// The sum of the loads on some links.
+fn total_on<'m>(balance: &Balance<'m, '_>, links: &[LinkId]) -> Framed<'m> {
+    let ground = balance.placement.direction(GROUND);
+    let nothing = Framed { components: balance.graph().zero_vector(), axes: ground };
+    links.iter().fold(nothing, |sum, link| sum.plus(&balance.total(*link), ground))
+}
+
 /// How a link is placed and held that a weld or driven joint joins to another one.
 fn rigid_rule(model: &Model, joint: JointId) -> &'static dyn Rule {
     match model.joint(joint).kind {
@@ -150,9 +183,52 @@ impl Leg {
 
     /// The sum of the loads on it.
     pub(super) fn total<'m>(&self, balance: &Balance<'m, '_>) -> Framed<'m> {
-        let ground = balance.placement.direction(GROUND);
-        let own = balance.total(self.link());
-        self.links[1..].iter().fold(own, |sum, link| sum.plus(&balance.total(*link), ground))
+        total_on(balance, &self.links)
+    }
+
+    /// At which joint what the pins of the leg share is told apart, from which of its links that joint is found, and towards which link
+    /// all others are; nothing where the inner pin's force is all that there is to pass on.
+    fn cut(&self, model: &Model, balance: &Balance<'_, '_>) -> Option<(JointId, LinkId, LinkId)> {
+        let order = self.joined_to(model, self.link());
+        let before = |link: LinkId| {
+            let (joint, _) = order.iter().find(|(_, own)| *own == link)?;
+            Some((*joint, model.joint(*joint).end_off(link)?.link))
+        };
+        // The links from the inner joint to the outer one, and those of them that something acts on, or on a link that they hold.
+        let way = |link| core::iter::successors(Some(link), |link| before(*link).map(|(_, link)| link));
+        let path: Vec<LinkId> = way(self.tip.end.link).collect();
+        let loaded: BTreeSet<LinkId> = self
+            .links
+            .iter()
+            .filter(|link| !balance.is_free(**link))
+            .filter_map(|link| way(*link).find(|link| path.contains(link)))
+            .collect();
+        let (&[last, ..], &[.., second, first]) = (path.as_slice(), path.as_slice()) else { return None };
+        let idle = |link: LinkId| !loaded.contains(&link);
+        let joint = before(second)?.0;
+        let data = model.joint(joint);
+        // A slide's couple is about its runner, and is best found from the link that this lies on.
+        let runs_on_first = data.kind.line().is_some() && data.place().link == first;
+        if loaded.is_empty() {
+            None
+        } else if idle(first) || runs_on_first {
+            let towards = path.iter().copied().find(|link| *link != first && loaded.contains(link));
+            Some((joint, first, towards.unwrap_or(last)))
+        } else if idle(last) {
+            None
+        } else {
+            Some((before(last)?.0, last, first))
+        }
+    }
+
+    /// What one of the links holds if a joint is taken away, with that link.
+    fn held_without(&self, model: &Model, link: LinkId, joint: JointId) -> Vec<LinkId> {
+        let rigid: Vec<JointId> = self.rigid.iter().copied().filter(|own| *own != joint).collect();
+        let mut held = vec![link];
+        while let Some((_, link)) = next_rigid(model, &rigid, &held) {
+            held.push(link);
+        }
+        held
     }
 
     /// The other links in an order in which they can be placed from one of its links.
@@ -292,24 +368,64 @@ impl<'a> Dyad<'a> {
 
     /// The moment of the loads on a leg about its outer joint, times a factor.
     pub(super) fn moment(&self, balance: &Balance<'a, '_>, leg: &Leg, factor: Expr<'a>) -> Expr<'a> {
+        self.moment_on(balance, (leg, &leg.links), leg.near, factor)
+    }
+
+    /// The same of some of its links, about one of its joints.
+    fn moment_on(
+        &self,
+        balance: &Balance<'a, '_>,
+        (leg, links): (&Leg, &[LinkId]),
+        joint: Spot,
+        factor: Expr<'a>,
+    ) -> Expr<'a> {
         let placement = balance.placement;
-        let own = balance.moment(leg.link(), placement.point(leg.near), factor);
-        leg.links[1..].iter().fold(own, |sum, link| {
+        let moments = links.iter().map(|link| {
+            if *link == joint.end.link {
+                return balance.moment(*link, placement.point(joint), factor);
+            }
             if balance.is_free(*link) {
-                return sum;
+                return balance.graph().zero();
             }
             // About a place on the link, and with the arm of that place.
             let at = self.place_on(leg, *link);
             let direction = placement.direction(*link);
-            let arm = placement.way(leg.near, at).resolved_along(direction).scaled(factor);
+            let arm = placement.way(joint, at).resolved_along(direction).scaled(factor);
             let force = balance.total(*link).along(direction);
-            sum + (balance.moment(*link, placement.point(at), factor) + arm.cross(force))
-        })
+            balance.moment(*link, placement.point(at), factor) + arm.cross(force)
+        });
+        moments.reduce(|sum, moment| sum + moment).unwrap_or_else(|| balance.graph().zero())
     }
 
-    /// The moment of the loads on a leg about its outer joint, over its length.
-    pub(super) fn moment_over_length(&self, balance: &Balance<'a, '_>, leg: &Leg) -> Expr<'a> {
-        self.moment(balance, leg, balance.graph().one() / self.length(leg))
+    /// How the pins of a leg share the loads on it across the line between them.
+    ///
+    /// What a joint within the leg passes on may be small beside the loads on either side of it, and what those leave over of the pins'
+    /// forces would be their rounding. It is found from moments: with m₁ that of the loads on the outer side about the outer pin, m₂ that
+    /// of the loads on the inner side about the inner one, the outer side passes on `(m₁ + m₂)/r` across the leg, and each pin holds the
+    /// rest of its own side.
+    pub(super) fn share(&self, balance: &Balance<'a, '_>, leg: &Leg) -> Share<'a> {
+        let factor = balance.graph().one() / self.length(leg);
+        let Some((joint, from, towards)) = leg.cut(self.model, balance) else {
+            return Share { inner: self.moment(balance, leg, factor), cut: None };
+        };
+        let outer_side = leg.held_without(self.model, leg.link(), joint);
+        let (outer, inner): (Vec<LinkId>, Vec<LinkId>) = leg.links.iter().partition(|link| outer_side.contains(link));
+        let sides = [(&outer, leg.near, leg.outer), (&inner, leg.tip, self.inner)];
+        let moments = sides.map(|(links, spot, pin)| {
+            let moment = self.moment_on(balance, (leg, links), spot, balance.graph().one());
+            let names = self.model.link_names(links);
+            let name = format!("moment_{}", names.replace(" + ", "_"));
+            moment.named(balance.name(&name), format!("ΣM({}) of the loads on {names}", self.joint_name(pin)))
+        });
+        let across = ((moments[0] + moments[1]) * factor).named(
+            balance.name(&format!("{}_across_{}", self.joint_name(joint), self.link_name(leg))),
+            format!("the moments over |{} {}|", self.joint_name(leg.outer), self.joint_name(self.inner)),
+        );
+        let [outer, inner] = [outer, inner].map(|links| total_on(balance, &links));
+        let inner = inner.along(self.direction(balance.placement, leg));
+        let moment = moments[usize::from(from != leg.link())];
+        let cut = Cut { from, towards, across, outer, along: inner.x, moment };
+        Share { inner: across + inner.y, cut: Some(cut) }
     }
 
     /// A joint's place on a link of a leg: the inner joint's where it is one.
@@ -354,10 +470,87 @@ impl<'a> Dyad<'a> {
         if self.model.joint(self.inner).to.link == leg.tip.end.link { reaction } else { reaction.opposite() }
     }
 
+    /// The inner pin exerts a force on a leg that two pins hold: gives it as it was named. The links of the leg get it from
+    /// [`Self::balance_shared`].
+    pub(super) fn name_inner(&self, balance: &mut Balance<'a, '_>, leg: &Leg, force: Framed<'a>) -> Framed<'a> {
+        balance.name_pin(self.inner, leg.tip.end.link, force)
+    }
+
+    /// The reaction of the outer pin of a leg that two pins hold, and what is within the leg, by the force of the inner pin on it and the
+    /// loads on its first link.
+    pub(super) fn balance_shared(
+        &self,
+        balance: &mut Balance<'a, '_>,
+        (leg, share): (&Leg, &Share<'a>),
+        force: Framed<'a>,
+        loads: Framed<'a>,
+    ) -> RuleResult {
+        let (outer, first) = (leg.outer, leg.link());
+        if leg.is_single() {
+            let held = loads.plus(&force, balance.placement.direction(GROUND));
+            balance.pin(outer, first, held.opposite());
+            return Ok(());
+        }
+        // Along and across the leg the forces are known each to its own size. In ground axes the rounding of the larger would be in both.
+        let along = force.along(self.direction(balance.placement, leg)).x;
+        let own = |along, across| self.in_own_axes(balance.placement, leg, Vector::new(along, across));
+        let (pin, tip) = (own(along, -share.inner), balance.placement.point(leg.tip));
+        let Some(cut) = share.cut else {
+            balance.push(leg.tip.end.link, tip, pin);
+            return self.balance_rest(balance, leg);
+        };
+        let passed = own(along + cut.along, -cut.across);
+        if cut.from != first {
+            self.balance_towards(balance, leg, cut.towards, Some((cut.from, tip, passed, cut.moment)))?;
+            self.hold(balance, leg);
+            return Ok(());
+        }
+        let (near, ground) = (balance.placement.point(leg.near), balance.placement.direction(GROUND));
+        balance.pin(outer, first, passed.plus(&cut.outer, ground).opposite());
+        balance.push(leg.tip.end.link, tip, pin);
+        self.balance_towards(balance, leg, cut.towards, Some((first, near, passed.opposite(), cut.moment)))
+    }
+
+    /// A force along and across a leg, along and across the direction of its first link.
+    fn in_own_axes(&self, placement: &Placement<'a>, leg: &Leg, force: Vector<'a>) -> Framed<'a> {
+        let lean = if leg.is_constant(self.model) {
+            placement.carried(leg.link(), self.axis(leg))
+        } else {
+            let Arm { axis, along, size } = self.arm(leg);
+            Vector::new(along.x / size, along.y / size).turned_by(placement.carried(leg.link(), axis))
+        };
+        Framed { components: force.turned_by(lean), axes: placement.direction(leg.link()) }
+    }
+
+    /// The efforts and welds within a leg, from its ends towards one of its links; for one of the others all that acts on it and on those
+    /// it holds may be given as a force and a couple.
+    fn balance_towards(
+        &self,
+        balance: &mut Balance<'a, '_>,
+        leg: &Leg,
+        link: LinkId,
+        given: Option<(LinkId, Vector<'a>, Framed<'a>, Expr<'a>)>,
+    ) -> RuleResult {
+        let effort = |drive: DriveId| Input::Unknown(UnknownId::new(drive.index()));
+        self.joined(leg, link, effort).iter().rev().try_for_each(|(rule, group)| {
+            if let Some((own, at, force, couple)) = given
+                && group.links == [own]
+            {
+                balance.reduce(own, at, force, couple);
+            }
+            rule.balance(balance, group)
+        })
+    }
+
     /// The efforts and welds within a leg and the reaction of its outer joint, once the force of its inner joint is on it.
     pub(super) fn balance_rest(&self, balance: &mut Balance<'a, '_>, leg: &Leg) -> RuleResult {
-        let effort = |drive: DriveId| Input::Unknown(UnknownId::new(drive.index()));
-        self.joined(leg, leg.link(), effort).iter().rev().try_for_each(|(rule, group)| rule.balance(balance, group))?;
+        self.balance_towards(balance, leg, leg.link(), None)?;
+        self.hold(balance, leg);
+        Ok(())
+    }
+
+    /// The reaction of the outer joint of a leg.
+    fn hold(&self, balance: &mut Balance<'a, '_>, leg: &Leg) {
         let (link, held) = (leg.link(), balance.total(leg.link()));
         if leg.pinned {
             balance.pin(leg.outer, link, held.opposite());
@@ -365,7 +558,6 @@ impl<'a> Dyad<'a> {
             let across = held.along(balance.placement.slide_direction(leg.outer)).y;
             super::slide::guide(balance, leg.outer, link, across, balance.placement.point(self.place_on(leg, link)));
         }
-        Ok(())
     }
 
     /// Where the links of the inner joint meet, on a leg: at the pin, or at the runner of the slide.

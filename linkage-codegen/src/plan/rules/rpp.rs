@@ -115,8 +115,9 @@ impl Rule for Rpp {
         if !slider.is_single() {
             return dyad.balance_rest(balance, slider);
         }
-        let at = balance.placement.slide_point(dyad.inner, slider.link());
-        let held = balance.total(slider.link()).along(e).y;
+        // About the guide's own point: where the inner slide is may be far away, and its force small beside the others.
+        let at = balance.placement.point(balance.end(slider.outer, slider.link()));
+        let held = load.y - across * balance.placement.between(slides(&dyad)).x;
         super::slide::guide(balance, slider.outer, slider.link(), held, at);
         Ok(())
     }

@@ -17,7 +17,7 @@ use super::dyad::{Dyad, dyad};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
-use crate::model::ids::{GROUND, JointId};
+use crate::model::ids::JointId;
 use crate::model::{Model, Side};
 use crate::plan::assembly::{Assembly, DyadPivot, Sign};
 use crate::plan::balance::Balance;
@@ -65,7 +65,8 @@ impl Rule for Rrp {
         let e = balance.placement.slide_direction(slide);
         let u = dyad.direction(balance.placement, rod_leg);
         let load = slider_leg.total(balance).along(e);
-        let across = (-dyad.moment_over_length(balance, rod_leg)).named(
+        let share = dyad.share(balance, rod_leg);
+        let across = (-share.inner).named(
             balance.name(&format!("{inner}_across_{rod}")),
             format!("−ΣM({outer})/|{outer} {inner}| of the loads on {rod}"),
         );
@@ -84,15 +85,10 @@ impl Rule for Rrp {
             )
         };
         let force = Framed { components: Vector::new(along_slide, side), axes: e };
-        let ground = balance.placement.direction(GROUND);
         let loads = balance.total(rod_leg.link());
         // The pin puts its part on the slider, whose moments give the couple of the guide.
-        let force = dyad.pin_inner(balance, rod_leg, force);
-        if rod_leg.is_single() {
-            balance.pin(rod_leg.outer, rod_leg.link(), loads.plus(&force, ground).opposite());
-        } else {
-            dyad.balance_rest(balance, rod_leg)?;
-        }
+        let force = balance.pin(dyad.inner, rod_leg.tip.end.link, force);
+        dyad.balance_shared(balance, (rod_leg, &share), force, loads)?;
         if !slider_leg.is_single() {
             return dyad.balance_rest(balance, slider_leg);
         }

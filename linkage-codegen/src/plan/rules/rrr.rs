@@ -109,7 +109,8 @@ impl Rule for Rrr {
         let [first, second] = &dyad.legs;
         let [u1, u2] = dyad.legs.each_ref().map(|leg| dyad.direction(balance.placement, leg));
         // Moments of the loads about the outer pins, over the lengths.
-        let [across_first, across_second] = dyad.legs.each_ref().map(|leg| dyad.moment_over_length(balance, leg));
+        let shares = dyad.legs.each_ref().map(|leg| dyad.share(balance, leg));
+        let [across_first, across_second] = shares.map(|share| share.inner);
         let (inner, link) = (dyad.joint_name(dyad.inner), dyad.link_name(first));
         let (outer, other) = (dyad.joint_name(first.outer), dyad.joint_name(second.outer));
         let across = (-across_first).named(
@@ -134,15 +135,11 @@ impl Rule for Rrr {
             )
         };
         let force = Framed { components: Vector::new(along, across), axes: u1 };
-        let ground = balance.placement.direction(crate::model::ids::GROUND);
         let loads = [first, second].map(|leg| balance.total(leg.link()));
-        let force = dyad.pin_inner(balance, first, force);
-        for (leg, loads, force) in [(first, loads[0], force), (second, loads[1], force.opposite())] {
-            if leg.is_single() {
-                balance.pin(leg.outer, leg.link(), loads.plus(&force, ground).opposite());
-            } else {
-                dyad.balance_rest(balance, leg)?;
-            }
+        let named = dyad.name_inner(balance, first, force);
+        let forces = [if first.is_single() { named } else { force }, named.opposite()];
+        for ((leg, share), (loads, force)) in dyad.legs.iter().zip(&shares).zip(loads.into_iter().zip(forces)) {
+            dyad.balance_shared(balance, (leg, share), force, loads)?;
         }
         Ok(())
     }
