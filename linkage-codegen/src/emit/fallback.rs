@@ -7,10 +7,10 @@ use quote::quote;
 use syn::ext::IdentExt;
 
 use super::literals::ident;
-use super::types::{given_motion, loads, motion, results, run_time_loads, scalar};
+use super::types::{forward_signature, given_motion, loads, motion, results, run_time_loads, scalar};
 use crate::graph::NodeId;
 use crate::model::ids::LinkId;
-use crate::model::{Along, Load, Method, Model, OWN_TYPES, Scene, Wanted, type_name};
+use crate::model::{Along, Load, Method, Model, OWN_TYPES, Part, Scene, Wanted, type_name};
 use crate::plan::{Field, Meaning, Output, reaction_type};
 
 /// The names of a module. Where several things would have one name, the first has it.
@@ -41,6 +41,12 @@ pub fn module(mut model: Model) -> TokenStream {
         let arguments = arguments(prepared.clone(), &drives, given);
         quote!(pub fn #name(#arguments) -> Result<#ty, Error> { loop {} })
     });
+    let forward = (0..model.scenes.len()).filter_map(|index| {
+        let (ty, signature) = (types.get(index)?, forward_signature(model, index)?);
+        Some(quote!(impl #ty { #signature { loop {} } }))
+    });
+    let forward: TokenStream = forward.collect();
+    let matrices = model.has_matrices().then(|| quote!(use #runtime::nalgebra::{SMatrix, SVector};));
     let (motion, loads) = (motion(model), loads(model, false));
     let own = names.iter().map(|name| name.unraw().to_string());
     // Whether there is a search is not known; a pose can be moved unless something else has that name.
@@ -53,6 +59,7 @@ pub fn module(mut model: Model) -> TokenStream {
     use #runtime::{
         Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
     };
+                #matrices
                 pub const EQUATIONS: &str = "";
                 pub const OPERATIONS: &str = "";
                 pub const SOURCE: &str = "";
@@ -66,6 +73,7 @@ pub fn module(mut model: Model) -> TokenStream {
                     #methods
                 }
                 #records
+                #forward
                 #(#direct)*
             }
         }
@@ -254,6 +262,11 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
             Output::Record(parts.map(|(name, value)| field(name, value)).into())
         }
         Some(Wanted::Offset(_)) => Output::Record(vec![field("distance", number), field("vector", vector)]),
+        Some(Wanted::Part(part)) => match (model.unknowns.len(), part) {
+            (0 | 1, _) => number,
+            (unknowns, Part::Bias) => Output::Column(vec![zero; unknowns]),
+            (unknowns, _) => Output::Matrix(vec![vec![zero; unknowns]; unknowns]),
+        },
         Some(Wanted::Along(..)) => Output::Resolved([zero, zero]),
         Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..)) | None => number,
     }

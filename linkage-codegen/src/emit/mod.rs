@@ -70,8 +70,10 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
             use #runtime::reference::Verification;
         }
     });
+    let matrices = model.has_matrices().then(|| quote!(use #runtime::nalgebra::{SMatrix, SVector};));
     let scenes = 0..model.scenes.len();
     let results: TokenStream = scenes.clone().map(|s| types::results(model, s, &linkage.plan.scenes[s])).collect();
+    let forward: TokenStream = scenes.clone().map(|s| functions::forward(model, s)).collect();
     let from_pose: TokenStream = scenes.clone().map(|s| functions::from_pose(linkage, s)).collect();
     let direct: TokenStream = scenes.map(|s| functions::direct(linkage, s)).collect();
     let (generics, elided) = if types::has_params(linkage) {
@@ -94,6 +96,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
         Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
     };
                 #reference
+                #matrices
 
                 /// The derivation: free bodies, equilibrium equations, reduction, closed forms.
                 pub const EQUATIONS: &str = #equations;
@@ -112,6 +115,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
                     #from_pose
                 }
                 #results
+                #forward
                 #direct
                 #searches
             }

@@ -6,7 +6,7 @@ use super::evaluate::Scope;
 use super::ids::{GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
-use super::{Along, End, Method, Model, Scene, Spot, Wanted};
+use super::{Along, End, Method, Model, Part, Scene, Spot, Wanted};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
 use crate::syntax::{METHODS, PLANNED_METHODS};
@@ -24,14 +24,21 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         let method = sink.absorb(method(given)).unwrap_or_else(|| likely_method(&given.method.text));
         let loads = loads(model, given, method, names, sink);
         let (results, refused) = results(model, given, method, &loads, names, sink);
-        if unloaded && method.has_loads() && !told {
+        if unloaded && method.needs_loads() && !told {
             told = true;
             sink.report(
                 Diagnostic::new(given.name.place().to(given.method.place()), "there is no load to balance")
                     .help("declare one, as in `load F: force(coupler.C);`; only `position`, `velocity` and `acceleration` scenes need none"),
             );
         }
-        model.scenes.push(Scene { name: given.name.clone(), method, loads, results, refused });
+        let scene = Scene { name: given.name.clone(), method, loads, results, refused };
+        if method == Method::Motion && sink.is_clean() && model.moved_masses(&scene).is_empty() {
+            sink.report(
+                Diagnostic::new(given.method.place(), "no link has mass: nothing resists an acceleration")
+                    .help("give one to a link, as in `mass coupler: 0.5kg at (0, 0);`"),
+            );
+        }
+        model.scenes.push(scene);
     }
     if sink.is_clean() {
         check_generated_names(model, sink);
@@ -45,6 +52,7 @@ fn likely_method(word: &str) -> Method {
         "acceleration" => Method::Acceleration,
         "inverse" | "position" => Method::Position,
         "verify" => Method::Verify,
+        "motion" => Method::Motion,
         _ => Method::Equilibrium,
     }
 }
@@ -75,6 +83,7 @@ fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
         "equilibrium" => Ok(Method::Equilibrium),
         "superposition" => Ok(Method::Superposition),
         "virtual_work" => Ok(Method::VirtualWork),
+        "motion" => Ok(Method::Motion),
         "verify" if cfg!(feature = "reference") => Ok(Method::Verify),
         "verify" => {
             Err(Diagnostic::new(given.method.place(), "a scene can be verified only with the feature `reference`")
@@ -123,7 +132,7 @@ fn loads(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink:
             );
         }
     }
-    if listed.is_empty() {
+    if listed.is_empty() && method.needs_loads() {
         sink.report(
             Diagnostic::new(given.method.place(), "a scene without loads has nothing to balance")
                 .help("list its loads, or leave the parentheses out to have them all"),
@@ -256,6 +265,7 @@ fn all_results(model: &Model, method: Method, loads: &[LoadId]) -> Vec<Wanted> {
         }
         Method::Equilibrium | Method::Superposition => unknowns.chain(joints).collect(),
         Method::VirtualWork => unknowns.chain(loads.iter().copied().map(Wanted::Load)).collect(),
+        Method::Motion => [Part::Mass, Part::Bias, Part::Rounding].map(Wanted::Part).into(),
         Method::Verify => Vec::new(),
     }
 }
@@ -270,6 +280,7 @@ fn result(
     match item {
         // Of a method that is not known, nothing is known of its results.
         _ if given.method.text != word(method) => Ok(None),
+        _ if method == Method::Motion => part(item).map(Some),
         ResultItem::Planned { of, place, what } => Err(Diagnostic::new(*place, format!("{what} is not supported yet"))
             .help(match method {
                 Method::Equilibrium | Method::Superposition if names.find(Role::Joint, &of.link).is_ok() => {
@@ -408,8 +419,23 @@ fn word(method: Method) -> &'static str {
         Method::Equilibrium => "equilibrium",
         Method::Superposition => "superposition",
         Method::VirtualWork => "virtual_work",
+        Method::Motion => "motion",
         Method::Verify => "verify",
     }
+}
+
+/// A part of the equation of motion.
+fn part(item: &ResultItem) -> Result<Wanted, Diagnostic> {
+    let of = end_of(item);
+    let named = match item {
+        ResultItem::Name(name) => Part::ALL.into_iter().find(|part| part.name() == name.text),
+        _ => None,
+    };
+    named.map(Wanted::Part).ok_or_else(|| {
+        let names: Vec<&str> = Part::ALL.iter().map(|part| part.name()).collect();
+        Diagnostic::new(of.place(), format!("`motion` cannot give `{}`", of.written()))
+            .help(format!("its results are {}", list(&names)))
+    })
 }
 
 fn named_result(
@@ -503,8 +529,8 @@ pub(crate) const OWN_TYPES: [&str; 14] = [
     "GearReaction",
     "WorkTerm",
 ];
-/// The same, where there are parameters, and where there is something to verify.
-const FURTHER_TYPES: [&str; 2] = ["Default", "Verification"];
+/// The same, where there are parameters, where there is something to verify, and where there are equations of motion of several drives.
+const FURTHER_TYPES: [&str; 4] = ["Default", "Verification", "SMatrix", "SVector"];
 
 /// What the generated functions read may not have two meanings under one name.
 fn check_values(model: &Model, sink: &Sink) {
@@ -580,7 +606,8 @@ fn check_generated_names(model: &Model, sink: &Sink) {
             }
         }
     }
-    let further = [!model.params.is_empty(), model.scenes.iter().any(|scene| scene.method == Method::Verify)];
+    let verifies = model.scenes.iter().any(|scene| scene.method == Method::Verify);
+    let further = [!model.params.is_empty(), verifies, model.has_matrices(), model.has_matrices()];
     let further = FURTHER_TYPES.iter().zip(further).filter(|(_, there)| *there).map(|(name, _)| name);
     let mut types: BTreeMap<String, String> = OWN_TYPES
         .iter()

@@ -5,6 +5,7 @@
 
 mod assembly;
 mod balance;
+mod dynamics;
 pub mod efforts;
 mod framed;
 mod half_angle;
@@ -166,7 +167,7 @@ impl Plan {
         let plan = Self {
             pose: kept(&assembly),
             accessors: accessors(&assembly),
-            scenes: scenes::outputs(&assembly, posed, &force_rules, (system, &links), sink),
+            scenes: scenes::outputs(&assembly, posed, [&motion_rules, &force_rules], (system, &links), sink),
             links,
             motion_rules: motion_rules.iter().map(|rule| rule.class()).collect(),
             force_rules: force_rules.iter().map(|rule| rule.class()).collect(),
