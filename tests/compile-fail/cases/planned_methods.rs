@@ -25,7 +25,7 @@ linkage! {
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
 
-    scene control: motion;
+    scene crank_angle: inverse(B0);
     scene cycle: sweep(statics);
 }
 
