@@ -136,7 +136,9 @@ fn held_elsewhere_its_mass_is_not_that_of_the_kinetic_energy() -> Result<(), Err
         let inertia = 900e-6 + 0.7 * (0.06f64.powi(2) + 0.01f64.powi(2));
         let unit = held::Motion { theta_rate: 1.0, theta_acceleration: 0.0 };
         let ratio = held::speeds_at(theta, &unit)?.rocker_angle;
-        assert!((control.M - inertia * ratio).abs() < 1e-14 && (control.M_kinetic - inertia * ratio * ratio).abs() < 1e-14);
+        assert!(
+            (control.M - inertia * ratio).abs() < 1e-14 && (control.M_kinetic - inertia * ratio * ratio).abs() < 1e-14
+        );
     }
     Ok(())
 }

@@ -155,5 +155,10 @@ fn mass_and_bias_together_cost_less_than_two_dynamic_solutions() {
     let (once, both, all) = (cost("torque"), cost("controlled"), cost("control"));
     assert!(both < 2 * once && cost("mass") < both, "{once} {both} {all} {}", cost("mass"));
     // The mass needs no acceleration, and inertia of one link no velocity of another.
-    assert!(2 * cost("mass") < once && cost("of_rocker") < cost("mass"), "{once} {} {}", cost("mass"), cost("of_rocker"));
+    assert!(
+        2 * cost("mass") < once && cost("of_rocker") < cost("mass"),
+        "{once} {} {}",
+        cost("mass"),
+        cost("of_rocker")
+    );
 }

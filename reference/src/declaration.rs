@@ -184,7 +184,8 @@ impl<'a> Writer<'a> {
         }
         items.push(format!("scene {ALL}: equilibrium;"));
         items.push(format!("scene {PARTS}: superposition;"));
-        if moves(self.file) && self.file.include_inertia && self.file.links.iter().any(|(_, body)| body.mass.is_some()) {
+        if moves(self.file) && self.file.include_inertia && self.file.links.iter().any(|(_, body)| body.mass.is_some())
+        {
             items.push(format!("scene {CONTROL}: motion -> (M, h, rounding, M_kinetic);"));
         }
         items.push(format!("scene {WORK}: virtual_work;"));

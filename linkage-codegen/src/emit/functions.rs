@@ -146,8 +146,7 @@ fn result(
             quote!(SVector::from([#(#values),*]))
         }
         Output::Matrix(rows) => {
-            let rows: Vec<Vec<TokenStream>> =
-                rows.iter().map(|row| row.iter().map(|_| next()).collect()).collect();
+            let rows: Vec<Vec<TokenStream>> = rows.iter().map(|row| row.iter().map(|_| next()).collect()).collect();
             let columns = (0..rows.len()).map(|column| {
                 let values = rows.iter().filter_map(|row| row.get(column));
                 quote!([#(#values),*])

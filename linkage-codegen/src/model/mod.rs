@@ -838,7 +838,8 @@ impl Model {
     /// mass, if it has no such load.
     #[must_use]
     pub fn moved_masses(&self, scene: &Scene) -> Vec<LinkId> {
-        let inertia = scene.loads.iter().map(|load| self.load(*load)).filter(|load| matches!(load.kind, LoadKind::Inertia));
+        let inertia =
+            scene.loads.iter().map(|load| self.load(*load)).filter(|load| matches!(load.kind, LoadKind::Inertia));
         let named: Vec<&Load> = inertia.collect();
         let links: Vec<LinkId> = if named.is_empty() {
             self.moving_links().collect()

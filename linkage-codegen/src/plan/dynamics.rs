@@ -100,13 +100,7 @@ impl<'m> Forces<'_, 'm> {
     }
 
     /// `Σ (m v_i·v_j + I ω_i ω_j)`; what is symmetric is computed once.
-    fn masses(
-        &self,
-        masses: &[LinkId],
-        rows: &[&Motion<'m, '_>],
-        columns: &[&Motion<'m, '_>],
-        name: &str,
-    ) -> Output {
+    fn masses(&self, masses: &[LinkId], rows: &[&Motion<'m, '_>], columns: &[&Motion<'m, '_>], name: &str) -> Output {
         self.matrix(rows, columns, |row, column| {
             let terms = masses.iter().map(|link| {
                 let [own, other] = self.moving(*link, [row, column]);

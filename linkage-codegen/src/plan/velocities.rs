@@ -204,7 +204,11 @@ impl<'m, 'p> Motion<'m, 'p> {
                 if same { graph.one() } else { graph.zero() }
             }
             (Purpose::Unit(own), Input::Drive(drive)) => {
-                if own == drive { graph.one() } else { graph.zero() }
+                if own == drive {
+                    graph.one()
+                } else {
+                    graph.zero()
+                }
             }
             (Purpose::Acceleration(_), Input::Drive(_)) if !self.driven => graph.zero(),
             (Purpose::Velocity, Input::Drive(drive)) => graph.expr(model.drive(drive).rate),
