@@ -163,7 +163,7 @@ fn where_no_mass_resists_there_is_no_acceleration() -> Result<(), Error> {
 
 #[test]
 fn of_two_drives_the_mass_is_a_symmetric_matrix() -> Result<(), Error> {
-    for (a, b) in [(2.2, 0.8), (1.9, 1.3), (2.6, 0.4)] {
+    for (a, b) in [(1.9, 1.1), (1.5, 1.6), (1.2, 2.0)] {
         let motion = five_bar::Motion { a_rate: 2.5, a_acceleration: -3.0, b_rate: -1.5, b_acceleration: 6.0 };
         let pose = five_bar::Pose::at(a, b)?;
         let control = pose.control(&motion)?;

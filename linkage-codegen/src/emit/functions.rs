@@ -415,7 +415,7 @@ pub(super) fn forward(model: &Model, index: usize) -> TokenStream {
     let unknowns = model.unknowns.len();
     let body = if unknowns == 1 {
         quote! {
-            let Self { M, h, rounding } = *self;
+            let Self { M, h, rounding, .. } = *self;
             if !(M.abs() > rounding) {
                 return Err(Error::NoInertia { scene: #name });
             }
