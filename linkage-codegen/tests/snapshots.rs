@@ -96,7 +96,15 @@ fn every_stage_of_every_example() {
 
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
 /// cylinders, slots, welds, gears, inner slides.
-const OTHERS: [(&str, &str); 11] = [
+const OTHERS: [(&str, &str); 12] = [
+    (
+        "bounded",
+        "/// A slider-crank whose results come with bounds of their rounding errors.
+        pub mod bounded; ground { O: (0, 0) } link crank { O -> A: 0.25m } link rod { A -> B: 1m } link piston { B }
+        revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> piston; prismatic C: ground.O -> piston.B along 0deg;
+        drive theta: O; unknown T: torque(ground -> crank); assemble B: ahead(A); load gas: force(piston.B);
+        scene hold: equilibrium -> (T, B, error_bound);",
+    ),
     (
         "adjustable",
         "/// A crank-rocker whose dimensions are given at run time.

@@ -253,6 +253,10 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
             _ => terms(),
         },
         Some(Wanted::Point(_)) => vector,
+        Some(Wanted::ErrorBound) => {
+            let others = Scene { results: without_bounds(scene), ..scene.clone() };
+            record(model, &others, zero)
+        }
         Some(Wanted::Resolved(_, along)) => {
             let names = if let Along::Path = along { ["tangential", "normal"] } else { ["axial", "transverse"] };
             Output::Record(names.map(|name| field(name, number.clone())).into())
@@ -270,4 +274,8 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
         Some(Wanted::Along(..)) => Output::Resolved([zero, zero]),
         Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..)) | None => number,
     }
+}
+
+fn without_bounds(scene: &Scene) -> Vec<Wanted> {
+    scene.results.iter().copied().filter(|wanted| *wanted != Wanted::ErrorBound).collect()
 }

@@ -10,6 +10,7 @@ mod expr;
 mod fold;
 pub mod number;
 pub mod real;
+pub mod rounding;
 mod search;
 mod vector;
 
@@ -546,6 +547,12 @@ impl Graph {
     /// One.
     pub fn one(&self) -> Expr<'_> {
         self.integer(1)
+    }
+
+    /// The largest number of the number type.
+    pub fn largest(&self) -> Expr<'_> {
+        let largest = Number::from_f64(self.scalar.largest()).unwrap_or_else(Number::one);
+        self.constant(&largest)
     }
 
     /// A multiple of the number type's epsilon.

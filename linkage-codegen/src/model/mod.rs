@@ -533,7 +533,7 @@ pub enum LoadKind {
 }
 
 /// What is wanted.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// Its name.
     pub name: Name,
@@ -605,6 +605,8 @@ pub enum Wanted {
     Inertia(LinkId),
     /// Where a single force is equivalent to them.
     Offset(LinkId),
+    /// Bounds of the rounding errors of all other results.
+    ErrorBound,
     /// A part of the equation of motion.
     Part(Part),
 }
@@ -748,6 +750,7 @@ impl Model {
             Wanted::Inertia(id) => format!("{}_inertia", link(id)?),
             Wanted::Offset(id) => format!("{}_offset", link(id)?),
             Wanted::Part(part) => part.name().to_owned(),
+            Wanted::ErrorBound => scenes::ERROR_BOUND.to_owned(),
         })
     }
 

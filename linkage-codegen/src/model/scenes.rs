@@ -200,7 +200,6 @@ fn end_of(item: &ResultItem) -> ast::End {
         ResultItem::Point(link, point) => ast::End { link: link.clone(), point: Some(point.clone()) },
         ResultItem::Along(joint, _) | ResultItem::About(joint, _) => joint.clone(),
         ResultItem::OfLink(what, _) => ast::End { link: what.clone(), point: None },
-        ResultItem::Planned { of, .. } => of.clone(),
     }
 }
 
@@ -281,13 +280,6 @@ fn result(
         // Of a method that is not known, nothing is known of its results.
         _ if given.method.text != word(method) => Ok(None),
         _ if method == Method::Motion => part(item).map(Some),
-        ResultItem::Planned { of, place, what } => Err(Diagnostic::new(*place, format!("{what} is not supported yet"))
-            .help(match method {
-                Method::Equilibrium | Method::Superposition if names.find(Role::Joint, &of.link).is_ok() => {
-                    format!("ask for `{}` itself, and resolve it yourself", of.link)
-                }
-                _ => "leave it out".to_owned(),
-            })),
         ResultItem::Point(link, point) => {
             let place = link.place().to(point.place());
             let Some(id) = names.find(Role::Link, link)?.map(LinkId::new) else { return Ok(None) };
@@ -454,6 +446,13 @@ fn named_result(
             _ => Ok(Some(Wanted::Unknown(UnknownId::new(index)))),
         };
     }
+    if name.text == ERROR_BOUND && names.entry(ERROR_BOUND).is_none() {
+        return match method {
+            Method::Superposition => Err(cannot(given, name.place(), ERROR_BOUND, "the bound of the errors")
+                .help("`equilibrium` gives it, of one load too")),
+            _ => Ok(Some(Wanted::ErrorBound)),
+        };
+    }
     match names.entry(&name.text).map(|entry| (entry.role, entry.index)) {
         Some((Role::Broken, _)) => Ok(None),
         Some((Role::Joint, index)) => match method {
@@ -496,6 +495,9 @@ fn named_result(
         }
     }
 }
+
+/// The word for the bounds of all errors among a scene's results.
+pub(crate) const ERROR_BOUND: &str = "error_bound";
 
 fn cannot(given: &ast::Scene, place: Place, result: &str, what: &str) -> Diagnostic {
     Diagnostic::new(place, format!("`{}` cannot give `{result}`: {what} is not among its results", given.method))
@@ -655,5 +657,6 @@ fn types_of(model: &Model, scene: &Scene) -> Vec<String> {
     });
     let records = records.chain(resolved.map(|name| format!("{base}{}", type_name(&name))));
     let parts = (scene.method == Method::Superposition).then(|| format!("{base}Contribution"));
-    core::iter::once(base.clone()).chain(parts).chain(records).collect()
+    let bounds = scene.results.contains(&Wanted::ErrorBound).then(|| format!("{base}ErrorBound"));
+    core::iter::once(base.clone()).chain(parts).chain(bounds).chain(records).collect()
 }

@@ -6,10 +6,10 @@ use super::output::Meaning;
 use super::pivots::Pivots;
 use super::placement::Placement;
 use crate::diagnostics::{Diagnostic, list};
-use crate::graph::{Expr, Graph, Symbol};
+use crate::graph::{Expr, Graph, Symbol, Vector};
 use crate::model::ids::{DriveId, JointId, LinkId};
 use crate::model::units::Kind;
-use crate::model::{Closure, Model, Side};
+use crate::model::{Closure, Model, Side, Wanted};
 use crate::topology::{Group, Topology};
 
 /// A pivot of a dyad: zero at its dead centre, and where it is no larger than its rounding.
@@ -43,6 +43,40 @@ impl<'m> DyadPivot<'m> {
     }
 }
 
+/// How a group in two unknowns was closed: from what is left of its closure follows how far its solution is off.
+#[derive(Clone, Debug)]
+pub struct ClosedLoop<'m> {
+    /// What should be zero, of the values as they are found.
+    pub residual: Vector<'m>,
+    /// What was found.
+    pub found: [Found<'m>; 2],
+    /// The first column × the second one, in magnitude.
+    pub determinant: Expr<'m>,
+    /// Values that the closure gave beside, each with the same from what was found.
+    pub beside: Vec<(Expr<'m>, Expr<'m>)>,
+}
+
+/// An unknown of a closed loop, and by what vector the residual changes with it.
+#[derive(Clone, Copy, Debug)]
+pub enum Found<'m> {
+    /// A direction.
+    Direction {
+        /// The unit vector.
+        direction: Vector<'m>,
+        /// Change of the residual with its angle.
+        column: Vector<'m>,
+        /// Change of the residual with its size.
+        arm: Vector<'m>,
+    },
+    /// A length.
+    Length {
+        /// Its value.
+        length: Expr<'m>,
+        /// Change of the residual with it.
+        column: Vector<'m>,
+    },
+}
+
 /// What the groups solved so far have placed.
 #[derive(Debug)]
 pub struct Assembly<'m> {
@@ -52,6 +86,8 @@ pub struct Assembly<'m> {
     pub pivots: Pivots<'m>,
     /// The dyads' pivots.
     pub dyads: Vec<DyadPivot<'m>>,
+    /// How dyads were closed, in their order.
+    pub loops: Vec<ClosedLoop<'m>>,
     /// The groups of motion.
     pub topology: &'m Topology,
     /// The links that are placed by iteration, from a start.
@@ -67,6 +103,7 @@ impl<'m> Assembly<'m> {
             placement: Placement::of_ground(model),
             pivots: Pivots::default(),
             dyads: Vec::new(),
+            loops: Vec::new(),
             topology,
             started: BTreeSet::new(),
             used: BTreeSet::new(),
@@ -89,6 +126,13 @@ impl<'m> Assembly<'m> {
     #[must_use]
     pub fn coordinate(&self, drive: DriveId) -> Expr<'m> {
         self.graph().symbol(Symbol::Drive(drive))
+    }
+
+    /// A loop is closed. How is of interest to bounds of errors alone.
+    pub fn closed(&mut self, how: impl FnOnce() -> ClosedLoop<'m>) {
+        if self.model().scenes.iter().any(|scene| scene.results.contains(&Wanted::ErrorBound)) {
+            self.loops.push(how());
+        }
     }
 
     /// The declared closure of a group with this inner joint.

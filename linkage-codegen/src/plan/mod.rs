@@ -7,6 +7,7 @@ mod assembly;
 mod balance;
 mod dynamics;
 pub mod efforts;
+mod error_bound;
 mod framed;
 mod half_angle;
 mod linear;
@@ -164,10 +165,14 @@ impl Plan {
             accelerations: accelerations.as_ref(),
         };
         let links = placed_links(posed);
+        let accessors = accessors(&assembly);
+        let mut pose = kept(&assembly);
+        let mut scenes = scenes::outputs(&assembly, posed, [&motion_rules, &force_rules], (system, &links), sink);
+        pose.extend(error_bound::add(&assembly, &mut scenes, &pose, sink));
         let plan = Self {
-            pose: kept(&assembly),
-            accessors: accessors(&assembly),
-            scenes: scenes::outputs(&assembly, posed, [&motion_rules, &force_rules], (system, &links), sink),
+            pose,
+            accessors,
+            scenes,
             links,
             motion_rules: motion_rules.iter().map(|rule| rule.class()).collect(),
             force_rules: force_rules.iter().map(|rule| rule.class()).collect(),

@@ -553,13 +553,4 @@ pub enum ResultItem {
     About(End, End),
     /// `inertia(rod)` or `offset(rod)`
     OfLink(Name, Name),
-    /// A form that is not carried out yet.
-    Planned {
-        /// What it is about.
-        of: End,
-        /// The whole.
-        place: Place,
-        /// What it is called.
-        what: &'static str,
-    },
 }

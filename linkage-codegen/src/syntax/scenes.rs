@@ -76,7 +76,6 @@ fn shown(result: &ResultItem) -> String {
         ResultItem::Along(joint, link) => format!("{} along {link}", joint.written()),
         ResultItem::About(joint, point) => format!("{} about {}", joint.written(), point.written()),
         ResultItem::OfLink(what, link) => format!("{what}({link})"),
-        ResultItem::Planned { .. } => "…".into(),
     }
 }
 
@@ -97,10 +96,6 @@ fn result(input: ParseStream<'_>) -> Result<ResultItem> {
     }
     if eat_word(input, "about") {
         return Ok(ResultItem::About(item, end(input)?));
-    }
-    let planned = |place, what| ResultItem::Planned { of: item.clone(), place, what };
-    if item.point.is_none() && item.link.text == "error_bound" {
-        return Ok(planned(item.place(), "the bound of the error"));
     }
     Ok(match item.point {
         None => ResultItem::Name(item.link),

@@ -20,7 +20,7 @@ use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Scalar, Vector};
 use crate::model::{Closure, End, Model, Side};
-use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::half_angle::{HalfAngle, first_dyad_on};
@@ -214,7 +214,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let difference = (r1 - r2) * (r1 + r2);
     let inverse = (assembly.graph().one() / closing.d2).named(format!("inverse_D2_{name}"), "");
     let legs = [(first, r1, r2, closing.d2 + difference, 1), (second, r2, r1, closing.d2 - difference, -1)];
-    let mut directions = [closing.d; 2];
+    let (mut directions, mut closed) = ([closing.d; 2], Vec::new());
     for (found, (leg, own, other, sum, sense)) in directions.iter_mut().zip(legs) {
         let link = dyad.link_name(leg);
         let (mine, its) = (dyad.length_name(leg), dyad.length_name(dyad.other(leg)));
@@ -232,6 +232,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         let direction = normalised(rough, own, other, &link);
         let meaning = format!("direction of {link} from {} to {name}", dyad.joint_name(leg.outer));
         let direction = direction.named_direction(&link, &meaning);
+        closed.push(direction);
         *found = dyad.orient(assembly, leg, direction)?;
         assembly.placement.connect(leg.outer);
     }
@@ -254,6 +255,19 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
             dyad.link_name(second)
         ),
     );
+    if let [u1, u2] = closed[..] {
+        let legs = [u1.scaled(r1), u2.scaled(-r2)];
+        assembly.closed(|| ClosedLoop {
+            residual: legs[0] + legs[1] - closing.d,
+            found: [(u1, legs[0]), (u2, legs[1])].map(|(direction, arm)| Found::Direction {
+                direction,
+                column: arm.perp(),
+                arm,
+            }),
+            determinant: (r1 * r2 * sine).abs(),
+            beside: vec![(sine, u1.cross(u2))],
+        });
+    }
     let pivot = closing.significant.iter().fold(sine, |pivot, (value, limit)| pivot.where_above(*value, *limit));
     let pivot =
         pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding").held();

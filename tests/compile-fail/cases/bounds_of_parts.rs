@@ -24,7 +24,7 @@ linkage! {
 
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
-    scene bounded: equilibrium -> (T12, error_bound);
+    scene bounded: superposition -> (T12, error_bound);
 }
 
 fn main() {

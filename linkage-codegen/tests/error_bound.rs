@@ -1,0 +1,229 @@
+//! The bound of the rounding errors: never too small, and not far too large: how far grows with the number of groups that follow each
+//! other, because bounds add up what in truth often cancels.
+
+mod support;
+
+use std::collections::HashMap;
+
+use linkage_codegen::Linkage;
+use linkage_codegen::graph::real::Real;
+use linkage_codegen::program::Fault;
+use support::families::{boom, four_bar, length, oscillating_block, scotch_yoke, slider_crank, tangent_mechanism};
+use support::linkages::{Kind, Random, sample};
+use support::numbers::{Double, Extended, Single};
+use support::{Arguments, Number, compile_if_it_closes, from_pose, pose, scene};
+
+/// A scene `bounded` with all that equilibrium gives, and the bounds; a scene `alone` without them.
+fn with_bounds(text: &str) -> Option<Linkage> {
+    let linkage = compile_if_it_closes(text)?;
+    let unknowns = linkage.model.unknowns.iter().map(|unknown| unknown.name.clone());
+    let joints = linkage.model.joints.iter().map(|joint| joint.name.text.clone());
+    let results: Vec<String> = unknowns.chain(joints).collect();
+    let results = results.join(", ");
+    compile_if_it_closes(&format!(
+        "{text} scene bounded: equilibrium -> ({results}, error_bound); scene alone: equilibrium -> ({results});"
+    ))
+}
+
+/// The ratios of all bounds to the true errors, over those that rounding has reached at all; panics where a bound is too small.
+fn ratios<T: Number>(linkage: &Linkage, arguments: &Arguments, found: &HashMap<String, T>, context: &str) -> Vec<f64> {
+    let exact = scene::<Extended>(linkage, "alone", arguments).expect("regular where doubles are");
+    let results = found.iter().filter(|(path, _)| !path.starts_with("error_bound."));
+    let ratios = results.filter_map(|(path, value)| {
+        let error = Extended::exactly(value.to_f64()).sub(&exact[path]).to_f64().abs();
+        let bound = found[&format!("error_bound.{path}")].to_f64();
+        assert!(error <= bound, "{path} = {} is off by {error:e}, bound {bound:e}\n{context}", value.to_f64());
+        (error > 0.0).then(|| bound / error)
+    });
+    ratios.collect()
+}
+
+/// The ratios of a scene from the drives and from a pose.
+fn check<T: Number>(linkage: &Linkage, arguments: &Arguments, context: &str) -> Vec<f64> {
+    let found = match scene::<T>(linkage, "bounded", arguments) {
+        Ok(found) => found,
+        Err(Fault::Failed(_)) => return Vec::new(),
+        Err(Fault::NotFinite) => panic!("not finite\n{context}"),
+    };
+    let mut all = ratios(linkage, arguments, &found, context);
+    let index = linkage.model.scenes.iter().position(|scene| scene.name.text == "bounded").expect("the scene");
+    let program = &linkage.functions.scenes[index].from_pose;
+    let pose = pose::<T>(linkage, arguments).expect("a pose");
+    let values = from_pose(linkage, program, &pose, arguments).expect("from the pose as from the drives");
+    let found = program.outputs.iter().map(|(path, _)| path.clone()).zip(values).collect();
+    all.extend(ratios(linkage, arguments, &found, context));
+    all
+}
+
+/// What is given counts as exact: numbers that single precision holds.
+#[allow(clippy::cast_possible_truncation, reason = "that is the point")]
+fn in_single_precision(arguments: &Arguments) -> Arguments {
+    let round = |x: &f64| f64::from(*x as f32);
+    Arguments {
+        drives: arguments.drives.iter().map(round).collect(),
+        loads: arguments.loads.iter().map(|load| load.map(|x| round(&x))).collect(),
+        params: arguments.params.iter().map(round).collect(),
+        motion: arguments.motion.clone(),
+    }
+}
+
+fn median(mut ratios: Vec<f64>) -> f64 {
+    ratios.sort_by(f64::total_cmp);
+    ratios[ratios.len() / 2]
+}
+
+fn random_linkages(seeds: core::ops::Range<u64>, scalar: &'static str) {
+    let mut all = Vec::new();
+    for seed in seeds {
+        let kind = Kind {
+            dyads: 1 + usize::try_from(seed % 3).unwrap(),
+            sliders: true,
+            joints: seed % 2 == 0,
+            unknown_anywhere: false,
+            params: seed % 5 == 0,
+            moving: false,
+            scalar,
+        };
+        let sample = sample(seed, kind);
+        let Some(linkage) = with_bounds(&sample.text) else { continue };
+        all.extend(match scalar {
+            "f32" => check::<Single>(&linkage, &in_single_precision(&sample.arguments), &sample.text),
+            _ => check::<Double>(&linkage, &sample.arguments, &sample.text),
+        });
+    }
+    let count = all.len();
+    let median = median(all);
+    println!("{scalar}: {count} results, median of bound over error {median:.1}");
+    assert!(count > 100 && median < 600.0, "{scalar}: {count} results, median {median:.1}");
+}
+
+#[test]
+fn of_random_linkages() {
+    random_linkages(0..60, "f64");
+    random_linkages(60..90, "f32");
+}
+
+#[test]
+#[ignore = "long"]
+fn of_thousands_of_random_linkages() {
+    random_linkages(1000..4000, "f64");
+    random_linkages(4000..5000, "f32");
+}
+
+/// Poses all around, dead centres among them, of every kind of dyad.
+fn around(seed: u64, count: usize, poses: usize) {
+    type Text = fn(&mut Random) -> String;
+    let kinds: [(&str, f64, Text); 6] = [
+        ("four-bars", 150.0, |random| four_bar([0; 4].map(|_| length(random, 0.1, 2.0)), random)),
+        ("slider-cranks", 100.0, |random| {
+            slider_crank([length(random, 0.1, 1.0), length(random, 0.3, 3.0), length(random, -0.5, 0.5)], random)
+        }),
+        ("oscillating blocks", 100.0, |random| {
+            oscillating_block([length(random, 0.3, 2.0), length(random, 0.1, 2.0), length(random, -0.5, 0.5)], random)
+        }),
+        ("tangent mechanisms", 100.0, |random| {
+            tangent_mechanism(
+                [length(random, 0.3, 2.0), length(random, -0.5, 0.5), length(random, 60.0, 120.0)],
+                random,
+            )
+        }),
+        ("Scotch yokes", 100.0, |random| {
+            scotch_yoke([length(random, 0.3, 2.0), length(random, -0.5, 0.5), length(random, 45.0, 135.0)], random)
+        }),
+        ("booms", 250.0, |random| {
+            boom([length(random, 0.5, 2.0), length(random, 0.5, 2.0), length(random, -0.2, 0.2)], random)
+        }),
+    ];
+    for (name, limit, text) in kinds {
+        let mut random = Random(seed);
+        let mut all = Vec::new();
+        for _ in 0..count {
+            let text = text(&mut random);
+            let Some(linkage) = with_bounds(&text) else { continue };
+            for _ in 0..poses {
+                let range = if name == "booms" { 0.5..3.0 } else { -1.2..1.2 };
+                let drives = vec![random.range(range.start, range.end)];
+                let loads = vec![[random.range(-50.0, 50.0), random.range(-50.0, 50.0)]; 2];
+                all.extend(check::<Double>(
+                    &linkage,
+                    &Arguments { drives, loads, params: Vec::new(), motion: Vec::new() },
+                    &text,
+                ));
+            }
+        }
+        let count = all.len();
+        let median = median(all);
+        println!("{name}: {count} results, median of bound over error {median:.1}");
+        assert!(count > 100 && median < limit, "{name}: {count} results, median {median:.1}");
+    }
+}
+
+#[test]
+fn of_every_kind_of_dyad() {
+    around(5, 12, 10);
+}
+
+#[test]
+#[ignore = "long"]
+fn of_many_of_every_kind_of_dyad() {
+    around(6, 300, 40);
+}
+
+/// Towards the toggle position errors grow without limit, and the bound with them.
+#[test]
+fn near_dead_centres() {
+    let text = "pub mod sample; ground { A0: (0, 0), B0: (1.5m, 0) } link crank { A0 -> A: 0.5m }
+         link coupler { A -> B: 1m, C: (0.25m, 0.125m) } link rocker { B0 -> B: 1m, D: (0.5m, -0.25m) }
+         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+         drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0);
+         load F: force(coupler.C); load H: force(rocker.D);";
+    let linkage = with_bounds(text).expect("closes");
+    let mut before = 0.0;
+    for exponent in 1..=7 {
+        let drives = vec![core::f64::consts::PI - 10f64.powi(-exponent)];
+        let arguments =
+            Arguments { drives, loads: vec![[10.0, -20.0], [-5.0, 30.0]], params: Vec::new(), motion: Vec::new() };
+        let Ok(found) = scene::<Double>(&linkage, "bounded", &arguments) else { continue };
+        ratios(&linkage, &arguments, &found, text);
+        let bound = found["error_bound.B.x"].to_f64();
+        assert!(bound > before, "{bound:e} at 1e-{exponent}");
+        before = bound;
+    }
+    assert!(before > 0.0);
+}
+
+/// Of places, velocities and accelerations too, and of inertia.
+#[test]
+fn of_motion() {
+    let text = "pub mod sample; ground { A0: (0, 0), B0: (1.5m, 0) } link crank { A0 -> A: 0.5m }
+         link coupler { A -> B: 1.1m, C: (0.25m, 0.125m) } link rocker { B0 -> B: 1.2m, D: (0.5m, -0.25m) }
+         mass coupler: 3kg at C, inertia 0.2kg*m^2; mass rocker: 2kg at D;
+         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+         drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0); load I: inertia;
+         scene place: position -> (B, coupler.C, rocker.angle, error_bound); scene v: velocity -> (B, coupler.angle, error_bound);
+         scene a: acceleration -> (B, coupler.C, rocker.angle, error_bound); scene f: equilibrium -> (T, B, error_bound);
+         scene w: virtual_work -> (T, error_bound);";
+    let linkage = support::compile(text);
+    let mut random = Random(77);
+    let mut all = Vec::new();
+    for _ in 0..40 {
+        let drives = vec![random.range(-3.0, 3.0)];
+        let motion = vec![[random.range(-20.0, 20.0), random.range(-300.0, 300.0)]];
+        let arguments = Arguments { drives, loads: vec![[0.0; 2]], params: Vec::new(), motion };
+        for name in ["place", "v", "a", "f", "w"] {
+            let Ok(found) = scene::<Double>(&linkage, name, &arguments) else { continue };
+            let exact = scene::<Extended>(&linkage, name, &arguments).expect("regular where doubles are");
+            for (path, value) in found.iter().filter(|(path, _)| !path.starts_with("error_bound.")) {
+                let error = Extended::exactly(value.to_f64()).sub(&exact[path]).to_f64().abs();
+                let bound = found[&format!("error_bound.{path}")].to_f64();
+                assert!(error <= bound, "{name}: {path} is off by {error:e}, bound {bound:e}");
+                if error > 0.0 {
+                    all.push(bound / error);
+                }
+            }
+        }
+    }
+    let (count, median) = (all.len(), median(all));
+    println!("motion: {count} results, median of bound over error {median:.1}");
+    assert!(count > 500 && median < 300.0, "{count} results, median {median:.1}");
+}
