@@ -26,8 +26,9 @@ linkage! {
 }
 
 fn main() {
+    let motion = lever::Motion { theta_rate: 1.0 };
     let pose = lever::Pose::at(1.0).unwrap();
-    println!("{}", pose.control().unwrap().M);
-    println!("{}", pose.sound().unwrap().acceleration(3.0).unwrap());
-    println!("{}", massless::control_at(1.0).unwrap().h);
+    println!("{}", pose.control(&motion).unwrap().M);
+    println!("{}", pose.sound(&motion).unwrap().acceleration(3.0).unwrap());
+    println!("{}", massless::control_at(1.0, &massless::Motion { theta_rate: 1.0 }).unwrap().h);
 }
