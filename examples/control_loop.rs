@@ -142,7 +142,7 @@ fn main() -> Result<(), Error> {
     let open = state.driven + state.loaded - kinetic - potential;
     println!("  balance                       {open:>12.1e}");
     let size = state.driven.abs() + state.loaded.abs() + kinetic.abs() + potential.abs();
-    assert!(open.abs() < 1e-6 * size, "the balance of energy is open by {open:e} of {size:e}");
+    assert!(open.abs() < 1e-9 * size, "the balance of energy is open by {open:e} of {size:e}");
     assert!((state.theta - planned(f64::from(STEPS) * STEP)[0]).abs() < 1e-3, "the crank does not follow");
     Ok(())
 }
