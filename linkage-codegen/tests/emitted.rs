@@ -60,6 +60,7 @@ declared! { CRUSHER:
     scene held: equilibrium; scene parts: superposition(I, K); scene work: virtual_work(Ij, D, W);
     scene speeds: velocity; scene accelerations: acceleration;
     scene more: acceleration -> (B along jaw, jaw.T along path, S, inertia(ram), offset(jaw), offset(rod));
+    scene control: motion(I, W, K) -> (M, h, rounding, M_kinetic); scene light: motion(Ij) -> (M);
 }
 
 /// All numbers of a result, in the order of its fields.
@@ -342,6 +343,18 @@ fn in_motion() {
             &arguments,
             &crusher::more_at(&linkage, theta, x, &motion),
             &pose.and_then(|pose| pose.more(&motion)),
+        );
+        interpreted.check(
+            "control",
+            &arguments,
+            &crusher::control_at(&linkage, theta, x, &motion, &loads),
+            &pose.and_then(|pose| pose.control(&motion, &loads)),
+        );
+        interpreted.check(
+            "light",
+            &arguments,
+            &crusher::light_at(&linkage, theta, x),
+            &pose.and_then(|pose| pose.light()),
         );
     }
 }

@@ -99,6 +99,10 @@ pub(super) fn scene_summary(linkage: &Linkage, index: usize, from_pose: bool) ->
         Method::Equilibrium => format!("Equilibrium under {loads}, {from}."),
         Method::Superposition => format!("Equilibrium under each of {loads} by itself, {from}."),
         Method::VirtualWork => format!("Virtual work of {loads}, {from}."),
+        Method::Motion => {
+            let with = if scene.loads.is_empty() { String::new() } else { format!(" with {loads}") };
+            format!("The reduced equation of motion `τ = M q̈ + h`{with}, {from}.")
+        }
         Method::Verify => {
             format!("Equilibrium, superposition, virtual work and the general solution against each other, {from}.")
         }

@@ -12,7 +12,7 @@ use super::{docs, prepared_names};
 use crate::Linkage;
 use crate::graph::Symbol;
 use crate::model::ids::{DriveId, LoadId};
-use crate::model::{LoadKind, Method, type_name};
+use crate::model::{LoadKind, Method, Model, type_name};
 use crate::plan::{Comparison, Output};
 use crate::program::{Input, Program, ValueId};
 
@@ -150,6 +150,19 @@ fn result(
         Output::Vector(..) => {
             let (x, y) = (next(), next());
             quote!(Vector2::new(#x, #y))
+        }
+        Output::Column(values) => {
+            let values = values.iter().map(|_| next()).collect::<Vec<_>>();
+            quote!(SVector::from([#(#values),*]))
+        }
+        Output::Matrix(rows) => {
+            let rows: Vec<Vec<TokenStream>> = rows.iter().map(|row| row.iter().map(|_| next()).collect()).collect();
+            let columns = (0..rows.len()).map(|column| {
+                let values = rows.iter().filter_map(|row| row.get(column));
+                quote!([#(#values),*])
+            });
+            let columns = columns.collect::<Vec<_>>();
+            quote!(SMatrix::from([#(#columns),*]))
         }
         Output::Resolved(_) => {
             let (axial, transverse) = (next(), next());
@@ -432,6 +445,83 @@ fn given_arguments(program: &Program) -> TokenStream {
     let motion = program.reads_motion().then(|| quote!(, motion: &Motion));
     let loads = program.reads_loads().then(|| quote!(, loads: &Loads));
     quote!(#motion #loads)
+}
+
+/// Of an equation of motion, the accelerations that follow from efforts; none if a part of it is missing.
+pub(super) fn forward(model: &Model, index: usize) -> TokenStream {
+    let name = &model.scenes[index].name.text;
+    let Some(signature) = super::types::forward_signature(model, index) else { return TokenStream::new() };
+    let ty = ident(&type_name(name));
+    let unknowns = model.unknowns.len();
+    let body = if unknowns == 1 {
+        quote! {
+            let Self { M, h, rounding, .. } = *self;
+            if !(M.abs() > rounding) {
+                return Err(Error::NoInertia { scene: #name });
+            }
+            let acceleration = (effort - h) / M;
+            if !math::all_finite([acceleration]) {
+                return Err(Error::NotFinite { what: "an effort or an acceleration" });
+            }
+            Ok(acceleration)
+        }
+    } else {
+        // A pivot counts against the rounding that the same elimination makes of that of the masses.
+        let number = |name: &str, row: usize, column: usize| ident(&format!("{name}_{}_{}", row + 1, column + 1));
+        let list = |one: &dyn Fn(usize) -> TokenStream| {
+            let all = (0..unknowns).map(one).collect::<Vec<_>>();
+            quote!([#(#all),*])
+        };
+        // Matrices of nalgebra are stored by columns.
+        let [by_rows, by_columns] = [false, true].map(|by_columns| {
+            move |name: &'static str| {
+                list(&|outer| {
+                    list(&|inner| {
+                        let (row, column) = if by_columns { (inner, outer) } else { (outer, inner) };
+                        let name = number(name, row, column);
+                        quote!(#name)
+                    })
+                })
+            }
+        });
+        let part = |name: &str, row: usize| ident(&format!("{name}_{}", row + 1));
+        let [efforts, biases] = ["effort", "h"].map(|name| {
+            list(&|row| {
+                let name = part(name, row);
+                quote!(#name)
+            })
+        });
+        let open = list(&|row| {
+            let (effort, bias) = (part("effort", row), part("h", row));
+            quote!(#effort - #bias)
+        });
+        let [masses, roundings] = ["M", "rounding"].map(by_columns);
+        let [matrix, sizes] = ["M", "rounding"].map(by_rows);
+        quote! {
+            let (#masses, #roundings) = (self.M.data.0, self.rounding.data.0);
+            let ([#biases], [#efforts]) = (self.h.data.0, effort.data.0);
+            let (accelerations, distance) = math::solve(#matrix, #sizes, #open);
+            if !(distance.abs() > 1.0) {
+                return Err(Error::NoInertia { scene: #name });
+            }
+            if !math::all_finite(accelerations) {
+                return Err(Error::NotFinite { what: "an effort or an acceleration" });
+            }
+            Ok(SVector::from(accelerations))
+        }
+    };
+    quote! {
+        impl #ty {
+            /// Forward dynamics: the accelerations of the drives under given efforts, `q̈ = M⁻¹ (τ − h)`.
+            ///
+            /// # Errors
+            ///
+            /// * [`Error::NoInertia`]: `M` is singular: no mass resists some acceleration, or none that is more than rounding.
+            /// * [`Error::NotFinite`]: an effort is not a finite number, or an acceleration is too large for one.
+            #[inline]
+            #signature { #body }
+        }
+    }
 }
 
 /// A scene straight from the drives.

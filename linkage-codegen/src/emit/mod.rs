@@ -77,8 +77,10 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     let sweeps: TokenStream = model.sweeps.iter().map(|sweep| sweeps::function(linkage, sweep, &runtime)).collect();
     let closures = types::closures(model, true);
     let sides = (!closures.is_empty()).then(|| quote!(use #runtime::{Along, Side};));
+    let matrices = model.has_matrices().then(|| quote!(use #runtime::nalgebra::{SMatrix, SVector};));
     let scenes = 0..model.scenes.len();
     let results: TokenStream = scenes.clone().map(|s| types::results(model, s, &linkage.plan.scenes[s])).collect();
+    let forward: TokenStream = scenes.clone().map(|s| functions::forward(model, s)).collect();
     let from_pose: TokenStream = scenes.clone().map(|s| functions::from_pose(linkage, s)).collect();
     let direct: TokenStream = scenes.map(|s| functions::direct(linkage, s)).collect();
     let (generics, elided) = if types::has_params(linkage) {
@@ -102,6 +104,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     };
                 #reference
                 #wrench
+                #matrices
                 #sides
 
                 /// The derivation: free bodies, equilibrium equations, reduction, closed forms.
@@ -123,6 +126,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
                     #from_pose
                 }
                 #results
+                #forward
                 #direct
                 #sweeps
                 #searches

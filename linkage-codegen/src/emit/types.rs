@@ -1,6 +1,6 @@
 //! The types of a module: loads, parameters, pose, results.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::literals::{ident, signed_literal};
@@ -8,7 +8,7 @@ use crate::Linkage;
 use crate::graph::Order;
 use crate::model::ids::{GROUND, JointId, LoadId};
 use crate::model::units::Kind;
-use crate::model::{Drive, Load, LoadKind, Method, Model, type_name};
+use crate::model::{Drive, Load, LoadKind, Method, Model, Part, Wanted, type_name};
 use crate::plan::Output;
 
 /// The scalar type.
@@ -289,6 +289,14 @@ pub(super) fn output_type(model: &Model, output: &Output, record: &str) -> Token
     match output {
         Output::Scalar(..) => quote!(#scalar),
         Output::Vector(..) => quote!(Vector2<#scalar>),
+        Output::Column(values) => {
+            let size = Literal::usize_unsuffixed(values.len());
+            quote!(SVector<#scalar, #size>)
+        }
+        Output::Matrix(rows) => {
+            let size = Literal::usize_unsuffixed(rows.len());
+            quote!(SMatrix<#scalar, #size, #size>)
+        }
         Output::Resolved(_) => quote!(ResolvedForce<#scalar>),
         Output::Reaction { ty, .. } => {
             let ty = ident(ty);
@@ -301,6 +309,23 @@ pub(super) fn output_type(model: &Model, output: &Output, record: &str) -> Token
             quote!(#name)
         }
     }
+}
+
+/// The head of the function that gives accelerations, where a scene has what it needs.
+pub(super) fn forward_signature(model: &Model, index: usize) -> Option<TokenStream> {
+    let scene = &model.scenes[index];
+    let has = |part| scene.results.contains(&Wanted::Part(part));
+    if scene.method != Method::Motion || ![Part::Mass, Part::Bias, Part::Rounding].into_iter().all(has) {
+        return None;
+    }
+    let scalar = scalar(model);
+    let ty = if model.unknowns.len() == 1 {
+        quote!(#scalar)
+    } else {
+        let size = Literal::usize_unsuffixed(model.unknowns.len());
+        quote!(SVector<#scalar, #size>)
+    };
+    Some(quote!(pub fn acceleration(&self, effort: #ty) -> Result<#ty, Error>))
 }
 
 /// The name of the type of a record in a record.

@@ -594,6 +594,8 @@ pub enum Method {
     Superposition,
     /// By velocities of the loads' points.
     VirtualWork,
+    /// The reduced equation of motion.
+    Motion,
     /// All of these against the general solution.
     Verify,
 }
@@ -603,6 +605,12 @@ impl Method {
     #[must_use]
     pub fn has_loads(self) -> bool {
         !matches!(self, Self::Position | Self::Velocity | Self::Acceleration)
+    }
+
+    /// Whether there is nothing to it without loads.
+    #[must_use]
+    pub fn needs_loads(self) -> bool {
+        self.has_loads() && self != Self::Motion
     }
 }
 
@@ -637,6 +645,37 @@ pub enum Wanted {
     Power(Option<UnknownId>),
     /// Bounds of the rounding errors of all other results.
     ErrorBound,
+    /// A part of the equation of motion.
+    Part(Part),
+}
+
+/// A part of the reduced equation of motion `τ = M q̈ + h`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The efforts for unit accelerations.
+    Mass,
+    /// The efforts without accelerations.
+    Bias,
+    /// What of the masses may be nothing but rounding.
+    Rounding,
+    /// The kinetic energy for unit rates, twice.
+    Kinetic,
+}
+
+impl Part {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Mass, Self::Bias, Self::Rounding, Self::Kinetic];
+
+    /// How it is called.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mass => "M",
+            Self::Bias => "h",
+            Self::Rounding => "rounding",
+            Self::Kinetic => "M_kinetic",
+        }
+    }
 }
 
 /// What moves.
@@ -752,6 +791,7 @@ impl Model {
             Wanted::OnGround(end) => format!("ground_about_{}", point(end)?),
             Wanted::Power(None) => "power".to_owned(),
             Wanted::Power(Some(unknown)) => format!("{}_power", self.unknowns.get(unknown.index())?.name),
+            Wanted::Part(part) => part.name().to_owned(),
             Wanted::ErrorBound => scenes::ERROR_BOUND.to_owned(),
         })
     }
@@ -788,7 +828,7 @@ impl Model {
     #[must_use]
     pub fn moves(&self) -> bool {
         self.accelerates()
-            || self.scenes.iter().any(|scene| scene.method == Method::Velocity || scene.has_power())
+            || self.scenes.iter().any(|scene| matches!(scene.method, Method::Velocity | Method::Motion) || scene.has_power())
             || self.loads.iter().any(|load| load.kind.depends_on_motion())
     }
 
@@ -796,7 +836,7 @@ impl Model {
     #[must_use]
     pub fn scene_moves(&self, scene: &Scene) -> bool {
         let load = |load: &LoadId| self.loads.get(load.index()).is_some_and(|load| load.kind.depends_on_motion());
-        matches!(scene.method, Method::Velocity | Method::Acceleration)
+        matches!(scene.method, Method::Velocity | Method::Acceleration | Method::Motion)
             || scene.has_power()
             || scene.loads.iter().any(load)
     }
@@ -806,7 +846,8 @@ impl Model {
     pub fn scene_accelerates(&self, scene: &Scene) -> bool {
         let inertia = |load: &LoadId| self.loads.get(load.index()).map(|load| &load.kind);
         scene.method == Method::Acceleration
-            || scene.loads.iter().filter_map(inertia).any(|kind| matches!(kind, LoadKind::Inertia))
+            || scene.method != Method::Motion
+                && scene.loads.iter().filter_map(inertia).any(|kind| matches!(kind, LoadKind::Inertia))
     }
 
     /// Whether any result is a resultant of forces.
@@ -821,6 +862,27 @@ impl Model {
     pub fn accelerates(&self) -> bool {
         self.scenes.iter().any(|scene| scene.method == Method::Acceleration)
             || self.loads.iter().any(|load| matches!(load.kind, LoadKind::Inertia))
+    }
+
+    /// Whether equations of motion have matrices, because there are several drives.
+    #[must_use]
+    pub fn has_matrices(&self) -> bool {
+        self.unknowns.len() > 1 && self.scenes.iter().any(|scene| scene.method == Method::Motion)
+    }
+
+    /// The links whose masses count in the equation of motion: those of its loads `inertia`, as often as these name them; all that have
+    /// mass, if it has no such load.
+    #[must_use]
+    pub fn moved_masses(&self, scene: &Scene) -> Vec<LinkId> {
+        let inertia =
+            scene.loads.iter().map(|load| self.load(*load)).filter(|load| matches!(load.kind, LoadKind::Inertia));
+        let named: Vec<&Load> = inertia.collect();
+        let links: Vec<LinkId> = if named.is_empty() {
+            self.moving_links().collect()
+        } else {
+            named.into_iter().flat_map(|load| load.links.iter().copied()).collect()
+        };
+        links.into_iter().filter(|link| self.link(*link).mass.is_some()).collect()
     }
 
     /// All links but the ground.

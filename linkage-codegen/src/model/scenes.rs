@@ -7,7 +7,7 @@ use super::ids::{GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
 use super::sweeps;
-use super::{Along, End, Method, Model, Scene, Spot, Wanted};
+use super::{Along, End, Method, Model, Part, Scene, Spot, Wanted};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
 use crate::syntax::{METHODS, PLANNED_METHODS};
@@ -28,14 +28,21 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         let method = sink.absorb(method(given)).unwrap_or_else(|| likely_method(&given.method.text));
         let loads = loads(model, given, method, names, sink);
         let (results, refused) = results(model, given, method, &loads, names, sink);
-        if unloaded && method.has_loads() && !told {
+        if unloaded && method.needs_loads() && !told {
             told = true;
             sink.report(
                 Diagnostic::new(given.name.place().to(given.method.place()), "there is no load to balance")
                     .help("declare one, as in `load F: force(coupler.C);`; only `position`, `velocity` and `acceleration` scenes need none"),
             );
         }
-        model.scenes.push(Scene { name: given.name.clone(), method, loads, results, refused });
+        let scene = Scene { name: given.name.clone(), method, loads, results, refused };
+        if method == Method::Motion && sink.is_clean() && model.moved_masses(&scene).is_empty() {
+            sink.report(
+                Diagnostic::new(given.method.place(), "no link has mass: nothing resists an acceleration")
+                    .help("give one to a link, as in `mass coupler: 0.5kg at (0, 0);`"),
+            );
+        }
+        model.scenes.push(scene);
     }
     sweeps::sweeps(model, ast, sink);
     if sink.is_clean() {
@@ -50,6 +57,7 @@ fn likely_method(word: &str) -> Method {
         "acceleration" => Method::Acceleration,
         "inverse" | "position" => Method::Position,
         "verify" => Method::Verify,
+        "motion" => Method::Motion,
         _ => Method::Equilibrium,
     }
 }
@@ -80,6 +88,7 @@ fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
         "equilibrium" => Ok(Method::Equilibrium),
         "superposition" => Ok(Method::Superposition),
         "virtual_work" => Ok(Method::VirtualWork),
+        "motion" => Ok(Method::Motion),
         "verify" if cfg!(feature = "reference") => Ok(Method::Verify),
         "verify" => {
             Err(Diagnostic::new(given.method.place(), "a scene can be verified only with the feature `reference`")
@@ -128,7 +137,7 @@ fn loads(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink:
             );
         }
     }
-    if listed.is_empty() {
+    if listed.is_empty() && method.needs_loads() {
         sink.report(
             Diagnostic::new(given.method.place(), "a scene without loads has nothing to balance")
                 .help("list its loads, or leave the parentheses out to have them all"),
@@ -274,6 +283,7 @@ fn all_results(model: &Model, method: Method, loads: &[LoadId]) -> Vec<Wanted> {
         }
         Method::Equilibrium | Method::Superposition => unknowns.chain(joints).collect(),
         Method::VirtualWork => unknowns.chain(loads.iter().copied().map(Wanted::Load)).collect(),
+        Method::Motion => [Part::Mass, Part::Bias, Part::Rounding].map(Wanted::Part).into(),
         Method::Verify => Vec::new(),
     }
 }
@@ -288,6 +298,7 @@ fn result(
     match item {
         // Of a method that is not known, nothing is known of its results.
         _ if given.method.text != word(method) => Ok(None),
+        _ if method == Method::Motion => part(item).map(Some),
         ResultItem::Point(link, point) => {
             let place = link.place().to(point.place());
             let Some(id) = names.find(Role::Link, link)?.map(LinkId::new) else { return Ok(None) };
@@ -483,8 +494,23 @@ fn word(method: Method) -> &'static str {
         Method::Equilibrium => "equilibrium",
         Method::Superposition => "superposition",
         Method::VirtualWork => "virtual_work",
+        Method::Motion => "motion",
         Method::Verify => "verify",
     }
+}
+
+/// A part of the equation of motion.
+fn part(item: &ResultItem) -> Result<Wanted, Diagnostic> {
+    let of = end_of(item);
+    let named = match item {
+        ResultItem::Name(name) => Part::ALL.into_iter().find(|part| part.name() == name.text),
+        _ => None,
+    };
+    named.map(Wanted::Part).ok_or_else(|| {
+        let names: Vec<&str> = Part::ALL.iter().map(|part| part.name()).collect();
+        Diagnostic::new(of.place(), format!("`motion` cannot give `{}`", of.written()))
+            .help(format!("its results are {}", list(&names)))
+    })
 }
 
 fn named_result(
@@ -590,9 +616,10 @@ pub(crate) const OWN_TYPES: [&str; 15] = [
     "GearReaction",
     "WorkTerm",
 ];
-/// The same, where there are parameters, where there is something to verify, where there are resultants, and where closures are chosen
-/// at run time.
-const FURTHER_TYPES: [&str; 6] = ["Default", "Verification", "Wrench", "Closures", "Side", "Along"];
+/// The same, where there are parameters, where there is something to verify, where there are resultants, where there are equations of motion
+/// of several drives, and where closures are chosen at run time.
+const FURTHER_TYPES: [&str; 8] =
+    ["Default", "Verification", "Wrench", "SMatrix", "SVector", "Closures", "Side", "Along"];
 
 /// What the generated functions read may not have two meanings under one name.
 fn check_values(model: &Model, sink: &Sink) {
@@ -680,8 +707,9 @@ fn check_generated_names(model: &Model, sink: &Sink) {
         }
     }
     let verifies = model.scenes.iter().any(|scene| scene.method == Method::Verify);
+    let (wrenches, matrices) = (model.has_wrenches(), model.has_matrices());
     let chooses = model.given_closures().next().is_some();
-    let further = [!model.params.is_empty(), verifies, model.has_wrenches(), chooses, chooses, chooses];
+    let further = [!model.params.is_empty(), verifies, wrenches, matrices, matrices, chooses, chooses, chooses];
     let further = FURTHER_TYPES.iter().zip(further).filter(|(_, there)| *there).map(|(name, _)| name);
     let mut types: BTreeMap<String, String> = OWN_TYPES
         .iter()

@@ -5,6 +5,7 @@
 
 mod assembly;
 mod balance;
+mod dynamics;
 pub mod efforts;
 mod error_bound;
 mod framed;
@@ -169,7 +170,7 @@ impl Plan {
         let links = placed_links(posed);
         let accessors = accessors(&assembly);
         let mut pose = kept(&assembly);
-        let mut scenes = scenes::outputs(&assembly, posed, &force_rules, (system, &links), sink);
+        let mut scenes = scenes::outputs(&assembly, posed, [&motion_rules, &force_rules], (system, &links), sink);
         pose.extend(error_bound::add(&assembly, &mut scenes, &pose, sink));
         let plan = Self {
             pose,

@@ -17,22 +17,23 @@ use crate::plan::output::Field;
 use crate::topology::Group;
 
 /// What the solution of forces needs.
-struct Forces<'a, 'm> {
-    model: &'m Model,
+pub(super) struct Forces<'a, 'm> {
+    pub(super) model: &'m Model,
     groups: &'a [Group],
     rules: &'a [&'static dyn Rule],
-    assembly: &'a Assembly<'m>,
+    pub(super) motion_rules: &'a [&'static dyn Rule],
+    pub(super) assembly: &'a Assembly<'m>,
     posed: Posed<'m, 'a>,
     /// The cases of each load.
     cases: Vec<Vec<(Case, Vec<Action>)>>,
-    sink: &'a Sink,
+    pub(super) sink: &'a Sink,
 }
 
 /// The results of all scenes.
 pub(super) fn outputs<'m>(
     assembly: &Assembly<'m>,
     posed: Posed<'m, '_>,
-    rules: &[&'static dyn Rule],
+    [motion_rules, rules]: [&[&'static dyn Rule]; 2],
     equations: (&System, &[PlacedLink]),
     sink: &Sink,
 ) -> Vec<Output> {
@@ -42,7 +43,7 @@ pub(super) fn outputs<'m>(
         cases_of(&posed, load)
     });
     let cases = cases.collect();
-    let forces = Forces { model, groups: &assembly.topology.forces, rules, assembly, posed, cases, sink };
+    let forces = Forces { model, groups: &assembly.topology.forces, rules, motion_rules, assembly, posed, cases, sink };
     model
         .scenes
         .iter()
@@ -53,6 +54,7 @@ pub(super) fn outputs<'m>(
             Method::Equilibrium => forces.equilibrium(scene),
             Method::Superposition => forces.superposition(scene),
             Method::VirtualWork => forces.virtual_work(scene),
+            Method::Motion => forces.equation_of_motion(scene),
             Method::Verify => forces.verify(scene, equations),
         })
         .collect()
@@ -323,7 +325,7 @@ impl<'m> Forces<'_, 'm> {
     }
 
     /// The virtual motion of every unknown, each with the unknown.
-    fn motions(&self) -> Vec<(UnknownId, Motion<'m, '_>)> {
+    pub(super) fn motions(&self) -> Vec<(UnknownId, Motion<'m, '_>)> {
         let unknowns = (0..self.model.unknowns.len()).map(UnknownId::new);
         let single = self.model.unknowns.len() == 1;
         let prefix =
@@ -337,7 +339,7 @@ impl<'m> Forces<'_, 'm> {
     }
 
     /// The effort that does as much work as the loads, with the opposite sign.
-    fn effort_by_work(&self, motion: &Motion<'m, '_>, loads: &Balance<'m, '_>) -> Expr<'m> {
+    pub(super) fn effort_by_work(&self, motion: &Motion<'m, '_>, loads: &Balance<'m, '_>) -> Expr<'m> {
         -self.model.moving_links().fold(self.model.graph.zero(), |sum, link| sum + motion.power_of(loads, link))
     }
 
@@ -730,7 +732,7 @@ fn about_doc(model: &Model, joint: JointId, at: End) -> String {
     format!("Couple on `{to}` by `{from}` at `{}`, about `{at}`, {moment}.", data.name)
 }
 
-fn unknown_meaning(model: &Model, unknown: UnknownId) -> Meaning {
+pub(super) fn unknown_meaning(model: &Model, unknown: UnknownId) -> Meaning {
     match model.unknown(unknown).kind {
         UnknownKind::Torque(..) => Meaning::Moment,
         UnknownKind::Drive(drive) if model.drive(drive).turns => Meaning::Moment,

@@ -20,7 +20,7 @@ use super::rules::Rule;
 use crate::diagnostics::Sink;
 use crate::equations::loads::Action;
 use crate::graph::{Expr, Graph, Vector};
-use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
+use crate::model::ids::{DriveId, GROUND, JointId, LinkId, UnknownId};
 use crate::model::{JointKind, Model, UnknownKind};
 use crate::topology::{Group, Input};
 
@@ -40,6 +40,8 @@ pub struct Twist<'m> {
 enum Purpose<'m, 'p> {
     /// The coordinate of one unknown changes at unit rate.
     Virtual(UnknownId),
+    /// One drive moves at unit rate, the others rest.
+    Unit(DriveId),
     /// The drives move at their rates.
     Velocity,
     /// The drives' accelerations, at these velocities.
@@ -56,6 +58,8 @@ pub struct Motion<'m, 'p> {
     /// What distinguishes the names of this motion.
     pub prefix: String,
     purpose: Purpose<'m, 'p>,
+    /// Of accelerations: whether the drives accelerate, too.
+    driven: bool,
     twists: Vec<Twist<'m>>,
     /// Of slides: how fast the second link slides along the first one.
     sliding: BTreeMap<JointId, Expr<'m>>,
@@ -67,7 +71,7 @@ impl<'m, 'p> Motion<'m, 'p> {
         let rest = Framed { components: graph.zero_vector(), axes: placement.direction(GROUND) };
         let still = Twist { rate: graph.zero(), at: graph.zero_vector(), velocity: rest };
         let twists = vec![still; placement.model.links.len()];
-        Self { placement, pivots, prefix, purpose, twists, sliding: BTreeMap::new() }
+        Self { placement, pivots, prefix, purpose, driven: true, twists, sliding: BTreeMap::new() }
     }
 
     /// The virtual motion of an unknown, before any group is solved.
@@ -87,6 +91,47 @@ impl<'m, 'p> Motion<'m, 'p> {
         Self::new(placement, pivots, Purpose::Velocity, String::new())
     }
 
+    /// The velocities at unit rate of one drive, before any group is solved.
+    #[must_use]
+    pub fn of_drive(placement: &'p Placement<'m>, pivots: &'p Pivots<'m>, drive: DriveId, prefix: String) -> Self {
+        Self::new(placement, pivots, Purpose::Unit(drive), prefix)
+    }
+
+    /// The velocities as the sum of those at unit rates, each times the rate of its drive.
+    #[must_use]
+    pub fn combined(units: &[&Motion<'m, 'p>], placement: &'p Placement<'m>, pivots: &'p Pivots<'m>) -> Self {
+        let mut sum = Self::velocities(placement, pivots);
+        let (model, graph) = (placement.model, placement.graph());
+        let ground = placement.direction(GROUND);
+        let rates = || model.drives.iter().map(|drive| graph.expr(drive.rate));
+        for link in model.moving_links() {
+            let Some(at) = units.first().map(|unit| unit.twists[link.index()].at) else { continue };
+            let mut twist = Twist { at, ..sum.twists[link.index()] };
+            for (unit, rate) in units.iter().zip(rates()) {
+                let Framed { components, axes } = unit.of_place(link, at);
+                twist.rate = twist.rate + rate * unit.rate(link);
+                twist.velocity = twist.velocity.plus(&Framed { components: components.scaled(rate), axes }, ground);
+            }
+            let name = &model.link(link).name;
+            twist.rate = twist.rate.named(format!("omega_{name}"), format!("rate of rotation of {name}"));
+            sum.found(link, twist);
+        }
+        let slides = units.first().map(|unit| unit.sliding.keys().copied().collect::<Vec<_>>()).unwrap_or_default();
+        for slide in slides {
+            let to = model.joint(slide).to.link;
+            let speeds = units.iter().zip(rates()).map(|(unit, rate)| rate * unit.sliding(slide, to));
+            let speed = speeds.fold(graph.zero(), |sum, speed| sum + speed);
+            sum.sliding.insert(slide, speed);
+        }
+        sum
+    }
+
+    /// What the accelerations are at these velocities without any of the drives, before any group is solved.
+    #[must_use]
+    pub fn undriven_accelerations(velocities: &'p Motion<'m, 'p>) -> Self {
+        Self { driven: false, ..Self::accelerations(velocities) }
+    }
+
     /// The accelerations at these velocities, before any group is solved.
     #[must_use]
     pub fn accelerations(velocities: &'p Motion<'m, 'p>) -> Self {
@@ -99,7 +144,9 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn through(mut self, groups: &[Group], rules: &[&dyn Rule], sink: &Sink) -> Self {
         let what = match self.purpose {
             Purpose::Virtual(_) => "virtual velocities",
+            Purpose::Unit(_) => "velocities at unit rate",
             Purpose::Velocity => "velocities",
+            Purpose::Acceleration(_) if !self.driven => "accelerations by the velocities alone",
             Purpose::Acceleration(_) => "accelerations",
         };
         for (index, (group, rule)) in groups.iter().zip(rules).enumerate() {
@@ -156,10 +203,18 @@ impl<'m, 'p> Motion<'m, 'p> {
                 };
                 if same { graph.one() } else { graph.zero() }
             }
+            (Purpose::Unit(own), Input::Drive(drive)) => {
+                if own == drive {
+                    graph.one()
+                } else {
+                    graph.zero()
+                }
+            }
+            (Purpose::Acceleration(_), Input::Drive(_)) if !self.driven => graph.zero(),
             (Purpose::Velocity, Input::Drive(drive)) => graph.expr(model.drive(drive).rate),
             (Purpose::Acceleration(_), Input::Drive(drive)) => graph.expr(model.drive(drive).acceleration),
             // Real motion is driven.
-            (Purpose::Velocity | Purpose::Acceleration(_), Input::Unknown(_)) => graph.zero(),
+            (Purpose::Unit(_) | Purpose::Velocity | Purpose::Acceleration(_), Input::Unknown(_)) => graph.zero(),
         }
     }
 
@@ -317,7 +372,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn lacking(&self, joint: JointId, needed: &Framed<'m>, has: &Framed<'m>) -> Framed<'m> {
         let gap = self.difference(needed, has);
         let (letter, what) = match self.purpose {
-            Purpose::Virtual(_) => return gap,
+            Purpose::Virtual(_) | Purpose::Unit(_) => return gap,
             Purpose::Velocity => ('v', "velocity"),
             Purpose::Acceleration(_) => ('a', "acceleration"),
         };
@@ -381,7 +436,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn named_rate(&self, rate: Expr<'m>, of: &str, how: &str) -> Expr<'m> {
         let (name, what) = match self.purpose {
-            Purpose::Virtual(_) => ("rate", "rate of rotation"),
+            Purpose::Virtual(_) | Purpose::Unit(_) => ("rate", "rate of rotation"),
             Purpose::Velocity => ("omega", "angular velocity"),
             Purpose::Acceleration(_) => ("alpha", "angular acceleration"),
         };
@@ -393,7 +448,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn named_sliding(&self, sliding: Expr<'m>, slide: JointId, of: &str, how: &str) -> Expr<'m> {
         let what = match self.purpose {
-            Purpose::Virtual(_) | Purpose::Velocity => "speed",
+            Purpose::Virtual(_) | Purpose::Unit(_) | Purpose::Velocity => "speed",
             Purpose::Acceleration(_) => "acceleration",
         };
         let (how, slide) = (self.in_words(how), &self.model().joint(slide).name);
@@ -402,7 +457,7 @@ impl<'m, 'p> Motion<'m, 'p> {
 
     fn in_words(&self, how: &str) -> String {
         let word = match self.purpose {
-            Purpose::Virtual(_) | Purpose::Velocity => "velocity",
+            Purpose::Virtual(_) | Purpose::Unit(_) | Purpose::Velocity => "velocity",
             Purpose::Acceleration(_) => "acceleration",
         };
         how.replace("{velocity}", word)
