@@ -226,7 +226,7 @@ const OTHERS: [(&str, &str); 13] = [
     ),
     (
         "five_bar",
-        "/// A five-bar robot under computed torque: its equation of motion, and that of its frame under a single drive.
+        "/// A five-bar robot under computed torque: its equation of motion, and that of its links alone.
         pub mod five_bar;
         ground { O1: (0, 0), O2: (0.5m, 0) } link left { O1 -> P: 0.3m } link right { O2 -> Q: 0.3m }
         link upper { P -> R: 0.45m } link lower { Q -> R: 0.4m }

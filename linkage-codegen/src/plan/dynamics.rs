@@ -101,19 +101,19 @@ impl<'m> Forces<'_, 'm> {
 
     /// `Σ (m v_i·v_j + I ω_i ω_j)`; what is symmetric is computed once.
     fn masses(&self, masses: &[LinkId], rows: &[&Motion<'m, '_>], columns: &[&Motion<'m, '_>], name: &str) -> Output {
-        self.matrix(rows, columns, |row, column| {
+        self.matrix(rows, columns, (name, "Σ (m v·v + I ω ω), at unit rates"), |row, column| {
             let terms = masses.iter().map(|link| {
                 let [own, other] = self.moving(*link, [row, column]);
                 self.weighted(*link, [0, 1, 2].map(|part| own.parts[part] * other.parts[part]))
             });
-            let sum = terms.fold(self.model.graph.zero(), |sum, term| sum + term);
-            sum.named(row.name(name), "Σ (m v·v + I ω ω), at unit rates")
+            terms.fold(self.model.graph.zero(), |sum, term| sum + term)
         })
     }
 
     /// With velocities that may be off by δ, what `(|v_i| + δ_i)(|v_j| + δ_j)` is beyond `|v_i| |v_j|`.
     fn rounding(&self, masses: &[LinkId], rows: &[&Motion<'m, '_>], columns: &[&Motion<'m, '_>]) -> Output {
-        self.matrix(rows, columns, |row, column| {
+        let meaning = "what of M may be nothing but the rounding of velocities";
+        self.matrix(rows, columns, ("rounding", meaning), |row, column| {
             let terms = masses.iter().map(|link| {
                 let [own, other] = self.moving(*link, [row, column]);
                 let parts = [0, 1, 2].map(|part| {
@@ -122,15 +122,16 @@ impl<'m> Forces<'_, 'm> {
                 });
                 self.weighted(*link, parts)
             });
-            let sum = terms.fold(self.model.graph.zero(), |sum, term| sum + term);
-            sum.named(row.name("rounding"), "what of M may be nothing but the rounding of velocities")
+            terms.fold(self.model.graph.zero(), |sum, term| sum + term)
         })
     }
 
+    /// The entries for all unknowns and drives, each with a name.
     fn matrix(
         &self,
         rows: &[&Motion<'m, '_>],
         columns: &[&Motion<'m, '_>],
+        (name, meaning): (&str, &str),
         entry: impl Fn(&Motion<'m, '_>, &Motion<'m, '_>) -> Expr<'m>,
     ) -> Output {
         let symmetric = rows.len() == columns.len() && rows.iter().zip(columns).all(|(a, b)| core::ptr::eq(*a, *b));
@@ -138,7 +139,11 @@ impl<'m> Forces<'_, 'm> {
         for (i, row) in rows.iter().enumerate() {
             let values = columns.iter().enumerate().map(|(j, column)| match all.get(j) {
                 Some(above) if symmetric => above[i],
-                _ => entry(row, column).id(),
+                _ => {
+                    let drive = &self.model.drive(DriveId::new(j)).name;
+                    let name = if columns.len() == 1 { name.to_owned() } else { format!("{name}_{drive}") };
+                    entry(row, column).named(row.name(&name), meaning).id()
+                }
             });
             all.push(values.collect());
         }

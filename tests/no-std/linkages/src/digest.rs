@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use linkage_runtime::nalgebra::{SMatrix, Scalar};
 use linkage_runtime::{Error, SliderReaction, Vector2, WorkTerm};
 
 /// A hash over the bits of everything put into it, and how many answers and refusals were among it.
@@ -52,6 +53,7 @@ impl Digest {
             Error::Parameter { requirement } => (4, requirement, 0.0),
             Error::NotFinite { what } => (5, what, 0.0),
             Error::NoConvergence { group, gap } => (7, group, gap),
+            Error::NoInertia { scene } => (8, scene, 0.0),
             _ => (6, "", 0.0),
         };
         self.bits(kind);
@@ -102,15 +104,14 @@ impl<T: Output> Output for (T, T) {
     }
 }
 
-impl<T: Output + Copy> Output for Vector2<T> {
+/// Vectors too.
+impl<T: Output + Copy, const R: usize, const C: usize> Output for SMatrix<T, R, C> {
     fn put(self, digest: &mut Digest) {
-        let [[x, y]] = self.data.0;
-        x.put(digest);
-        y.put(digest);
+        self.data.0.into_iter().flatten().for_each(|entry| entry.put(digest));
     }
 }
 
-impl<T: Output + linkage_runtime::nalgebra::Scalar + Copy> Output for SliderReaction<T> {
+impl<T: Output + Scalar + Copy> Output for SliderReaction<T> {
     fn put(self, digest: &mut Digest) {
         let Self { force, normal, couple } = self;
         force.put(digest);
