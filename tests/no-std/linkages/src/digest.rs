@@ -104,10 +104,19 @@ impl<T: Output> Output for (T, T) {
     }
 }
 
-/// Vectors too.
-impl<T: Output + Copy, const R: usize, const C: usize> Output for SMatrix<T, R, C> {
+impl<T: Output + Copy> Output for Vector2<T> {
     fn put(self, digest: &mut Digest) {
-        self.data.0.into_iter().flatten().for_each(|entry| entry.put(digest));
+        let [[x, y]] = self.data.0;
+        x.put(digest);
+        y.put(digest);
+    }
+}
+
+impl<T: Output + Copy> Output for SMatrix<T, 2, 2> {
+    fn put(self, digest: &mut Digest) {
+        let [[a, b], [c, d]] = self.data.0;
+        (a, b).put(digest);
+        (c, d).put(digest);
     }
 }
 
