@@ -2,7 +2,7 @@
 //! coefficients and mechanical advantage.
 
 use linkage_runtime::nalgebra::SVector;
-use linkage_runtime::{Error, linkage};
+use linkage_runtime::{Error, Series, SweepError, linkage};
 
 linkage! {
     /// A crank-rocker with masses, weights, a damper and a load on its rocker.
@@ -98,6 +98,7 @@ linkage! {
     scene dynamics: virtual_work -> (effort_a, effort_b);
     scene control: motion;
     scene bare: motion() -> (M, h);
+    scene cycle: sweep(bare);
 }
 
 fn turns() -> impl Iterator<Item = f64> {
@@ -182,6 +183,34 @@ fn of_two_drives_the_mass_is_a_symmetric_matrix() -> Result<(), Error> {
         let faster = five_bar::Motion { a_rate: 5.0, b_rate: -3.0, ..motion };
         let (slow, fast) = (pose.bare(&motion)?, pose.bare(&faster)?);
         assert!((fast.h - 4.0 * slow.h).norm() < 1e-12 * fast.h.norm() && slow.M == control.M);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_sweep_has_a_slice_for_every_entry() -> Result<(), SweepError> {
+    let (a, b) = ([1.9, 1.5, 1.2], [1.1, 1.6, 2.0]);
+    let inputs = five_bar::CycleInputs {
+        a: Series::Each(&a),
+        b: Series::Each(&b),
+        a_rate: Series::Constant(2.5),
+        b_rate: Series::Constant(-1.5),
+    };
+    let [mut m_11, mut m_21, mut m_12, mut m_22, mut h_1, mut h_2] = [[0.0; 3]; 6];
+    let results = five_bar::Cycle {
+        M_1_1: &mut m_11,
+        M_2_1: &mut m_21,
+        M_1_2: &mut m_12,
+        M_2_2: &mut m_22,
+        h_1: &mut h_1,
+        h_2: &mut h_2,
+    };
+    five_bar::cycle(&inputs, results)?;
+    let motion = five_bar::Motion { a_rate: 2.5, b_rate: -1.5, ..five_bar::Motion::default() };
+    for index in 0..3 {
+        let alone = five_bar::bare_at(a[index], b[index], &motion).expect("a pose");
+        assert_eq!(alone.M.data.0, [[m_11[index], m_21[index]], [m_12[index], m_22[index]]]);
+        assert_eq!(alone.h.data.0, [[h_1[index], h_2[index]]]);
     }
     Ok(())
 }

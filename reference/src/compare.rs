@@ -7,8 +7,8 @@
 use std::collections::BTreeMap;
 
 use crate::declaration::{
-    ACCELERATIONS, ALL, CENTROID, CONTROL, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, POWERS, SHAKING, SPEEDS,
-    WEIGHT, WORK,
+    ACCELERATIONS, ALL, CENTROID, CONTROL, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, POWERS, SHAKING,
+    SPEEDS, WEIGHT, WORK,
 };
 use crate::exact::{difference, difference_of_angles, nearest};
 use crate::file::{Answers, File, Limits, LinkMotion, Ordered, Reaction, Reduced};

@@ -828,7 +828,10 @@ impl Model {
     #[must_use]
     pub fn moves(&self) -> bool {
         self.accelerates()
-            || self.scenes.iter().any(|scene| matches!(scene.method, Method::Velocity | Method::Motion) || scene.has_power())
+            || self
+                .scenes
+                .iter()
+                .any(|scene| matches!(scene.method, Method::Velocity | Method::Motion) || scene.has_power())
             || self.loads.iter().any(|load| load.kind.depends_on_motion())
     }
 

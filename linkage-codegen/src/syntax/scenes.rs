@@ -10,8 +10,17 @@ use super::tokens::{between, comma_list, eat_word, name, place_of, take};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
 /// The methods that are carried out.
-pub(crate) const METHODS: [&str; 9] =
-    ["position", "velocity", "acceleration", "equilibrium", "superposition", "virtual_work", "motion", "verify", "sweep"];
+pub(crate) const METHODS: [&str; 9] = [
+    "position",
+    "velocity",
+    "acceleration",
+    "equilibrium",
+    "superposition",
+    "virtual_work",
+    "motion",
+    "verify",
+    "sweep",
+];
 /// The methods that are not carried out yet.
 pub(crate) const PLANNED: [&str; 2] = ["derivative", "inverse"];
 
