@@ -34,6 +34,7 @@ pub fn module(mut model: Model) -> TokenStream {
     let accessors = accessors(model);
     let wrench = super::uses_wrench(&runtime, wrenches(model));
     let sweeps: TokenStream = sweeps(model, &runtime);
+    let inverses = super::inverses::stand_ins(model);
     let from_pose = names
         .iter()
         .zip(&types)
@@ -85,6 +86,7 @@ pub fn module(mut model: Model) -> TokenStream {
                 #records
                 #forward
                 #(#direct)*
+                #inverses
                 #sweeps
             }
         }
@@ -310,7 +312,10 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
             (unknowns, _) => Output::Matrix(vec![vec![zero; unknowns]; unknowns]),
         },
         Some(Wanted::Along(..)) => Output::Resolved([zero, zero]),
-        Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..) | Wanted::Power(_)) | None => number,
+        Some(
+            Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..) | Wanted::Power(_) | Wanted::Driver(..),
+        )
+        | None => number,
     }
 }
 

@@ -7,7 +7,7 @@ use quote::quote;
 
 use super::body::Body;
 use super::literals::ident;
-use super::types::{drive_doc, has_params, output_type, record_name, scalar};
+use super::types::{drive_doc, has_params, linkage_type, motion_type, output_type, record_name, scalar};
 use super::{docs, prepared_names};
 use crate::Linkage;
 use crate::graph::Symbol;
@@ -98,10 +98,15 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
         statements.extend(quote!(let Self { #(#kept,)* .. } = *self;));
     }
     if !prepared.is_empty() {
-        statements.extend(quote!(let Linkage { #(#prepared,)* .. } = *linkage;));
+        let ty = linkage_type(&linkage.model);
+        // What is prepared for an inverse scene is a part of the linkage.
+        let of = linkage.model.exchanged.as_ref().map(|_| super::inverses::prepared_name(linkage));
+        let whole = of.map_or_else(|| quote!(*linkage), |part| quote!(linkage.#part));
+        statements.extend(quote!(let #ty { #(#prepared,)* .. } = #whole;));
     }
     if !motion.is_empty() {
-        statements.extend(quote!(let Motion { #(#motion,)* .. } = *motion;));
+        let ty = motion_type(&linkage.model);
+        statements.extend(quote!(let #ty { #(#motion,)* .. } = *motion;));
     }
     for (load, read) in loads {
         let data = linkage.model.load(load);
@@ -283,17 +288,25 @@ pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
     let (statements, body) = body(linkage, &program).statements();
     let fields = program.outputs.iter().map(|(name, value)| member(name, &body.value(*value)));
     let given = given_params(linkage);
+    let inverses = linkage.inverses.iter().map(|inverse| {
+        let (name, ty) = (super::inverses::prepared_name(inverse), linkage_type(&inverse.model));
+        quote!(#name: #ty::new(params)?)
+    });
+    let (ty, visibility) = match linkage.model.exchanged {
+        Some(_) => (linkage_type(&linkage.model), None),
+        None => (ident("Linkage"), Some(quote!(pub))),
+    };
     quote! {
-        impl Linkage {
+        impl #ty {
             /// Prepares the linkage of some dimensions.
             ///
             /// # Errors
             ///
             /// [`Error::Parameter`] if a dimension is out of its range, [`Error::NotFinite`] if one is not a finite number.
-            pub fn new(params: &Params) -> Result<Self, Error> {
+            #visibility fn new(params: &Params) -> Result<Self, Error> {
                 #given
                 #statements
-                Ok(Self { #(#fields),* })
+                Ok(Self { #(#fields,)* #(#inverses),* })
             }
         }
     }
@@ -412,7 +425,7 @@ pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
     let program = without_input_checks(&linkage.functions.scenes[index].from_pose);
     let name = ident(&scene.name.text);
     let ty = output_type(&linkage.model, &linkage.plan.scenes[index], &type_name(&scene.name.text));
-    let given = given_arguments(&program);
+    let given = given_arguments(linkage, &program);
     let prepared = prepared_of_pose(linkage, &program);
     let bindings = bindings(linkage, &program, Drives::Pose);
     let (statements, body) = body(linkage, &program).statements();
@@ -441,8 +454,9 @@ fn without_input_checks(program: &Program) -> Program {
 }
 
 /// The arguments behind the drives.
-fn given_arguments(program: &Program) -> TokenStream {
-    let motion = program.reads_motion().then(|| quote!(, motion: &Motion));
+fn given_arguments(linkage: &Linkage, program: &Program) -> TokenStream {
+    let ty = motion_type(&linkage.model);
+    let motion = program.reads_motion().then(|| quote!(, motion: &#ty));
     let loads = program.reads_loads().then(|| quote!(, loads: &Loads));
     quote!(#motion #loads)
 }
@@ -530,7 +544,7 @@ pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
     let program = &linkage.functions.scenes[index].direct;
     let name = ident(&format!("{}_at", scene.name));
     let ty = output_type(&linkage.model, &linkage.plan.scenes[index], &type_name(&scene.name.text));
-    let given = given_arguments(program);
+    let given = given_arguments(linkage, program);
     let prepared = linkage_argument(linkage, &TokenStream::new());
     let arguments = drive_arguments(linkage);
     let bindings = bindings(linkage, program, Drives::Arguments);
@@ -538,11 +552,15 @@ pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
     let base = type_name(&scene.name.text);
     let value =
         result(scene.method, &base, &base, &linkage.plan.scenes[index], &mut outputs(&body, program).into_iter());
-    let point = format!(
-        "The equations are those of [`Pose::at`] and [`Pose::{}`], as far as the results need them.",
-        ident(&scene.name.text)
-    );
-    let lines = docs::function(&docs::scene_summary(linkage, index, false), &[point], program, &[]);
+    let points = match scene.method {
+        Method::Inverse => super::inverses::points(linkage),
+        _ => vec![format!(
+            "The equations are those of [`Pose::at`] and [`Pose::{}`], as far as the results need them.",
+            ident(&scene.name.text)
+        )],
+    };
+    let equations = if scene.method == Method::Inverse { body.equations(&linkage.model) } else { Vec::new() };
+    let lines = docs::function(&docs::scene_summary(linkage, index, false), &points, program, &equations);
     quote! {
         #lines
         #[inline]

@@ -6,6 +6,7 @@ mod equations;
 mod fallback;
 mod formula;
 mod functions;
+mod inverses;
 mod limits;
 mod literals;
 mod search;
@@ -83,6 +84,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     let forward: TokenStream = scenes.clone().map(|s| functions::forward(model, s)).collect();
     let from_pose: TokenStream = scenes.clone().map(|s| functions::from_pose(linkage, s)).collect();
     let direct: TokenStream = scenes.map(|s| functions::direct(linkage, s)).collect();
+    let inverses: TokenStream = linkage.inverses.iter().map(inverses::function).collect();
     let (generics, elided) = if types::has_params(linkage) {
         (quote!(<'l>), quote!(<'l>))
     } else {
@@ -128,6 +130,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
                 #results
                 #forward
                 #direct
+                #inverses
                 #sweeps
                 #searches
             }
@@ -153,6 +156,9 @@ pub fn operations(linkage: &Linkage) -> String {
     for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
         text.push_str(&format!("{:<28} {}\n", format!("Pose::{}", scene.name), functions.from_pose.counts()));
         text.push_str(&format!("{:<28} {}\n", format!("{}_at", scene.name), functions.direct.counts()));
+    }
+    for (scene, program) in linkage.inverses.iter().filter_map(inverses::scene) {
+        text.push_str(&format!("{:<28} {}\n", format!("{}_at", scene.name), program.counts()));
     }
     text
 }

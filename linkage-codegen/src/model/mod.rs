@@ -3,6 +3,7 @@
 
 mod evaluate;
 pub mod ids;
+pub(crate) mod inverses;
 mod joints;
 mod links;
 mod loads;
@@ -22,6 +23,7 @@ use crate::diagnostics::{Diagnostic, Place, Sink};
 use crate::graph::{Expr, Graph, NodeId, Order, Scalar, Symbol, Vector};
 use crate::syntax::ast::{Ast, Name};
 use ids::{ClosureId, DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
+pub use inverses::{Coordinate, Exchanged, Inverse};
 pub use sweeps::Sweep;
 use units::{Kind, Units};
 
@@ -85,6 +87,10 @@ pub struct Model {
     pub scenes: Vec<Scene>,
     /// Which scenes are solved at many positions.
     pub sweeps: Vec<Sweep>,
+    /// Which scenes give the drives for a wanted motion.
+    pub inverses: Vec<Inverse>,
+    /// Of a linkage whose wanted coordinates are its drives: what its drives were.
+    pub exchanged: Option<Exchanged>,
 }
 
 /// A run-time dimension.
@@ -577,6 +583,15 @@ impl Scene {
     pub fn has_power(&self) -> bool {
         self.results.iter().any(|wanted| matches!(wanted, Wanted::Power(_)))
     }
+
+    /// Whether the motion of what were drives is among its results; their accelerations, or these or rates.
+    #[must_use]
+    pub fn has_driver_motion(&self, accelerations: bool) -> bool {
+        self.results.iter().any(|wanted| match wanted {
+            Wanted::Driver(_, Some(order)) => !accelerations || *order == Order::Acceleration,
+            _ => false,
+        })
+    }
 }
 
 /// How a scene is solved.
@@ -596,6 +611,8 @@ pub enum Method {
     VirtualWork,
     /// The reduced equation of motion.
     Motion,
+    /// The drives for a wanted motion.
+    Inverse,
     /// All of these against the general solution.
     Verify,
 }
@@ -604,7 +621,7 @@ impl Method {
     /// Whether its results depend on loads.
     #[must_use]
     pub fn has_loads(self) -> bool {
-        !matches!(self, Self::Position | Self::Velocity | Self::Acceleration)
+        !matches!(self, Self::Position | Self::Velocity | Self::Acceleration | Self::Inverse)
     }
 
     /// Whether there is nothing to it without loads.
@@ -647,6 +664,8 @@ pub enum Wanted {
     ErrorBound,
     /// A part of the equation of motion.
     Part(Part),
+    /// Of a linkage that is driven elsewhere: what was a drive, its rate or its acceleration.
+    Driver(DriveId, Option<Order>),
 }
 
 /// A part of the reduced equation of motion `τ = M q̈ + h`.
@@ -792,6 +811,9 @@ impl Model {
             Wanted::Power(None) => "power".to_owned(),
             Wanted::Power(Some(unknown)) => format!("{}_power", self.unknowns.get(unknown.index())?.name),
             Wanted::Part(part) => part.name().to_owned(),
+            Wanted::Driver(drive, order) => {
+                Self::driver_name(&self.exchanged.as_ref()?.drives.get(drive.index())?.0, order)
+            }
             Wanted::ErrorBound => scenes::ERROR_BOUND.to_owned(),
         })
     }
@@ -827,11 +849,13 @@ impl Model {
     /// Whether anything is asked for that depends on velocities.
     #[must_use]
     pub fn moves(&self) -> bool {
+        let moving = |scene: &Scene| {
+            matches!(scene.method, Method::Velocity | Method::Motion)
+                || scene.has_power()
+                || scene.has_driver_motion(false)
+        };
         self.accelerates()
-            || self
-                .scenes
-                .iter()
-                .any(|scene| matches!(scene.method, Method::Velocity | Method::Motion) || scene.has_power())
+            || self.scenes.iter().any(moving)
             || self.loads.iter().any(|load| load.kind.depends_on_motion())
     }
 
@@ -841,6 +865,7 @@ impl Model {
         let load = |load: &LoadId| self.loads.get(load.index()).is_some_and(|load| load.kind.depends_on_motion());
         matches!(scene.method, Method::Velocity | Method::Acceleration | Method::Motion)
             || scene.has_power()
+            || scene.has_driver_motion(false)
             || scene.loads.iter().any(load)
     }
 
@@ -849,6 +874,7 @@ impl Model {
     pub fn scene_accelerates(&self, scene: &Scene) -> bool {
         let inertia = |load: &LoadId| self.loads.get(load.index()).map(|load| &load.kind);
         scene.method == Method::Acceleration
+            || scene.has_driver_motion(true)
             || scene.method != Method::Motion
                 && scene.loads.iter().filter_map(inertia).any(|kind| matches!(kind, LoadKind::Inertia))
     }
@@ -863,7 +889,7 @@ impl Model {
     /// Whether anything is asked for that depends on accelerations.
     #[must_use]
     pub fn accelerates(&self) -> bool {
-        self.scenes.iter().any(|scene| scene.method == Method::Acceleration)
+        self.scenes.iter().any(|scene| scene.method == Method::Acceleration || scene.has_driver_motion(true))
             || self.loads.iter().any(|load| matches!(load.kind, LoadKind::Inertia))
     }
 
@@ -960,6 +986,8 @@ pub fn resolve(ast: &Ast, sink: &Sink) -> Model {
         loads: Vec::new(),
         scenes: Vec::new(),
         sweeps: Vec::new(),
+        inverses: Vec::new(),
+        exchanged: None,
     };
     links::params(&mut model, ast, &mut names, sink);
     links::links(&mut model, ast, &names, sink);

@@ -6,7 +6,7 @@ use super::evaluate::Scope;
 use super::ids::{GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
-use super::sweeps;
+use super::{inverses, sweeps};
 use super::{Along, End, Method, Model, Part, Scene, Spot, Wanted};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
@@ -21,7 +21,7 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
             model.scenes.push(stand_in(model, broken, name));
         }
         let Item::Scene(given) = item else { continue };
-        if sweeps::is_sweep(given) {
+        if sweeps::is_sweep(given) || inverses::is_inverse(given) {
             continue;
         }
         // A scene that is refused still brings its names.
@@ -44,6 +44,7 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         }
         model.scenes.push(scene);
     }
+    inverses::inverses(model, ast, names, sink);
     sweeps::sweeps(model, ast, sink);
     if sink.is_clean() {
         check_generated_names(model, sink);
@@ -55,7 +56,7 @@ fn likely_method(word: &str) -> Method {
     match word {
         "velocity" => Method::Velocity,
         "acceleration" => Method::Acceleration,
-        "inverse" | "position" => Method::Position,
+        "position" => Method::Position,
         "verify" => Method::Verify,
         "motion" => Method::Motion,
         _ => Method::Equilibrium,
@@ -199,7 +200,7 @@ fn results(
 }
 
 /// What a result is about.
-fn end_of(item: &ResultItem) -> ast::End {
+pub(super) fn end_of(item: &ResultItem) -> ast::End {
     match item {
         ResultItem::Name(name) => ast::End { link: name.clone(), point: None },
         ResultItem::Point(link, point) => ast::End { link: link.clone(), point: Some(point.clone()) },
@@ -284,7 +285,7 @@ fn all_results(model: &Model, method: Method, loads: &[LoadId]) -> Vec<Wanted> {
         Method::Equilibrium | Method::Superposition => unknowns.chain(joints).collect(),
         Method::VirtualWork => unknowns.chain(loads.iter().copied().map(Wanted::Load)).collect(),
         Method::Motion => [Part::Mass, Part::Bias, Part::Rounding].map(Wanted::Part).into(),
-        Method::Verify => Vec::new(),
+        Method::Verify | Method::Inverse => Vec::new(),
     }
 }
 
@@ -495,6 +496,7 @@ fn word(method: Method) -> &'static str {
         Method::Superposition => "superposition",
         Method::VirtualWork => "virtual_work",
         Method::Motion => "motion",
+        Method::Inverse => "inverse",
         Method::Verify => "verify",
     }
 }
@@ -637,6 +639,9 @@ fn check_values(model: &Model, sink: &Sink) {
     for constant in ["EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"] {
         values.insert(constant.into(), "is a constant of the module".into());
     }
+    for inverse in model.inverses.iter().filter(|_| !model.params.is_empty()) {
+        values.insert(inverse.prepared_name(), format!("is what is prepared for `{}`", inverse.name));
+    }
     for link in &model.links {
         for part in ["cos", "sin"] {
             values.insert(format!("{}_{part}", link.name), format!("is the direction of `{}`", link.name));
@@ -737,6 +742,18 @@ fn check_generated_names(model: &Model, sink: &Sink) {
                 clash(&scene.name, format!("the results of `{}` would be the type `{made}`, and {other}", scene.name));
                 break;
             }
+        }
+    }
+    for inverse in &model.inverses {
+        let (own, made) = (format!("belongs to the scene `{}`", inverse.name), format!("{}_at", inverse.name));
+        if let Some(other) = methods.insert(made.clone(), own.clone()) {
+            clash(&inverse.name, format!("there would be two functions `{made}`: the other one {other}"));
+            continue;
+        }
+        if let Some((made, other)) =
+            inverse.types().into_iter().find_map(|made| Some((made.clone(), types.insert(made, own.clone())?)))
+        {
+            clash(&inverse.name, format!("the scene `{}` would have the type `{made}`, and {other}", inverse.name));
         }
     }
     for sweep in &model.sweeps {

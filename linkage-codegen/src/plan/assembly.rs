@@ -198,6 +198,12 @@ impl<'m> Assembly<'m> {
         Sign::Given(sign, &model.joint(closure.joint).name.text)
     }
 
+    /// Whether a group closes at this joint.
+    #[must_use]
+    pub fn closed_at(&self, inner: JointId) -> bool {
+        self.used.contains(&inner)
+    }
+
     /// Closures that no group asked for.
     pub fn unused_closures(&self) -> impl Iterator<Item = &'m Closure> {
         self.model().closures.iter().filter(|c| !self.used.contains(&c.joint))

@@ -10,6 +10,7 @@ pub mod efforts;
 mod error_bound;
 mod framed;
 mod half_angle;
+mod inverse;
 mod linear;
 mod output;
 mod pivots;
@@ -126,9 +127,16 @@ pub struct Accessor {
 }
 
 impl Plan {
-    /// Solves a linkage. `None` if that is not possible; why is reported.
+    /// Solves a linkage. `None` if that is not possible; why is reported. A closure may also be meant for groups that close `elsewhere`: where
+    /// the linkage is driven otherwise.
     #[must_use]
-    pub fn of(model: &Model, topology: &Topology, system: &System, sink: &Sink) -> Option<Self> {
+    pub fn of(
+        model: &Model,
+        topology: &Topology,
+        system: &System,
+        elsewhere: &BTreeSet<JointId>,
+        sink: &Sink,
+    ) -> Option<Self> {
         let motion_rules = rules_of(model, &topology.motion, "place", sink)?;
         let force_rules = rules_of(model, &topology.forces, "find the forces of", sink)?;
         let mut assembly = Assembly::new(model, topology);
@@ -142,7 +150,7 @@ impl Plan {
                 }
             }
         }
-        for closure in assembly.unused_closures() {
+        for closure in assembly.unused_closures().filter(|closure| !elsewhere.contains(&closure.joint)) {
             let joint = &model.joint(closure.joint).name;
             sink.report(
                 Diagnostic::new(closure.place, format!("there is nothing to choose at `{joint}`"))
@@ -391,6 +399,12 @@ fn check_possible(model: &Model, sink: &Sink) {
                     format!("the two points of `{of}` coincide at every pose: it has no direction"),
                 )
                 .help("let it act between points that are apart")
+            }
+            Failure::OtherSide { joint } => {
+                let place = model.scenes.first().map_or(model.name.place(), |scene| scene.name.place());
+                Diagnostic::new(place, format!("at every pose that is reached, `{joint}` lies on the other side"))
+                    .note("a pose counts if the groups that the drives move close there on the sides that are chosen for them")
+                    .help("choose the other side for one of the groups")
             }
             Failure::Parameter { requirement } => Diagnostic::new(model.name.place(), requirement.clone()),
         };

@@ -1,6 +1,7 @@
 //! The results of every scene, by its method.
 
 use super::framed::Framed;
+use super::inverse::drivers;
 use super::posed::Posed;
 use super::resultants::{Resultant, rate_of, reacted_by_ground};
 use super::rules::{Rule, RuleResult};
@@ -55,6 +56,7 @@ pub(super) fn outputs<'m>(
             Method::Superposition => forces.superposition(scene),
             Method::VirtualWork => forces.virtual_work(scene),
             Method::Motion => forces.equation_of_motion(scene),
+            Method::Inverse => drivers(assembly, posed, scene),
             Method::Verify => forces.verify(scene, equations),
         })
         .collect()

@@ -317,7 +317,8 @@ impl<'m, 'p> Motion<'m, 'p> {
     }
 
     /// How fast a link slides along the other link of a slide or a slot.
-    fn sliding(&self, joint: JointId, link: LinkId) -> Expr<'m> {
+    #[must_use]
+    pub fn sliding(&self, joint: JointId, link: LinkId) -> Expr<'m> {
         if let Some(sliding) = self.sliding.get(&joint) {
             return if self.model().joint(joint).to.link == link { *sliding } else { -*sliding };
         }

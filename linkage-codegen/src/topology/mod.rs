@@ -10,6 +10,7 @@
 mod generic;
 mod matching;
 mod mobility;
+mod sides;
 
 use std::collections::BTreeSet;
 
