@@ -41,7 +41,7 @@ use crate::equations::System;
 use crate::graph::{Coordinate, Expr, NodeId, Op, Order, Symbol};
 use crate::model::ids::{DriveId, JointId, LinkId, ParamId};
 use crate::model::units::Kind;
-use crate::model::{Along, End, Model, Pair, Scene, Wanted};
+use crate::model::{Along, Closure, End, Model, Pair, Scene, Wanted};
 use crate::topology::{Group, Input, Topology};
 
 /// The solution of a linkage.
@@ -150,7 +150,9 @@ impl Plan {
                 }
             }
         }
-        for closure in assembly.unused_closures().filter(|closure| !elsewhere.contains(&closure.joint)) {
+        // Where the linkage is driven otherwise than it is declared, what is not used is the declaration's.
+        let idle = |closure: &&Closure| model.exchanged.is_none() && !elsewhere.contains(&closure.joint);
+        for closure in assembly.unused_closures().filter(idle) {
             let joint = &model.joint(closure.joint).name;
             sink.report(
                 Diagnostic::new(closure.place, format!("there is nothing to choose at `{joint}`"))
