@@ -109,10 +109,10 @@ fn check_folds(
 ) {
     let closing = exchanged.closing(other);
     for side in own.sides(model) {
-        let smooth = model.closures.iter().any(|closure| closure.joint == side.joint && closure.smooth_at.is_some());
-        if smooth && !closing.contains(&side.joint) {
+        let closure = model.closure(side.closure);
+        if closure.smooth_at.is_some() && !closing.contains(&closure.joint) {
             let problem = "the inverse is not supported yet where a group folds smoothly";
-            let joint = &model.joint(side.joint).name;
+            let joint = &model.joint(closure.joint).name;
             let note = format!("on which side `{joint}` lies depends on the drive that is asked for");
             sink.report(Diagnostic::new(inverse.method.place(), problem).note(note));
         }

@@ -3,7 +3,7 @@
 //! The wanted coordinates change places with the drives. What comes of it is a declaration of its own: the same links and joints, driven
 //! where the motion is wanted, and asked for the coordinates that were the drives.
 
-use super::ids::{DriveId, JointId};
+use super::ids::{ClosureId, DriveId, JointId};
 use super::motion::Asked;
 use super::names::{Names, Role};
 use super::{Method, Model, Scene, Wanted, resolve, type_name};
@@ -71,8 +71,8 @@ pub struct Exchanged {
 /// What a closure says, in whatever way the linkage is driven.
 #[derive(Clone, Copy, Debug)]
 pub struct Side {
-    /// The joint at which the group is assembled.
-    pub joint: JointId,
+    /// The closure, which is the same in both.
+    pub closure: ClosureId,
     /// Along a slide: which one, and what lies ahead of the other joint or behind it.
     pub along: Option<[JointId; 2]>,
 }

@@ -735,13 +735,13 @@ impl Model {
     }
 
     /// Stands for a value that could not be read: of no known size, sign or place.
-    fn unread(&self) -> Expr<'_> {
+    pub(crate) fn unread(&self) -> Expr<'_> {
         // Another one each time, so that no two of them cancel.
         self.graph.symbol(Symbol::Dimension(u32::try_from(self.graph.len()).unwrap_or(u32::MAX)))
     }
 
     /// Stands for a vector that could not be read.
-    fn unread_vector(&self) -> Vector<'_> {
+    pub(crate) fn unread_vector(&self) -> Vector<'_> {
         Vector::new(self.unread(), self.unread())
     }
 
@@ -923,6 +923,28 @@ impl Model {
     #[must_use]
     pub fn closure(&self, id: ClosureId) -> &Closure {
         &self.closures[id.index()]
+    }
+
+    /// The closures that fit a group with this inner joint between these outer ones.
+    pub fn fitting_closures<'a>(&'a self, inner: JointId, outer: &'a [JointId]) -> impl Iterator<Item = ClosureId> + 'a {
+        let own = move |joint: &JointId| *joint == inner || outer.contains(joint);
+        // Where a linkage is driven otherwise, what is said of a joint and a slide of the declaration's groups is said of no other slide.
+        let sides = self.exchanged.as_ref().map_or(&[][..], |exchanged| &exchanged.closures);
+        let along = move |id: ClosureId| sides.iter().find(|side| side.closure == id).and_then(|side| side.along);
+        let fits = move |id: &ClosureId| {
+            let closure = self.closure(*id);
+            let named = closure.joint == inner && closure.of.iter().all(|of| outer.contains(of));
+            named && along(*id).is_none_or(|joints| joints.iter().all(own))
+        };
+        (0..self.closures.len()).map(ClosureId::new).filter(fits)
+    }
+
+    /// The closure that is declared for a group with this inner joint; if none fits, one of that joint, which is wrong.
+    #[must_use]
+    pub fn closure_at(&self, inner: JointId, outer: &[JointId]) -> Option<ClosureId> {
+        let of_joint = || self.closures.iter().position(|closure| closure.joint == inner).map(ClosureId::new);
+        let wrong = || of_joint().filter(|_| self.exchanged.is_none());
+        self.fitting_closures(inner, outer).next().or_else(wrong)
     }
 
     /// The closures whose sides are arguments, each with its place in the list.

@@ -224,7 +224,12 @@ pub(super) fn closures(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink)
         let Item::Assemble(given) = item else { continue };
         let found = closure(Scope { model, names }, given);
         let Some(Some(closure)) = sink.absorb(found) else { continue };
-        if model.closures.iter().any(|c| c.joint == closure.joint) {
+        // A linkage that is also driven otherwise may be assembled at one joint between others.
+        let again = |own: &Closure| {
+            let both_given = own.is_given_at_run_time() && closure.is_given_at_run_time();
+            own.joint == closure.joint && (both_given || own.of.iter().all(|of| closure.of.contains(of)))
+        };
+        if model.closures.iter().any(again) {
             let problem = format!("the side of `{}` is chosen already", given.joint);
             sink.report(Diagnostic::new(closure.place, problem).help("keep one of the two"));
         }

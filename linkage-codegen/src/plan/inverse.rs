@@ -20,9 +20,9 @@ pub(super) fn drivers(assembly: &Assembly<'_>, posed: Posed<'_, '_>, scene: &Sce
     let model = assembly.model();
     let Some(exchanged) = &model.exchanged else { return Output::Record(Vec::new()) };
     model.graph.begin_section("Sides");
-    let sides = exchanged.closures.iter().filter(|side| !assembly.closed_at(side.joint));
+    let sides = exchanged.closures.iter().filter(|side| !assembly.uses(side.closure));
     let margins: Vec<(JointId, [Expr<'_>; 2])> =
-        sides.filter_map(|side| Some((side.joint, margin(assembly, side)?))).collect();
+        sides.filter_map(|side| Some((model.closure(side.closure).joint, margin(assembly, side)?))).collect();
     model.graph.begin_section("Drives");
     let fields = scene.results.iter().filter_map(|wanted| {
         let Wanted::Driver(drive, order) = *wanted else { return None };
@@ -69,12 +69,12 @@ fn change<'m>(motion: &Motion<'m, '_>, Coordinate { joint, turns }: Coordinate) 
 /// How far a joint lies on the side that is chosen for it, and the least that it must: nothing but rounding.
 fn margin<'m>(assembly: &Assembly<'m>, side: &Side) -> Option<[Expr<'m>; 2]> {
     let (model, placement) = (assembly.model(), &assembly.placement);
-    let closure = model.closures.iter().find(|closure| closure.joint == side.joint)?;
-    let name = joint_name(model, side.joint);
+    let closure = model.closure(side.closure);
+    let name = joint_name(model, closure.joint);
     let way = |from: JointId, to: JointId| placement.way(model.joint(from).place(), model.joint(to).place());
     let (far, size, plus, how) = match (side.along, closure.of.as_slice()) {
         (None, [from, to]) => {
-            let (line, own) = (way(*from, *to), way(*from, side.joint));
+            let (line, own) = (way(*from, *to), way(*from, closure.joint));
             let how = format!("{name} to the left of the line from {} to {}, times its length", joint_name(model, *from), joint_name(model, *to));
             (line.vector().cross(own.vector()), line.length() * own.length(), crate::model::Side::Left, how)
         }

@@ -145,9 +145,7 @@ impl Plan {
             if let Err(error) = rule.place(&mut assembly, group) {
                 sink.report(error);
                 // What is chosen at a group that has an error is no second one.
-                for joint in &group.inner {
-                    assembly.closure(*joint);
-                }
+                assembly.pass_over(group);
             }
         }
         // Where the linkage is driven otherwise than it is declared, what is not used is the declaration's.
@@ -160,6 +158,7 @@ impl Plan {
                     .help("leave it out"),
             );
         }
+        check_chosen_once(model, topology, sink);
         check_starts_used(model, &assembly, sink);
         if !sink.is_clean() {
             return None;
@@ -194,6 +193,21 @@ impl Plan {
         check_possible(model, sink);
         check_defaults(model, sink);
         sink.is_clean().then_some(plan)
+    }
+}
+
+/// Where a linkage is driven in several ways, a joint may have several closures; a group of it has one.
+fn check_chosen_once(model: &Model, topology: &Topology, sink: &Sink) {
+    for group in &topology.motion {
+        for joint in group.inner.iter().chain(&group.outer) {
+            if let Some(second) = model.fitting_closures(*joint, &group.outer).nth(1) {
+                let problem = format!("the side of `{}` is chosen already", joint_name(model, *joint));
+                sink.report(
+                    Diagnostic::new(model.closure(second).place, problem)
+                        .help("keep one of the two; if the other one is for an inverse scene, name a joint that this group does not have"),
+                );
+            }
+        }
     }
 }
 
