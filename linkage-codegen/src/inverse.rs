@@ -100,13 +100,7 @@ fn check_closed_forms(model: &Model, topology: &Topology, inverse: &Inverse, sin
 }
 
 /// On which side a group lies that folds depends on the drives.
-fn check_folds(
-    model: &Model,
-    other: &Model,
-    (own, exchanged): (&Topology, &Topology),
-    inverse: &Inverse,
-    sink: &Sink,
-) {
+fn check_folds(model: &Model, other: &Model, (own, exchanged): (&Topology, &Topology), inverse: &Inverse, sink: &Sink) {
     let closing = exchanged.closing(other);
     for side in own.sides(model) {
         let closure = model.closure(side.closure);

@@ -94,8 +94,8 @@ fn every_stage_of_every_example() {
 }
 
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
-/// cylinders, slots, welds, gears, inner slides, equations of motion.
-const OTHERS: [(&str, &str); 13] = [
+/// cylinders, slots, welds, gears, inner slides, equations of motion, inverse scenes.
+const OTHERS: [(&str, &str); 14] = [
     (
         "bounded",
         "/// A slider-crank whose results come with bounds of their rounding errors.
@@ -236,6 +236,15 @@ const OTHERS: [(&str, &str); 13] = [
         revolute R: upper -> lower;
         drive a: O1; drive b: O2; assemble R: left(P -> Q);
         load tool: force(upper.R); scene control: motion; scene mass: motion() -> (M); scene cycle: sweep(control);",
+    ),
+    (
+        "swing",
+        "/// The crank of a crank-rocker for a wanted motion of the rocker.
+        pub mod swing; units { mm, N } param reach: length = 120mm;
+        ground { A0: (0, 0), B0: (140mm, 0) } link crank { A0 -> A: 40mm } link coupler { A -> B: 120mm } link rocker { B0 -> B: reach }
+        revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+        drive theta: A0; assemble B: left(A -> B0); assemble A: right(A0 -> B);
+        scene place: position -> (rocker.angle); scene crank_of: inverse(B0); scene angle_of: inverse(B0) -> (theta);",
     ),
     (
         "scotch_yoke",

@@ -105,7 +105,9 @@ pub(super) fn scene_summary(linkage: &Linkage, index: usize, from_pose: bool) ->
             let with = if scene.loads.is_empty() { String::new() } else { format!(" with {loads}") };
             format!("The reduced equation of motion `τ = M q̈ + h`{with}, {from}.")
         }
-        Method::Inverse => "The drives that give the linkage the wanted coordinates, with their rates and accelerations.".to_owned(),
+        Method::Inverse => {
+            "The drives that give the linkage the wanted coordinates, with their rates and accelerations.".to_owned()
+        }
         Method::Verify => {
             format!("Equilibrium, superposition, virtual work and the general solution against each other, {from}.")
         }

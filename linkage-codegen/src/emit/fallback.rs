@@ -312,9 +312,7 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
             (unknowns, _) => Output::Matrix(vec![vec![zero; unknowns]; unknowns]),
         },
         Some(Wanted::Along(..)) => Output::Resolved([zero, zero]),
-        Some(
-            Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..) | Wanted::Power(_) | Wanted::Driver(..),
-        )
+        Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..) | Wanted::Power(_) | Wanted::Driver(..))
         | None => number,
     }
 }

@@ -118,7 +118,8 @@ fn wanted(model: &Model, given: &ast::Scene, names: &Names, sink: &Sink) -> Vec<
     let (found, needed) = (given.wanted.len(), model.drives.len());
     if found != needed && needed > 0 && !names.may_be(Role::Drive) {
         let (s, are) = if needed == 1 { ("", "is") } else { ("s", "are") };
-        let problem = format!("{needed} coordinate{s} {are} needed to place the linkage, one for each drive, not {found}");
+        let problem =
+            format!("{needed} coordinate{s} {are} needed to place the linkage, one for each drive, not {found}");
         sink.report(
             Diagnostic::new(given.method.place(), problem)
                 .help("name the joints whose motion is wanted, as in `inverse(B0)`; a driven joint may be among them"),
@@ -214,9 +215,10 @@ impl Model {
         });
         let items = ast.items.iter().filter(kept).cloned().chain(drives).collect();
         let mut model = resolve(&Ast { items, ..ast.clone() }, sink);
-        let drives = self.drives.iter().map(|drive| {
-            (drive.name.text.clone(), Coordinate { joint: drive.joint, turns: drive.turns })
-        });
+        let drives = self
+            .drives
+            .iter()
+            .map(|drive| (drive.name.text.clone(), Coordinate { joint: drive.joint, turns: drive.turns }));
         model.exchanged = Some(Exchanged { drives: drives.collect(), closures });
         let results = inverse.results.iter().map(|(drive, order)| Wanted::Driver(*drive, *order)).collect();
         model.scenes.push(Scene {

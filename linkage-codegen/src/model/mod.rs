@@ -926,7 +926,11 @@ impl Model {
     }
 
     /// The closures that fit a group with this inner joint between these outer ones.
-    pub fn fitting_closures<'a>(&'a self, inner: JointId, outer: &'a [JointId]) -> impl Iterator<Item = ClosureId> + 'a {
+    pub fn fitting_closures<'a>(
+        &'a self,
+        inner: JointId,
+        outer: &'a [JointId],
+    ) -> impl Iterator<Item = ClosureId> + 'a {
         let own = move |joint: &JointId| *joint == inner || outer.contains(joint);
         // Where a linkage is driven otherwise, what is said of a joint and a slide of the declaration's groups is said of no other slide.
         let sides = self.exchanged.as_ref().map_or(&[][..], |exchanged| &exchanged.closures);

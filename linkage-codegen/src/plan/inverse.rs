@@ -75,12 +75,17 @@ fn margin<'m>(assembly: &Assembly<'m>, side: &Side) -> Option<[Expr<'m>; 2]> {
     let (far, size, plus, how) = match (side.along, closure.of.as_slice()) {
         (None, [from, to]) => {
             let (line, own) = (way(*from, *to), way(*from, closure.joint));
-            let how = format!("{name} to the left of the line from {} to {}, times its length", joint_name(model, *from), joint_name(model, *to));
+            let how = format!(
+                "{name} to the left of the line from {} to {}, times its length",
+                joint_name(model, *from),
+                joint_name(model, *to)
+            );
             (line.vector().cross(own.vector()), line.length() * own.length(), crate::model::Side::Left, how)
         }
         (Some([slide, ahead]), [named]) => {
             let way = way(*named, ahead);
-            let how = format!("{name} ahead of {} along the slide {}", joint_name(model, *named), joint_name(model, slide));
+            let how =
+                format!("{name} ahead of {} along the slide {}", joint_name(model, *named), joint_name(model, slide));
             (placement.slide_direction(slide).dot(way.vector()), way.length(), crate::model::Side::Ahead, how)
         }
         _ => return None,

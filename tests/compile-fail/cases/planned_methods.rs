@@ -25,7 +25,7 @@ linkage! {
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
 
-    scene crank_angle: inverse(B0);
+    scene sensitive: derivative(statics) by (theta);
 }
 
 fn main() {

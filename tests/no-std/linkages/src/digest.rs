@@ -54,6 +54,7 @@ impl Digest {
             Error::NotFinite { what } => (5, what, 0.0),
             Error::NoConvergence { group, gap } => (7, group, gap),
             Error::NoInertia { scene } => (8, scene, 0.0),
+            Error::OtherSide { joint } => (9, joint, 0.0),
             _ => (6, "", 0.0),
         };
         self.bits(kind);
