@@ -32,7 +32,9 @@ linkage! {
     scene speeds: velocity -> (rocker.angle, coupler.C);
     scene accelerations: acceleration -> (rocker.angle, coupler.C);
     scene places: position -> (rocker.angle, coupler.C);
-    scene advantage: virtual_work(M4) -> (M4);
+    scene advantage: virtual_work(M4) -> (M4, advantage(M4));
+    scene gains: coefficients -> (rocker.angle, coupler.C);
+    scene bounded: motion -> (M, h, error_bound);
 }
 
 linkage! {
@@ -70,7 +72,9 @@ linkage! {
     prismatic S: ground.O -> piston.B along 0deg;
     drive theta: O;
     assemble B: ahead(A);
-    scene control: motion;
+    load F: force(piston.B) = (-3N, 0);
+    scene control: motion();
+    scene over: virtual_work -> (advantage(F));
 }
 
 linkage! {
@@ -99,6 +103,9 @@ linkage! {
     scene control: motion;
     scene bare: motion() -> (M, h);
     scene cycle: sweep(bare);
+    scene gains: coefficients -> (R, upper.angle);
+    scene speeds: velocity -> (R);
+    scene accelerations: acceleration -> (R);
 }
 
 fn turns() -> impl Iterator<Item = f64> {
@@ -229,8 +236,62 @@ fn coefficients_of_motion_are_what_unit_rate_gives() -> Result<(), Error> {
         let curved = (behind.coupler_C - 2.0 * at.coupler_C + before.coupler_C) / (step * step);
         assert!((second.coupler_C - curved).norm() < 1e-3);
         // One turn of the crank for so many of the rocker: moments are in the inverse ratio.
-        let term = four_bar::advantage_at(theta, &four_bar::Loads { M4: 1.0 })?.M4;
-        assert!((term.velocity - first.rocker_angle).abs() < 1e-14);
+        let advantage = four_bar::advantage_at(theta, &four_bar::Loads { M4: 1.0 })?;
+        assert!((advantage.M4.velocity - first.rocker_angle).abs() < 1e-14);
+        assert!((advantage.M4_advantage * first.rocker_angle - 1.0).abs() < 1e-14);
+        let gains = four_bar::gains_at(theta)?;
+        let (angle, place) = (gains.rocker_angle, gains.coupler_C);
+        assert!((angle.by_theta - first.rocker_angle).abs() < 1e-14, "{angle:?}");
+        assert!((angle.by_theta_theta - second.rocker_angle).abs() < 1e-12, "{angle:?}");
+        assert!((place.by_theta - first.coupler_C).norm() < 1e-11, "{place:?}");
+        assert!((place.by_theta_theta - second.coupler_C).norm() < 1e-10, "{place:?}");
+    }
+    Ok(())
+}
+
+/// Where the driver moves and the output rests, a unit of effort holds any load.
+#[test]
+fn at_a_dead_centre_of_the_output_the_advantage_is_unbounded() -> Result<(), Error> {
+    let stroke = |crank: f64| light::over_at(crank).map(|over| over.F_advantage);
+    assert_eq!(stroke(0.0), Err(Error::DeadCentre { group: "F", pivot: "v_along_F" }));
+    assert_eq!(stroke(core::f64::consts::PI), Err(Error::DeadCentre { group: "F", pivot: "v_along_F" }));
+    // At right angles the piston moves as fast as the crank's pin: the force there, times the crank, is the torque.
+    assert!((stroke(-core::f64::consts::FRAC_PI_2)? - 25.0).abs() < 1e-12);
+    Ok(())
+}
+
+#[test]
+fn the_bounds_of_an_equation_of_motion_hold_what_two_ways_differ_by() -> Result<(), Error> {
+    let (motion, loads) =
+        (four_bar::Motion { theta_rate: 12.0, theta_acceleration: -40.0 }, four_bar::Loads { M4: 800.0 });
+    for theta in turns() {
+        let (bounded, control) =
+            (four_bar::bounded_at(theta, &motion, &loads)?, four_bar::control_at(theta, &motion, &loads)?);
+        assert_eq!((bounded.M.to_bits(), bounded.h.to_bits()), (control.M.to_bits(), control.h.to_bits()));
+        let bound = bounded.error_bound;
+        assert!(bound.M > 0.0 && bound.M < 1e-10 * control.M, "{bounded:?}");
+        assert!(bound.h > 0.0 && bound.h < 1e-9 * control.h.abs().max(1.0), "{bounded:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn coefficients_of_two_drives_make_every_motion() -> Result<(), Error> {
+    for (a, b) in [(1.9, 1.1), (1.5, 1.6), (1.2, 2.0)] {
+        let motion = five_bar::Motion { a_rate: 2.5, a_acceleration: -3.0, b_rate: -1.5, b_acceleration: 6.0 };
+        let pose = five_bar::Pose::at(a, b)?;
+        let (gains, speeds, accelerations) = (pose.gains()?, pose.speeds(&motion)?, pose.accelerations(&motion)?);
+        let own = gains.R;
+        let speed = own.by_a * 2.5 - own.by_b * 1.5;
+        let acceleration =
+            own.by_a * -3.0 + own.by_b * 6.0 + own.by_a_a * 6.25 + own.by_a_b * (2.0 * 2.5 * -1.5) + own.by_b_b * 2.25;
+        assert!((speed - speeds.R).norm() < 1e-12 * speed.norm(), "{speed} {}", speeds.R);
+        assert!((acceleration - accelerations.R).norm() < 1e-12 * acceleration.norm(), "{acceleration}");
+        // Mixed derivatives by differences of the first ones.
+        let step = 1e-5;
+        let [below, above] = [five_bar::gains_at(a, b - step)?, five_bar::gains_at(a, b + step)?];
+        let mixed = (above.upper_angle.by_a - below.upper_angle.by_a) / (2.0 * step);
+        assert!((mixed - gains.upper_angle.by_a_b).abs() < 1e-8, "{mixed}");
     }
     Ok(())
 }

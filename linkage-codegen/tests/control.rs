@@ -132,6 +132,47 @@ fn the_equation_of_motion_of_random_linkages_is_their_equilibrium() {
     assert!(checked.len() > 50 && several > 4 && elsewhere > 9, "{} {several} {elsewhere}", checked.len());
 }
 
+/// With the coefficients of first and second order every velocity and every acceleration is made of the drives' motion.
+#[test]
+fn kinematic_coefficients_of_random_linkages_make_their_motion() {
+    let (mut checked, mut several) = (0, 0);
+    for seed in 8200..8260 {
+        let Some((text, _, arguments)) = linkage(seed) else { continue };
+        let linkage = compile(&format!("{text} scene gains: coefficients;"));
+        let Ok(gains) = scene::<Double>(&linkage, "gains", &arguments) else { continue };
+        let speeds = scene::<Double>(&linkage, "speeds", &arguments).expect("velocities");
+        let accelerations = scene::<Double>(&linkage, "accelerations", &arguments).expect("accelerations");
+        let drives: Vec<&str> = linkage.model.drives.iter().map(|drive| drive.name.text.as_str()).collect();
+        for (path, speed) in &speeds {
+            let (what, part) = match path.strip_suffix(".x").or(path.strip_suffix(".y")) {
+                Some(what) => (what, &path[what.len()..]),
+                None => (path.as_str(), ""),
+            };
+            let of = |by: String| gains[&format!("{what}.by{by}{part}")].0;
+            let (mut first, mut second, mut size) = (0.0, 0.0, 1e-9);
+            for (i, one) in drives.iter().enumerate() {
+                let [rate, acceleration] = arguments.motion[i];
+                let gain = of(format!("_{one}"));
+                first += gain * rate;
+                second += gain * acceleration;
+                size += (gain * acceleration).abs();
+                for (j, other) in drives.iter().enumerate().skip(i) {
+                    let twice = if i == j { 1.0 } else { 2.0 };
+                    let term = twice * of(format!("_{one}_{other}")) * rate * arguments.motion[j][0];
+                    second += term;
+                    size += term.abs();
+                }
+            }
+            assert!((first - speed.0).abs() <= 1e-9 * (speed.0.abs() + 1.0), "{path}: {first} {}\n{text}", speed.0);
+            let off = (second - accelerations[path].0).abs();
+            assert!(off <= 1e-9 * (size + 1.0), "{path}: {second} {}\n{text}", accelerations[path].0);
+        }
+        checked += 1;
+        several += usize::from(drives.len() > 1);
+    }
+    assert!(checked > 25 && several > 2, "{checked} {several}");
+}
+
 /// A crank-rocker with masses.
 const FOUR_BAR: &str = "mod four_bar; ground { A0: (0, 0), B0: (0.14m, 0) } link crank { A0 -> A: 0.04m, G: (0.015m, 2mm) }
     link coupler { A -> B: 0.1m, C: (50mm, 30mm) } link rocker { B0 -> B: 0.12m, D: (60mm, -10mm) }

@@ -6,7 +6,7 @@ use std::fmt::Debug;
 
 use linkage_codegen::Linkage;
 use linkage_codegen::program::Fault;
-use linkage_runtime::{Error, Vector2, polar};
+use linkage_runtime::{Error, Side, Vector2, polar};
 use support::examples::declaration;
 use support::measures::values_from_kept;
 use support::numbers::Double;
@@ -61,6 +61,19 @@ declared! { CRUSHER:
     scene speeds: velocity; scene accelerations: acceleration;
     scene more: acceleration -> (B along jaw, jaw.T along path, S, inertia(ram), offset(jaw), offset(rod));
     scene control: motion(I, W, K) -> (M, h, rounding, M_kinetic); scene light: motion(Ij) -> (M);
+    scene gains: coefficients;
+}
+
+declared! { ROCKER:
+    mod rocker;
+    units { mm, N }
+    param reach: length;
+    ground { A0: (0, 0), B0: (140mm, 0) } link crank { A0 -> A: 40mm } link coupler { A -> B: 120mm }
+    link rocker { B0 -> B: reach } link guide { P: (0, 0), E: (0, 15mm) } link rod { B -> E: 200mm }
+    revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+    revolute B2: rocker.B -> rod.B; revolute E: rod -> guide; prismatic S: ground.B0 -> guide.P along 10deg, angle 10deg;
+    drive theta: A0; assemble B: left(A -> B0); assemble E: ahead(B2); assemble A: either(A0 -> B); assemble B2: right(E -> B0);
+    scene places: position; scene crank_of: inverse(S);
 }
 
 /// All numbers of a result, in the order of its fields.
@@ -351,10 +364,43 @@ fn in_motion() {
             &pose.and_then(|pose| pose.control(&motion, &loads)),
         );
         interpreted.check(
+            "gains",
+            &arguments,
+            &crusher::gains_at(&linkage, theta, x),
+            &pose.and_then(|pose| pose.gains()),
+        );
+        interpreted.check(
             "light",
             &arguments,
             &crusher::light_at(&linkage, theta, x),
             &pose.and_then(|pose| pose.light()),
         );
     }
+}
+
+/// Inverse scenes, with what is prepared for them.
+#[test]
+fn inverse() {
+    let interpreted = Interpreted::of_text(ROCKER);
+    let exchanged = &interpreted.linkage.inverses[0];
+    let program = &exchanged.functions.scenes[0].direct;
+    let linkage = rocker::Linkage::new(&rocker::Params { reach: 80.0 }).expect("a length");
+    let motion = rocker::CrankOfMotion { S_travel_rate: 230.0, S_travel_acceleration: -1700.0 };
+    let mut found = 0;
+    for travel in (0..=400).map(|step| 100.0 + 0.5 * f64::from(step)) {
+        for side in [Side::Left, Side::Right] {
+            let arguments = Arguments {
+                drives: vec![travel],
+                params: vec![80.0],
+                motion: vec![[230.0, -1700.0]],
+                sides: vec![1.0, 1.0, f64::from(side.sign()), 1.0],
+                ..Arguments::default()
+            };
+            let own = rocker::crank_of_at(&linkage, travel, rocker::Closures { A: side }, &motion);
+            let expected = Interpreted::bits(direct::<Double>(exchanged, program, &arguments));
+            assert_eq!(numbers(&own), expected, "{side:?} at {travel}");
+            found += usize::from(own.is_ok());
+        }
+    }
+    assert!(found > 100, "{found}");
 }

@@ -17,7 +17,7 @@ use support::measures::values_from_kept;
 use support::numbers::{Double, Single};
 use support::{Arguments, Number, direct, pose};
 
-const SCENES: [&str; 7] = ["all", "parts", "work", "whole", "speeds", "accelerations", "control"];
+const SCENES: [&str; 8] = ["all", "parts", "work", "whole", "speeds", "accelerations", "gains", "control"];
 /// Of linkages that have mass.
 const CONTROL: &str = "scene control: motion -> (M, h, rounding, M_kinetic);";
 
@@ -43,6 +43,7 @@ fn cases() -> Vec<Case> {
             scalar,
         };
         let mut sample = sample(seed, kind);
+        sample.text.push_str("scene gains: coefficients;");
         if sample.text.contains("load I: inertia;") {
             sample.text.push_str(CONTROL);
         }

@@ -244,7 +244,7 @@ const OTHERS: [(&str, &str); 14] = [
         ground { A0: (0, 0), B0: (140mm, 0) } link crank { A0 -> A: 40mm } link coupler { A -> B: 120mm } link rocker { B0 -> B: reach }
         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
         drive theta: A0; assemble B: left(A -> B0); assemble A: right(A0 -> B);
-        scene place: position -> (rocker.angle); scene crank_of: inverse(B0); scene angle_of: inverse(B0) -> (theta);",
+        scene place: position -> (rocker.angle); scene gains: coefficients -> (rocker.angle, B); scene crank_of: inverse(B0); scene angle_of: inverse(B0) -> (theta);",
     ),
     (
         "scotch_yoke",

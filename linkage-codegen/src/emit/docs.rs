@@ -98,6 +98,7 @@ pub(super) fn scene_summary(linkage: &Linkage, index: usize, from_pose: bool) ->
         Method::Position => format!("Where everything is, {from}."),
         Method::Velocity => format!("How fast everything moves, {from}."),
         Method::Acceleration => format!("The accelerations, {from}."),
+        Method::Coefficients => format!("Kinematic coefficients: how everything changes with the drives, {from}."),
         Method::Equilibrium => format!("Equilibrium under {loads}, {from}."),
         Method::Superposition => format!("Equilibrium under each of {loads} by itself, {from}."),
         Method::VirtualWork => format!("Virtual work of {loads}, {from}."),

@@ -11,7 +11,7 @@ use super::types::{closures, forward_signature, given_motion, loads, motion, res
 use crate::graph::NodeId;
 use crate::model::ids::LinkId;
 use crate::model::{Along, Load, Method, Model, OWN_TYPES, Part, Scene, Wanted, type_name};
-use crate::plan::{Field, Meaning, Output, reaction_type};
+use crate::plan::{Field, Meaning, Output, coefficient_names, reaction_type};
 
 /// The names of a module. Where several things would have one name, the first has it.
 #[must_use]
@@ -274,7 +274,15 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
         }
         Output::Record(model.unknowns.iter().map(|unknown| field(&unknown.name, term())).collect())
     };
+    if let (Method::Coefficients, Some(Wanted::Joint(_) | Wanted::Point(_) | Wanted::Angle(_))) = (scene.method, wanted)
+    {
+        let one = if matches!(wanted, Some(Wanted::Angle(_))) { number } else { vector };
+        return Output::Record(coefficient_names(model).iter().map(|name| field(name, one.clone())).collect());
+    }
     match wanted {
+        Some(Wanted::Advantage(_)) if model.unknowns.len() > 1 => {
+            Output::Record(model.unknowns.iter().map(|unknown| field(&unknown.name, number.clone())).collect())
+        }
         Some(Wanted::Joint(joint)) => {
             let ty = model.joints.get(joint.index()).and_then(|joint| reaction_type(&joint.kind));
             match ty.filter(|_| scene.method.has_loads()) {
@@ -312,7 +320,14 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
             (unknowns, _) => Output::Matrix(vec![vec![zero; unknowns]; unknowns]),
         },
         Some(Wanted::Along(..)) => Output::Resolved([zero, zero]),
-        Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..) | Wanted::Power(_) | Wanted::Driver(..))
+        Some(
+            Wanted::Unknown(_)
+            | Wanted::Angle(_)
+            | Wanted::About(..)
+            | Wanted::Power(_)
+            | Wanted::Driver(..)
+            | Wanted::Advantage(_),
+        )
         | None => number,
     }
 }

@@ -611,6 +611,8 @@ pub enum Method {
     VirtualWork,
     /// The reduced equation of motion.
     Motion,
+    /// The derivatives of places and angles by the drives.
+    Coefficients,
     /// The drives for a wanted motion.
     Inverse,
     /// All of these against the general solution.
@@ -621,7 +623,7 @@ impl Method {
     /// Whether its results depend on loads.
     #[must_use]
     pub fn has_loads(self) -> bool {
-        !matches!(self, Self::Position | Self::Velocity | Self::Acceleration | Self::Inverse)
+        !matches!(self, Self::Position | Self::Velocity | Self::Acceleration | Self::Coefficients | Self::Inverse)
     }
 
     /// Whether there is nothing to it without loads.
@@ -660,6 +662,8 @@ pub enum Wanted {
     OnGround(End),
     /// The power of an unknown; of all of them.
     Power(Option<UnknownId>),
+    /// The mechanical advantage over a load.
+    Advantage(LoadId),
     /// Bounds of the rounding errors of all other results.
     ErrorBound,
     /// A part of the equation of motion.
@@ -810,6 +814,7 @@ impl Model {
             Wanted::OnGround(end) => format!("ground_about_{}", point(end)?),
             Wanted::Power(None) => "power".to_owned(),
             Wanted::Power(Some(unknown)) => format!("{}_power", self.unknowns.get(unknown.index())?.name),
+            Wanted::Advantage(load) => format!("{}_advantage", self.loads.get(load.index())?.name),
             Wanted::Part(part) => part.name().to_owned(),
             Wanted::Driver(drive, order) => {
                 Self::driver_name(&self.exchanged.as_ref()?.drives.get(drive.index())?.0, order)

@@ -56,6 +56,7 @@ fn likely_method(word: &str) -> Method {
     match word {
         "velocity" => Method::Velocity,
         "acceleration" => Method::Acceleration,
+        "coefficients" => Method::Coefficients,
         "position" => Method::Position,
         "verify" => Method::Verify,
         "motion" => Method::Motion,
@@ -86,6 +87,7 @@ fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
         "position" => Ok(Method::Position),
         "velocity" => Ok(Method::Velocity),
         "acceleration" => Ok(Method::Acceleration),
+        "coefficients" => Ok(Method::Coefficients),
         "equilibrium" => Ok(Method::Equilibrium),
         "superposition" => Ok(Method::Superposition),
         "virtual_work" => Ok(Method::VirtualWork),
@@ -114,6 +116,7 @@ fn loads(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink:
         let what = match method {
             Method::Velocity => "velocities do",
             Method::Acceleration => "accelerations do",
+            Method::Coefficients => "kinematic coefficients do",
             _ => "positions do",
         };
         sink.report(
@@ -225,6 +228,7 @@ fn likely(model: &Model, names: &Names, item: &ResultItem) -> (String, Option<Wa
             let like = match what.text.as_str() {
                 "offset" => Wanted::Offset(GROUND),
                 "power" => Wanted::Power(None),
+                "advantage" => Wanted::Advantage(LoadId::new(names.near(Role::Load, &link.text).unwrap_or(0))),
                 _ => Wanted::Inertia(GROUND),
             };
             return (format!("{link}_{what}"), Some(like));
@@ -274,7 +278,7 @@ fn all_results(model: &Model, method: Method, loads: &[LoadId]) -> Vec<Wanted> {
     let joints = (0..model.joints.len()).map(|j| Wanted::Joint(JointId::new(j)));
     let unknowns = (0..model.unknowns.len()).map(|u| Wanted::Unknown(UnknownId::new(u)));
     match method {
-        Method::Position | Method::Velocity | Method::Acceleration => {
+        Method::Position | Method::Velocity | Method::Acceleration | Method::Coefficients => {
             let jointed = |end: End| model.joints.iter().any(|j| j.ends().contains(&end));
             let points = model
                 .moving_links()
@@ -338,6 +342,9 @@ fn result(
             let place = what.place().to(unknown.place());
             power(model, given, method, (place, Some(unknown)), names)
         }
+        ResultItem::OfLink(what, load) if what.text == "advantage" => {
+            advantage(model, given, method, (what, load), names)
+        }
         ResultItem::OfPoint(what, point) => shaking(model, given, method, (what, point), names),
         ResultItem::OfLink(what, link) => of_link(model, given, method, (what, link), names),
         ResultItem::Along(joint, link) => {
@@ -399,7 +406,7 @@ fn of_link(
         "offset" => Wanted::Offset,
         other => {
             return Err(Diagnostic::new(what.place(), format!("there is no result `{shown}`"))
-                .suggest(other, ["inertia", "offset", "shaking", "power"]));
+                .suggest(other, ["inertia", "offset", "shaking", "power", "advantage"]));
         }
     };
     if method != Method::Acceleration {
@@ -429,7 +436,7 @@ fn shaking(
     let (place, shown) = (what.place().to(point.place()), format!("{what}({})", point.written()));
     if what.text != "shaking" {
         return Err(Diagnostic::new(what.place(), format!("there is no result `{shown}`"))
-            .suggest(&what.text, ["inertia", "offset", "shaking", "power"]));
+            .suggest(&what.text, ["inertia", "offset", "shaking", "power", "advantage"]));
     }
     if method != Method::Acceleration {
         return Err(cannot(given, place, &shown, "the resultant of inertia").help("`acceleration` gives it"));
@@ -467,6 +474,29 @@ fn power(
     }
 }
 
+/// `advantage(M4)`
+fn advantage(
+    model: &Model,
+    given: &ast::Scene,
+    method: Method,
+    (what, load): (&Name, &Name),
+    names: &Names,
+) -> Result<Option<Wanted>, Diagnostic> {
+    let (place, shown) = (what.place().to(load.place()), format!("{what}({load})"));
+    if method != Method::VirtualWork {
+        return Err(cannot(given, place, &shown, "the mechanical advantage").help("`virtual_work` gives it"));
+    }
+    let Some(id) = names.find(Role::Load, load)?.map(LoadId::new) else { return Ok(None) };
+    if model.loads.get(id.index()).is_some_and(|load| load.kind.is_per_link()) {
+        return Err(Diagnostic::new(
+            load.place(),
+            format!("`{load}` acts on many links: no single velocity goes with it"),
+        )
+        .help("ask for the advantage over a force, a moment or a thrust"));
+    }
+    Ok(Some(Wanted::Advantage(id)))
+}
+
 /// The joint whose reaction is wanted in some form.
 fn reaction_of(
     given: &ast::Scene,
@@ -492,6 +522,7 @@ fn word(method: Method) -> &'static str {
         Method::Position => "position",
         Method::Velocity => "velocity",
         Method::Acceleration => "acceleration",
+        Method::Coefficients => "coefficients",
         Method::Equilibrium => "equilibrium",
         Method::Superposition => "superposition",
         Method::VirtualWork => "virtual_work",
@@ -504,6 +535,9 @@ fn word(method: Method) -> &'static str {
 /// A part of the equation of motion.
 fn part(item: &ResultItem) -> Result<Wanted, Diagnostic> {
     let of = end_of(item);
+    if matches!(item, ResultItem::Name(name) if name.text == ERROR_BOUND) {
+        return Ok(Wanted::ErrorBound);
+    }
     let named = match item {
         ResultItem::Name(name) => Part::ALL.into_iter().find(|part| part.name() == name.text),
         _ => None,
@@ -524,7 +558,7 @@ fn named_result(
 ) -> Result<Option<Wanted>, Diagnostic> {
     if let Some(index) = model.unknowns.iter().position(|u| u.name == name.text) {
         return match method {
-            Method::Position | Method::Velocity | Method::Acceleration => {
+            Method::Position | Method::Velocity | Method::Acceleration | Method::Coefficients => {
                 Err(cannot(given, name.place(), &name.text, "an effort")
                     .help("`equilibrium` and `virtual_work` give it"))
             }
@@ -570,7 +604,7 @@ fn named_result(
         None if names.may_be(Role::Joint) || names.may_be(Role::Load) || names.may_be(Role::Unknown) => Ok(None),
         _ => {
             let known: Vec<&str> = match method {
-                Method::Position | Method::Velocity | Method::Acceleration => names.of(Role::Joint).collect(),
+                _ if !method.has_loads() => names.of(Role::Joint).collect(),
                 Method::VirtualWork => {
                     model.unknowns.iter().map(|u| u.name.as_str()).chain(names.of(Role::Load)).collect()
                 }
@@ -782,6 +816,10 @@ fn types_of(model: &Model, scene: &Scene) -> Vec<String> {
     });
     let records = records.map(|load| format!("{base}{}", type_name(&model.load(*load).name.text)));
     let resolved = scene.results.iter().filter_map(|wanted| match wanted {
+        Wanted::Joint(_) | Wanted::Point(_) | Wanted::Angle(_) if scene.method == Method::Coefficients => {
+            model.result_name(*wanted)
+        }
+        Wanted::Advantage(_) if model.unknowns.len() > 1 => model.result_name(*wanted),
         Wanted::Resolved(..) | Wanted::Inertia(_) | Wanted::Offset(_) => model.result_name(*wanted),
         _ => None,
     });

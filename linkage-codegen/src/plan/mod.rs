@@ -5,6 +5,7 @@
 
 mod assembly;
 mod balance;
+mod coefficients;
 mod dynamics;
 pub mod efforts;
 mod error_bound;
@@ -25,6 +26,7 @@ mod velocities;
 
 pub use assembly::Assembly;
 pub use balance::Balance;
+pub(crate) use coefficients::names as coefficient_names;
 pub use output::{Comparison, Field, Meaning, Output};
 pub use pivots::Pivots;
 pub use placement::Placement;

@@ -56,6 +56,7 @@ pub(super) fn outputs<'m>(
             Method::Superposition => forces.superposition(scene),
             Method::VirtualWork => forces.virtual_work(scene),
             Method::Motion => forces.equation_of_motion(scene),
+            Method::Coefficients => forces.coefficients(scene),
             Method::Inverse => drivers(assembly, posed, scene),
             Method::Verify => forces.verify(scene, equations),
         })
@@ -462,6 +463,23 @@ impl<'m> Forces<'_, 'm> {
                 let value = Output::scalar(effort, unknown_meaning(self.model, unknown));
                 Some(Field { name: name.clone(), doc: unknown_doc(self.model, unknown), value })
             }
+            Wanted::Advantage(load) => {
+                let value = if single {
+                    self.advantage(&motions[0].1, load)
+                } else {
+                    let each = motions.iter().map(|(unknown, motion)| {
+                        let unknown = &self.model.unknown(*unknown).name;
+                        let doc = format!("Of `{unknown}`.");
+                        Field { name: unknown.clone(), doc, value: self.advantage(motion, load) }
+                    });
+                    Output::Record(each.collect())
+                };
+                let doc = format!(
+                    "Mechanical advantage: how much of `{}` a unit of effort holds.",
+                    self.model.load(load).name
+                );
+                Some(Field { name: self.model.result_name(*wanted)?, doc, value })
+            }
             Wanted::Power(of) => {
                 self.power(*wanted, of, |unknown| self.effort_by_work(&motions[unknown.index()].1, &loads))
             }
@@ -545,6 +563,21 @@ impl<'m> Forces<'_, 'm> {
         motion.through(self.groups, self.rules, self.sink)
     }
 
+    /// What a load is over the effort that holds it, in size: the inverse of the velocity along it at unit rate.
+    fn advantage(&self, motion: &Motion<'m, '_>, load: LoadId) -> Output {
+        let (graph, name) = (&self.model.graph, &self.model.load(load).name);
+        let Output::Term { velocity, .. } = self.terms(motion, load) else {
+            return Output::scalar(graph.zero(), Meaning::Number);
+        };
+        let velocity = graph.expr(velocity);
+        let velocity =
+            velocity.named(motion.name(&format!("v_along_{name}")), format!("velocity along {name}, at unit rate"));
+        let failure = Failure::DeadCentre { group: name.text.clone(), pivot: format!("v_along_{name}") };
+        let limit = graph.epsilons(8) * velocity.magnitude();
+        let divisor = velocity.require_above(velocity.abs(), limit, failure);
+        Output::scalar(graph.one() / divisor, Meaning::Number)
+    }
+
     /// The term of a load; of gravity one for each link.
     fn terms(&self, motion: &Motion<'m, '_>, load: LoadId) -> Output {
         let cases = self.cases_of(load);
@@ -571,7 +604,12 @@ impl<'m> Forces<'_, 'm> {
     }
 }
 
-fn of_spot<'m>(motion: &Motion<'m, '_>, spot: Spot) -> Framed<'m> {
+/// The name of a joint.
+pub(super) fn joint_of(model: &Model, joint: JointId) -> &str {
+    joint_name(model, joint)
+}
+
+pub(super) fn of_spot<'m>(motion: &Motion<'m, '_>, spot: Spot) -> Framed<'m> {
     match spot {
         Spot::Joint(joint) => motion.of_joint(joint),
         Spot::Point(end) => motion.of_point(end),

@@ -44,8 +44,9 @@ enum Purpose<'m, 'p> {
     Unit(DriveId),
     /// The drives move at their rates.
     Velocity,
-    /// The drives' accelerations, at these velocities.
-    Acceleration(&'p Motion<'m, 'p>),
+    /// The drives' accelerations, at these velocities. Of two different ones, what is left of the accelerations at their sum when those at
+    /// each of them are taken away, halved: the part that is linear in both.
+    Acceleration([&'p Motion<'m, 'p>; 2]),
 }
 
 /// The velocities or the accelerations of all links.
@@ -129,14 +130,21 @@ impl<'m, 'p> Motion<'m, 'p> {
     /// What the accelerations are at these velocities without any of the drives, before any group is solved.
     #[must_use]
     pub fn undriven_accelerations(velocities: &'p Motion<'m, 'p>) -> Self {
-        Self { driven: false, ..Self::accelerations(velocities) }
+        Self::second_order([velocities; 2], String::new())
+    }
+
+    /// The second derivatives of the motion by two drives, from the first ones; before any group is solved.
+    #[must_use]
+    pub fn second_order(first: [&'p Motion<'m, 'p>; 2], prefix: String) -> Self {
+        let Motion { placement, pivots, .. } = *first[0];
+        Self { driven: false, ..Self::new(placement, pivots, Purpose::Acceleration(first), prefix) }
     }
 
     /// The accelerations at these velocities, before any group is solved.
     #[must_use]
     pub fn accelerations(velocities: &'p Motion<'m, 'p>) -> Self {
         let Motion { placement, pivots, .. } = *velocities;
-        Self::new(placement, pivots, Purpose::Acceleration(velocities), String::new())
+        Self::new(placement, pivots, Purpose::Acceleration([velocities; 2]), String::new())
     }
 
     /// The same, once all groups are solved, each by its rule.
@@ -184,10 +192,11 @@ impl<'m, 'p> Motion<'m, 'p> {
 
     /// `ω²` of a link, if these are accelerations and it turns.
     fn angular_velocity_squared(&self, link: LinkId) -> Option<Expr<'m>> {
-        let Purpose::Acceleration(velocities) = self.purpose else { return None };
-        let omega = velocities.rate(link);
+        let Purpose::Acceleration([one, other]) = self.purpose else { return None };
+        let product = one.rate(link) * other.rate(link);
         let name = &self.model().link(link).name;
-        (!omega.is_zero()).then(|| omega.squared().named(format!("omega2_{name}"), format!("ω² of {name}")))
+        let how = if core::ptr::eq(one, other) { "ω²" } else { "the product of the rates of rotation" };
+        (!product.is_zero()).then(|| product.named(self.name(&format!("omega2_{name}")), format!("{how} of {name}")))
     }
 
     /// The rate at which the coordinate of a drive or an unknown changes: of a virtual motion one or zero.
@@ -336,18 +345,25 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn coriolis(&self, joint: JointId, link: LinkId) -> Framed<'m> {
         let graph = self.graph();
         let nothing = Framed { components: graph.zero_vector(), axes: self.placement.direction(GROUND) };
-        let (Purpose::Acceleration(velocities), Some((carrier, _))) =
+        let (Purpose::Acceleration([one, other]), Some((carrier, _))) =
             (self.purpose, self.model().joint(joint).kind.line())
         else {
             return nothing;
         };
-        let omega = velocities.rate(carrier);
-        if omega.is_zero() {
+        if one.rate(carrier).is_zero() && other.rate(carrier).is_zero() {
             return nothing;
         }
         let name = &self.model().joint(joint).name;
-        let across = (2 * graph.one()) * (omega * velocities.sliding(joint, link));
-        let across = across.named(format!("coriolis_{name}"), "Coriolis: 2 ω times the speed of sliding");
+        let (across, how) = if core::ptr::eq(one, other) {
+            ((2 * graph.one()) * (one.rate(carrier) * one.sliding(joint, link)), "2 ω times the speed of sliding")
+        } else {
+            let part = |turning: &Motion<'m, '_>, sliding: &Motion<'m, '_>| {
+                let omega = turning.rate(carrier);
+                if omega.is_zero() { omega } else { omega * sliding.sliding(joint, link) }
+            };
+            (part(one, other) + part(other, one), "ω times the speed of sliding, of either by the other")
+        };
+        let across = across.named(self.name(&format!("coriolis_{name}")), format!("Coriolis: {how}"));
         Framed { components: Vector::new(graph.zero(), across), axes: self.placement.slide_direction(joint) }
     }
 

@@ -10,10 +10,11 @@ use super::tokens::{between, comma_list, eat_word, name, place_of, take};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
 /// The methods that are carried out.
-pub(crate) const METHODS: [&str; 10] = [
+pub(crate) const METHODS: [&str; 11] = [
     "position",
     "velocity",
     "acceleration",
+    "coefficients",
     "equilibrium",
     "superposition",
     "virtual_work",
