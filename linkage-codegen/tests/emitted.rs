@@ -76,6 +76,18 @@ declared! { ROCKER:
     scene places: position; scene crank_of: inverse(S);
 }
 
+declared! { RAIL:
+    mod rail;
+    ground { A0: (0, 0), S: (1.5m, -0.2m) } link crank { A0 -> A: 0.5m } link left { A -> B: 1m, C: (0.4m, 0.1m) }
+    link right { D -> B: 1.1m } link slide { S: (0, 0), D: (0, 0.1m) }
+    mass crank: 1.3kg at (0.2m, 0), inertia 0.02kg*m^2; mass left: 0.9kg at C, inertia 0.07kg*m^2; mass slide: 2.1kg at D;
+    revolute A0: ground -> crank; revolute A: crank -> left; revolute B: left -> right; revolute D: slide -> right;
+    prismatic S: ground -> slide along 30deg;
+    drive theta: A0; drive travel: S; unknown T: torque(crank -> left); unknown P: force(left.C) along 80deg;
+    assemble B: left(A -> D); load W: gravity = 9.81m/s^2 @ -90deg;
+    scene control: motion -> (M, h, rounding, M_kinetic);
+}
+
 /// All numbers of a result, in the order of its fields.
 fn numbers<T: Debug>(result: &Result<T, Error>) -> Option<Vec<u64>> {
     let text = format!("{:?}", result.as_ref().ok()?);
@@ -403,4 +415,32 @@ fn inverse() {
         }
     }
     assert!(found > 100, "{found}");
+}
+
+/// Where the unknowns act elsewhere, the mass is not symmetric: rows and columns are in their places.
+#[test]
+fn masses_of_efforts_elsewhere() {
+    let interpreted = Interpreted::of_text(RAIL);
+    let motion = rail::Motion { theta_rate: 3.1, travel_rate: -0.8 };
+    let mut skew = 0;
+    for theta in angles() {
+        let arguments = Arguments {
+            drives: vec![theta, 0.1],
+            loads: vec![[0.0; 2]],
+            motion: vec![[3.1, f64::NAN], [-0.8, f64::NAN]],
+            ..Arguments::default()
+        };
+        let straight = rail::control_at(theta, 0.1, &motion);
+        let pose = rail::Pose::at(theta, 0.1);
+        interpreted.check("control", &arguments, &straight, &pose.and_then(|pose| pose.control(&motion)));
+        let Ok(control) = straight else { continue };
+        // A row of M is what one effort gives to both accelerations.
+        let index = interpreted.linkage.functions.scenes[0].direct.outputs.iter().position(|(path, _)| path == "M.1.2");
+        let values =
+            direct::<Double>(&interpreted.linkage, &interpreted.linkage.functions.scenes[0].direct, &arguments);
+        let entry = values.expect("results")[index.expect("an entry")].0;
+        assert_eq!(control.M[(0, 1)].to_bits(), entry.to_bits());
+        skew += usize::from(control.M[(0, 1)].to_bits() != control.M[(1, 0)].to_bits());
+    }
+    assert!(skew > 100, "{skew}");
 }

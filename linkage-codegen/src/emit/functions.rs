@@ -161,12 +161,13 @@ fn result(
             quote!(SVector::from([#(#values),*]))
         }
         Output::Matrix(rows) => {
-            let rows: Vec<Vec<TokenStream>> = rows.iter().map(|row| row.iter().map(|_| next()).collect()).collect();
-            let columns = (0..rows.len()).map(|column| {
-                let values = rows.iter().filter_map(|row| row.get(column));
-                quote!([#(#values),*])
-            });
-            let columns = columns.collect::<Vec<_>>();
+            // Column by column, as they come.
+            let columns: Vec<TokenStream> = (0..rows.len())
+                .map(|_| {
+                    let values = rows.iter().map(|_| next()).collect::<Vec<_>>();
+                    quote!([#(#values),*])
+                })
+                .collect();
             quote!(SMatrix::from([#(#columns),*]))
         }
         Output::Resolved(_) => {
