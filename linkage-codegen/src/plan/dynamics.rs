@@ -184,7 +184,7 @@ impl<'m> Forces<'_, 'm> {
     }
 
     /// The directions of links are as uncertain as a vector of length one, however small a component is.
-    fn unit_vectors(&self) -> BTreeMap<NodeId, Expr<'m>> {
+    pub(super) fn unit_vectors(&self) -> BTreeMap<NodeId, Expr<'m>> {
         let (model, placement) = (self.model, &self.assembly.placement);
         let directions = model.moving_links().map(|link| placement.direction(link));
         let parts = directions.flat_map(|direction| [direction.x, direction.y]);

@@ -573,7 +573,7 @@ impl<'m> Forces<'_, 'm> {
         let velocity =
             velocity.named(motion.name(&format!("v_along_{name}")), format!("velocity along {name}, at unit rate"));
         let failure = Failure::DeadCentre { group: name.text.clone(), pivot: format!("v_along_{name}") };
-        let limit = graph.epsilons(8) * velocity.magnitude();
+        let limit = graph.epsilons(8) * velocity.magnitude_given(&mut self.unit_vectors());
         let divisor = velocity.require_above(velocity.abs(), limit, failure);
         Output::scalar(graph.one() / divisor, Meaning::Number)
     }
