@@ -75,10 +75,11 @@ fn by(model: &Model, drives: &[DriveId]) -> String {
 fn part_doc(model: &Model, drives: &[DriveId], what: &str, is_place: bool) -> String {
     let length = Kind::Length.unit(&model.units);
     let of = if is_place { &length } else { "rad" };
-    let unit = drives.iter().fold(of.to_owned(), |unit, drive| {
-        let by = if model.drive(*drive).turns { "rad" } else { &length };
-        format!("{unit}/{by}")
-    });
+    let by = |drive: &DriveId| if model.drive(*drive).turns { "rad" } else { length.as_str() };
+    let unit = match drives.iter().map(by).collect::<Vec<_>>().as_slice() {
+        [one, other] if one == other => format!("{of}/{one}²"),
+        units => format!("{of}/({})", units.join("·")).replace("(rad)", "rad").replace(&format!("({length})"), &length),
+    };
     let names: Vec<String> = drives.iter().map(|drive| format!("`{}`", model.drive(*drive).name)).collect();
     let axes = if is_place { ", ground axes" } else { "" };
     format!("Of {what} by {}, {unit}{axes}.", names.join(" and "))
