@@ -347,6 +347,10 @@ fn result(
         }
         ResultItem::OfPoint(what, point) => shaking(model, given, method, (what, point), names),
         ResultItem::OfLink(what, link) => of_link(model, given, method, (what, link), names),
+        ResultItem::Along(of, link) if method == Method::Coefficients => {
+            let (place, shown) = (of.place().to(link.place()), format!("{} along {link}", of.written()));
+            Err(cannot(given, place, &shown, "a part along a link").help("ask for the whole vector"))
+        }
         ResultItem::Along(joint, link) => {
             let link_id = names.find(Role::Link, link)?.map(LinkId::new);
             let joint_id = reaction_of(given, method, (joint, "along"), names, joint.place().to(link.place()))?;
