@@ -94,8 +94,8 @@ fn every_stage_of_every_example() {
 }
 
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
-/// cylinders, slots, welds, gears, inner slides, unknowns elsewhere than at the drives.
-const OTHERS: [(&str, &str); 16] = [
+/// cylinders, slots, welds, gears, inner slides, unknowns elsewhere than at the drives, equations of motion, inverse scenes.
+const OTHERS: [(&str, &str); 18] = [
     (
         "bounded",
         "/// A slider-crank whose results come with bounds of their rounding errors.
@@ -223,6 +223,28 @@ const OTHERS: [(&str, &str); 16] = [
         scene dynamics: equilibrium(I, gas); scene torque: virtual_work(I, gas) -> (effort_theta);
         scene damped: equilibrium(K) -> (effort_theta); scene statics: equilibrium(gas) -> (effort_theta);
         scene speeds: velocity; scene accelerations: acceleration -> (B, rod.C, rod.C along path, rod.angle, inertia(rod), offset(rod));",
+    ),
+    (
+        "robot",
+        "/// A five-bar robot under computed torque: its equation of motion, and that of its links alone.
+        pub mod robot;
+        ground { O1: (0, 0), O2: (0.5m, 0) } link left { O1 -> P: 0.3m } link right { O2 -> Q: 0.3m }
+        link upper { P -> R: 0.45m } link lower { Q -> R: 0.4m }
+        mass left: 1.2kg at (0.12m, 0), inertia 0.01kg*m^2; mass right: 1.2kg at (0.12m, 0), inertia 0.01kg*m^2;
+        mass upper: 0.8kg at (0.2m, 0), inertia 0.012kg*m^2; mass lower: 0.7kg at (0.15m, 0.01m);
+        revolute O1: ground -> left; revolute O2: ground -> right; revolute P: left -> upper; revolute Q: right -> lower;
+        revolute R: upper -> lower;
+        drive a: O1; drive b: O2; assemble R: left(P -> Q);
+        load tool: force(upper.R); scene control: motion; scene mass: motion() -> (M); scene cycle: sweep(control);",
+    ),
+    (
+        "swing",
+        "/// The crank of a crank-rocker for a wanted motion of the rocker.
+        pub mod swing; units { mm, N } param reach: length = 120mm;
+        ground { A0: (0, 0), B0: (140mm, 0) } link crank { A0 -> A: 40mm } link coupler { A -> B: 120mm } link rocker { B0 -> B: reach }
+        revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+        drive theta: A0; assemble B: left(A -> B0); assemble A: right(A0 -> B);
+        scene place: position -> (rocker.angle); scene gains: coefficients -> (rocker.angle, B); scene crank_of: inverse(B0); scene angle_of: inverse(B0) -> (theta);",
     ),
     (
         "scotch_yoke",

@@ -122,6 +122,12 @@ impl<'g> Expr<'g> {
         self.magnitude_with(&mut BTreeMap::new())
     }
 
+    /// The same, where the sizes of some values are known. What is gone into is added to them.
+    #[must_use]
+    pub fn magnitude_given(self, known: &mut BTreeMap<NodeId, Self>) -> Self {
+        self.magnitude_with(known)
+    }
+
     /// Values may use each other often: each is gone into once.
     fn magnitude_with(self, done: &mut BTreeMap<NodeId, Self>) -> Self {
         if let Some(found) = done.get(&self.id) {

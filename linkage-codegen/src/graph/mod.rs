@@ -363,6 +363,11 @@ pub enum Failure<T = NodeId> {
         /// Which one, as `the velocity of C`.
         of: String,
     },
+    /// A joint lies on the other side than is chosen for its group.
+    OtherSide {
+        /// The joint.
+        joint: String,
+    },
     /// A parameter is out of its range.
     Parameter {
         /// What is wrong with it, as `crank: |A0 A| must be positive`.
@@ -394,6 +399,7 @@ impl<T: Copy> Failure<T> {
             Self::DeadCentre { group, pivot } => Failure::DeadCentre { group: group.clone(), pivot: pivot.clone() },
             Self::CoincidentEnds { of } => Failure::CoincidentEnds { of: of.clone() },
             Self::NoDirection { of } => Failure::NoDirection { of: of.clone() },
+            Self::OtherSide { joint } => Failure::OtherSide { joint: joint.clone() },
             Self::Parameter { requirement } => Failure::Parameter { requirement: requirement.clone() },
         }
     }

@@ -6,8 +6,8 @@ use super::evaluate::Scope;
 use super::ids::{GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
-use super::sweeps;
-use super::{Along, End, JointKind, Method, Model, Scene, Spot, Wanted};
+use super::{Along, End, JointKind, Method, Model, Part, Scene, Spot, Wanted};
+use super::{inverses, sweeps};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
 use crate::syntax::{METHODS, PLANNED_METHODS};
@@ -21,22 +21,30 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
             model.scenes.push(stand_in(model, broken, name));
         }
         let Item::Scene(given) = item else { continue };
-        if sweeps::is_sweep(given) {
+        if sweeps::is_sweep(given) || inverses::is_inverse(given) {
             continue;
         }
         // A scene that is refused still brings its names.
         let method = sink.absorb(method(given)).unwrap_or_else(|| likely_method(&given.method.text));
         let loads = loads(model, given, method, names, sink);
         let (results, refused) = results(model, given, method, &loads, names, sink);
-        if unloaded && method.has_loads() && !told {
+        if unloaded && method.needs_loads() && !told {
             told = true;
             sink.report(
                 Diagnostic::new(given.name.place().to(given.method.place()), "there is no load to balance")
                     .help("declare one, as in `load F: force(coupler.C);`; only `position`, `velocity` and `acceleration` scenes need none"),
             );
         }
-        model.scenes.push(Scene { name: given.name.clone(), method, loads, results, refused });
+        let scene = Scene { name: given.name.clone(), method, loads, results, refused };
+        if method == Method::Motion && sink.is_clean() && model.moved_masses(&scene).is_empty() {
+            sink.report(
+                Diagnostic::new(given.method.place(), "no link has mass: nothing resists an acceleration")
+                    .help("give one to a link, as in `mass coupler: 0.5kg at (0, 0);`"),
+            );
+        }
+        model.scenes.push(scene);
     }
+    inverses::inverses(model, ast, names, sink);
     sweeps::sweeps(model, ast, sink);
     if sink.is_clean() {
         check_generated_names(model, sink);
@@ -48,8 +56,10 @@ fn likely_method(word: &str) -> Method {
     match word {
         "velocity" => Method::Velocity,
         "acceleration" => Method::Acceleration,
-        "inverse" | "position" => Method::Position,
+        "coefficients" => Method::Coefficients,
+        "position" => Method::Position,
         "verify" => Method::Verify,
+        "motion" => Method::Motion,
         _ => Method::Equilibrium,
     }
 }
@@ -77,9 +87,11 @@ fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
         "position" => Ok(Method::Position),
         "velocity" => Ok(Method::Velocity),
         "acceleration" => Ok(Method::Acceleration),
+        "coefficients" => Ok(Method::Coefficients),
         "equilibrium" => Ok(Method::Equilibrium),
         "superposition" => Ok(Method::Superposition),
         "virtual_work" => Ok(Method::VirtualWork),
+        "motion" => Ok(Method::Motion),
         "verify" if cfg!(feature = "reference") => Ok(Method::Verify),
         "verify" => {
             Err(Diagnostic::new(given.method.place(), "a scene can be verified only with the feature `reference`")
@@ -104,6 +116,7 @@ fn loads(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink:
         let what = match method {
             Method::Velocity => "velocities do",
             Method::Acceleration => "accelerations do",
+            Method::Coefficients => "kinematic coefficients do",
             _ => "positions do",
         };
         sink.report(
@@ -128,7 +141,7 @@ fn loads(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink:
             );
         }
     }
-    if listed.is_empty() {
+    if listed.is_empty() && method.needs_loads() {
         sink.report(
             Diagnostic::new(given.method.place(), "a scene without loads has nothing to balance")
                 .help("list its loads, or leave the parentheses out to have them all"),
@@ -190,7 +203,7 @@ fn results(
 }
 
 /// What a result is about.
-fn end_of(item: &ResultItem) -> ast::End {
+pub(super) fn end_of(item: &ResultItem) -> ast::End {
     match item {
         ResultItem::Name(name) => ast::End { link: name.clone(), point: None },
         ResultItem::Point(link, point) => ast::End { link: link.clone(), point: Some(point.clone()) },
@@ -215,6 +228,7 @@ fn likely(model: &Model, names: &Names, item: &ResultItem) -> (String, Option<Wa
             let like = match what.text.as_str() {
                 "offset" => Wanted::Offset(GROUND),
                 "power" => Wanted::Power(None),
+                "advantage" => Wanted::Advantage(LoadId::new(names.near(Role::Load, &link.text).unwrap_or(0))),
                 _ => Wanted::Inertia(GROUND),
             };
             return (format!("{link}_{what}"), Some(like));
@@ -264,7 +278,7 @@ fn all_results(model: &Model, method: Method, loads: &[LoadId]) -> Vec<Wanted> {
     let joints = (0..model.joints.len()).map(|j| Wanted::Joint(JointId::new(j)));
     let unknowns = (0..model.unknowns.len()).map(|u| Wanted::Unknown(UnknownId::new(u)));
     match method {
-        Method::Position | Method::Velocity | Method::Acceleration => {
+        Method::Position | Method::Velocity | Method::Acceleration | Method::Coefficients => {
             let jointed = |end: End| model.joints.iter().any(|j| j.ends().contains(&end));
             let points = model
                 .moving_links()
@@ -274,7 +288,8 @@ fn all_results(model: &Model, method: Method, loads: &[LoadId]) -> Vec<Wanted> {
         }
         Method::Equilibrium | Method::Superposition => unknowns.chain(joints).collect(),
         Method::VirtualWork => unknowns.chain(loads.iter().copied().map(Wanted::Load)).collect(),
-        Method::Verify => Vec::new(),
+        Method::Motion => [Part::Mass, Part::Bias, Part::Rounding].map(Wanted::Part).into(),
+        Method::Verify | Method::Inverse => Vec::new(),
     }
 }
 
@@ -288,6 +303,7 @@ fn result(
     match item {
         // Of a method that is not known, nothing is known of its results.
         _ if given.method.text != word(method) => Ok(None),
+        _ if method == Method::Motion => part(item).map(Some),
         ResultItem::Point(link, point) => {
             let place = link.place().to(point.place());
             let Some(id) = names.find(Role::Link, link)?.map(LinkId::new) else { return Ok(None) };
@@ -326,8 +342,15 @@ fn result(
             let place = what.place().to(unknown.place());
             power(model, given, method, (place, Some(unknown)), names)
         }
+        ResultItem::OfLink(what, load) if what.text == "advantage" => {
+            advantage(model, given, method, (what, load), names)
+        }
         ResultItem::OfPoint(what, point) => shaking(model, given, method, (what, point), names),
         ResultItem::OfLink(what, link) => of_link(model, given, method, (what, link), names),
+        ResultItem::Along(of, link) if method == Method::Coefficients => {
+            let (place, shown) = (of.place().to(link.place()), format!("{} along {link}", of.written()));
+            Err(cannot(given, place, &shown, "a part along a link").help("ask for the whole vector"))
+        }
         ResultItem::Along(joint, link) => {
             let link_id = names.find(Role::Link, link)?.map(LinkId::new);
             let joint_id = reaction_of(given, method, (joint, "along"), names, joint.place().to(link.place()))?;
@@ -387,7 +410,7 @@ fn of_link(
         "offset" => Wanted::Offset,
         other => {
             return Err(Diagnostic::new(what.place(), format!("there is no result `{shown}`"))
-                .suggest(other, ["inertia", "offset", "shaking", "power"]));
+                .suggest(other, ["inertia", "offset", "shaking", "power", "advantage"]));
         }
     };
     if method != Method::Acceleration {
@@ -417,7 +440,7 @@ fn shaking(
     let (place, shown) = (what.place().to(point.place()), format!("{what}({})", point.written()));
     if what.text != "shaking" {
         return Err(Diagnostic::new(what.place(), format!("there is no result `{shown}`"))
-            .suggest(&what.text, ["inertia", "offset", "shaking", "power"]));
+            .suggest(&what.text, ["inertia", "offset", "shaking", "power", "advantage"]));
     }
     if method != Method::Acceleration {
         return Err(cannot(given, place, &shown, "the resultant of inertia").help("`acceleration` gives it"));
@@ -455,6 +478,29 @@ fn power(
     }
 }
 
+/// `advantage(M4)`
+fn advantage(
+    model: &Model,
+    given: &ast::Scene,
+    method: Method,
+    (what, load): (&Name, &Name),
+    names: &Names,
+) -> Result<Option<Wanted>, Diagnostic> {
+    let (place, shown) = (what.place().to(load.place()), format!("{what}({load})"));
+    if method != Method::VirtualWork {
+        return Err(cannot(given, place, &shown, "the mechanical advantage").help("`virtual_work` gives it"));
+    }
+    let Some(id) = names.find(Role::Load, load)?.map(LoadId::new) else { return Ok(None) };
+    if model.loads.get(id.index()).is_some_and(|load| load.kind.is_per_link()) {
+        return Err(Diagnostic::new(
+            load.place(),
+            format!("`{load}` acts on many links: no single velocity goes with it"),
+        )
+        .help("ask for the advantage over a force, a moment or a thrust"));
+    }
+    Ok(Some(Wanted::Advantage(id)))
+}
+
 /// The joint whose reaction is wanted in some form.
 fn reaction_of(
     given: &ast::Scene,
@@ -480,11 +526,31 @@ fn word(method: Method) -> &'static str {
         Method::Position => "position",
         Method::Velocity => "velocity",
         Method::Acceleration => "acceleration",
+        Method::Coefficients => "coefficients",
         Method::Equilibrium => "equilibrium",
         Method::Superposition => "superposition",
         Method::VirtualWork => "virtual_work",
+        Method::Motion => "motion",
+        Method::Inverse => "inverse",
         Method::Verify => "verify",
     }
+}
+
+/// A part of the equation of motion.
+fn part(item: &ResultItem) -> Result<Wanted, Diagnostic> {
+    let of = end_of(item);
+    if matches!(item, ResultItem::Name(name) if name.text == ERROR_BOUND) {
+        return Ok(Wanted::ErrorBound);
+    }
+    let named = match item {
+        ResultItem::Name(name) => Part::ALL.into_iter().find(|part| part.name() == name.text),
+        _ => None,
+    };
+    named.map(Wanted::Part).ok_or_else(|| {
+        let names: Vec<&str> = Part::ALL.iter().map(|part| part.name()).collect();
+        Diagnostic::new(of.place(), format!("`motion` cannot give `{}`", of.written()))
+            .help(format!("its results are {}", list(&names)))
+    })
 }
 
 fn named_result(
@@ -496,7 +562,7 @@ fn named_result(
 ) -> Result<Option<Wanted>, Diagnostic> {
     if let Some(index) = model.unknowns.iter().position(|u| u.name == name.text) {
         return match method {
-            Method::Position | Method::Velocity | Method::Acceleration => {
+            Method::Position | Method::Velocity | Method::Acceleration | Method::Coefficients => {
                 Err(cannot(given, name.place(), &name.text, "an effort")
                     .help("`equilibrium` and `virtual_work` give it"))
             }
@@ -542,7 +608,7 @@ fn named_result(
         None if names.may_be(Role::Joint) || names.may_be(Role::Load) || names.may_be(Role::Unknown) => Ok(None),
         _ => {
             let known: Vec<&str> = match method {
-                Method::Position | Method::Velocity | Method::Acceleration => names.of(Role::Joint).collect(),
+                _ if !method.has_loads() => names.of(Role::Joint).collect(),
                 Method::VirtualWork => {
                     model.unknowns.iter().map(|u| u.name.as_str()).chain(names.of(Role::Load)).collect()
                 }
@@ -590,9 +656,10 @@ pub(crate) const OWN_TYPES: [&str; 15] = [
     "GearReaction",
     "WorkTerm",
 ];
-/// The same, where there are parameters, where there is something to verify, where there are resultants, and where closures are chosen
-/// at run time.
-const FURTHER_TYPES: [&str; 6] = ["Default", "Verification", "Wrench", "Closures", "Side", "Along"];
+/// The same, where there are parameters, where there is something to verify, where there are resultants, where there are equations of motion
+/// of several drives, and where closures are chosen at run time.
+const FURTHER_TYPES: [&str; 8] =
+    ["Default", "Verification", "Wrench", "SMatrix", "SVector", "Closures", "Side", "Along"];
 
 /// What the generated functions read may not have two meanings under one name.
 fn check_values(model: &Model, sink: &Sink) {
@@ -609,6 +676,9 @@ fn check_values(model: &Model, sink: &Sink) {
     }
     for constant in ["EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"] {
         values.insert(constant.into(), "is a constant of the module".into());
+    }
+    for inverse in model.inverses.iter().filter(|_| !model.params.is_empty()) {
+        values.insert(inverse.prepared_name(), format!("is what is prepared for `{}`", inverse.name));
     }
     for link in &model.links {
         for part in ["cos", "sin"] {
@@ -693,8 +763,9 @@ fn check_generated_names(model: &Model, sink: &Sink) {
         }
     }
     let verifies = model.scenes.iter().any(|scene| scene.method == Method::Verify);
+    let (wrenches, matrices) = (model.has_wrenches(), model.has_matrices());
     let chooses = model.given_closures().next().is_some();
-    let further = [!model.params.is_empty(), verifies, model.has_wrenches(), chooses, chooses, chooses];
+    let further = [!model.params.is_empty(), verifies, wrenches, matrices, matrices, chooses, chooses, chooses];
     let further = FURTHER_TYPES.iter().zip(further).filter(|(_, there)| *there).map(|(name, _)| name);
     let mut types: BTreeMap<String, String> = OWN_TYPES
         .iter()
@@ -724,6 +795,18 @@ fn check_generated_names(model: &Model, sink: &Sink) {
             }
         }
     }
+    for inverse in &model.inverses {
+        let (own, made) = (format!("belongs to the scene `{}`", inverse.name), format!("{}_at", inverse.name));
+        if let Some(other) = methods.insert(made.clone(), own.clone()) {
+            clash(&inverse.name, format!("there would be two functions `{made}`: the other one {other}"));
+            continue;
+        }
+        if let Some((made, other)) =
+            inverse.types().into_iter().find_map(|made| Some((made.clone(), types.insert(made, own.clone())?)))
+        {
+            clash(&inverse.name, format!("the scene `{}` would have the type `{made}`, and {other}", inverse.name));
+        }
+    }
     for sweep in &model.sweeps {
         let own = format!("belongs to the sweep `{}`", sweep.name);
         if let Some(other) = methods.insert(sweep.name.text.clone(), own.clone()) {
@@ -750,6 +833,10 @@ fn types_of(model: &Model, scene: &Scene) -> Vec<String> {
     });
     let records = records.map(|load| format!("{base}{}", type_name(&model.load(*load).name.text)));
     let resolved = scene.results.iter().filter_map(|wanted| match wanted {
+        Wanted::Joint(_) | Wanted::Point(_) | Wanted::Angle(_) if scene.method == Method::Coefficients => {
+            model.result_name(*wanted)
+        }
+        Wanted::Advantage(_) if model.unknowns.len() > 1 => model.result_name(*wanted),
         Wanted::Resolved(..) | Wanted::Inertia(_) | Wanted::Offset(_) => model.result_name(*wanted),
         _ => None,
     });

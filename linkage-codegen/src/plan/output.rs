@@ -35,6 +35,8 @@ pub enum Meaning {
     AngularAcceleration,
     /// A plain number.
     Number,
+    /// Effort per acceleration of a drive.
+    Mass,
 }
 
 /// A result.
@@ -44,6 +46,10 @@ pub enum Output {
     Scalar(NodeId, Meaning),
     /// A vector.
     Vector([NodeId; 2], Meaning),
+    /// A number for each unknown.
+    Column(Vec<NodeId>),
+    /// A number for each pair of an unknown and a drive, row by row.
+    Matrix(Vec<Vec<NodeId>>),
     /// A force along and across a link.
     Resolved([NodeId; 2]),
     /// A reaction that is more than a vector.
@@ -156,6 +162,16 @@ impl Output {
             Self::Vector([x, y], _) => {
                 leaf("x", *x);
                 leaf("y", *y);
+            }
+            Self::Column(values) => {
+                values.iter().enumerate().for_each(|(row, node)| leaf(&format!("{}", row + 1), *node));
+            }
+            Self::Matrix(rows) => {
+                // Column by column, as the type of the result has them.
+                for column in 0..rows.len() {
+                    let entries = rows.iter().enumerate().filter_map(|(row, values)| Some((row, values.get(column)?)));
+                    entries.for_each(|(row, node)| leaf(&format!("{}.{}", row + 1, column + 1), *node));
+                }
             }
             Self::Resolved([axial, transverse]) => {
                 leaf("axial", *axial);

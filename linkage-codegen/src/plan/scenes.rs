@@ -1,6 +1,7 @@
 //! The results of every scene, by its method.
 
 use super::framed::Framed;
+use super::inverse::drivers;
 use super::posed::Posed;
 use super::resultants::{Resultant, rate_of, reacted_by_ground};
 use super::rules::{Rule, RuleResult};
@@ -17,22 +18,23 @@ use crate::plan::output::Field;
 use crate::topology::Group;
 
 /// What the solution of forces needs.
-struct Forces<'a, 'm> {
-    model: &'m Model,
+pub(super) struct Forces<'a, 'm> {
+    pub(super) model: &'m Model,
     groups: &'a [Group],
     rules: &'a [&'static dyn Rule],
-    assembly: &'a Assembly<'m>,
+    pub(super) motion_rules: &'a [&'static dyn Rule],
+    pub(super) assembly: &'a Assembly<'m>,
     posed: Posed<'m, 'a>,
     /// The cases of each load.
     cases: Vec<Vec<(Case, Vec<Action>)>>,
-    sink: &'a Sink,
+    pub(super) sink: &'a Sink,
 }
 
 /// The results of all scenes.
 pub(super) fn outputs<'m>(
     assembly: &Assembly<'m>,
     posed: Posed<'m, '_>,
-    rules: &[&'static dyn Rule],
+    [motion_rules, rules]: [&[&'static dyn Rule]; 2],
     equations: (&System, &[PlacedLink]),
     sink: &Sink,
 ) -> Vec<Output> {
@@ -42,7 +44,7 @@ pub(super) fn outputs<'m>(
         cases_of(&posed, load)
     });
     let cases = cases.collect();
-    let forces = Forces { model, groups: &assembly.topology.forces, rules, assembly, posed, cases, sink };
+    let forces = Forces { model, groups: &assembly.topology.forces, rules, motion_rules, assembly, posed, cases, sink };
     model
         .scenes
         .iter()
@@ -53,6 +55,9 @@ pub(super) fn outputs<'m>(
             Method::Equilibrium => forces.equilibrium(scene),
             Method::Superposition => forces.superposition(scene),
             Method::VirtualWork => forces.virtual_work(scene),
+            Method::Motion => forces.equation_of_motion(scene),
+            Method::Coefficients => forces.coefficients(scene),
+            Method::Inverse => drivers(assembly, posed, scene),
             Method::Verify => forces.verify(scene, equations),
         })
         .collect()
@@ -323,7 +328,7 @@ impl<'m> Forces<'_, 'm> {
     }
 
     /// The virtual motion of every unknown, each with the unknown.
-    fn motions(&self) -> Vec<(UnknownId, Motion<'m, '_>)> {
+    pub(super) fn motions(&self) -> Vec<(UnknownId, Motion<'m, '_>)> {
         let unknowns = (0..self.model.unknowns.len()).map(UnknownId::new);
         let single = self.model.unknowns.len() == 1;
         let prefix =
@@ -337,7 +342,7 @@ impl<'m> Forces<'_, 'm> {
     }
 
     /// The effort that does as much work as the loads, with the opposite sign.
-    fn effort_by_work(&self, motion: &Motion<'m, '_>, loads: &Balance<'m, '_>) -> Expr<'m> {
+    pub(super) fn effort_by_work(&self, motion: &Motion<'m, '_>, loads: &Balance<'m, '_>) -> Expr<'m> {
         -self.model.moving_links().fold(self.model.graph.zero(), |sum, link| sum + motion.power_of(loads, link))
     }
 
@@ -458,6 +463,23 @@ impl<'m> Forces<'_, 'm> {
                 let value = Output::scalar(effort, unknown_meaning(self.model, unknown));
                 Some(Field { name: name.clone(), doc: unknown_doc(self.model, unknown), value })
             }
+            Wanted::Advantage(load) => {
+                let value = if single {
+                    self.advantage(&motions[0].1, load)
+                } else {
+                    let each = motions.iter().map(|(unknown, motion)| {
+                        let unknown = &self.model.unknown(*unknown).name;
+                        let doc = format!("Of `{unknown}`.");
+                        Field { name: unknown.clone(), doc, value: self.advantage(motion, load) }
+                    });
+                    Output::Record(each.collect())
+                };
+                let doc = format!(
+                    "Mechanical advantage: how much of `{}` a unit of effort holds.",
+                    self.model.load(load).name
+                );
+                Some(Field { name: self.model.result_name(*wanted)?, doc, value })
+            }
             Wanted::Power(of) => {
                 self.power(*wanted, of, |unknown| self.effort_by_work(&motions[unknown.index()].1, &loads))
             }
@@ -541,6 +563,21 @@ impl<'m> Forces<'_, 'm> {
         motion.through(self.groups, self.rules, self.sink)
     }
 
+    /// What a load is over the effort that holds it, in size: the inverse of the velocity along it at unit rate.
+    fn advantage(&self, motion: &Motion<'m, '_>, load: LoadId) -> Output {
+        let (graph, name) = (&self.model.graph, &self.model.load(load).name);
+        let Output::Term { velocity, .. } = self.terms(motion, load) else {
+            return Output::scalar(graph.zero(), Meaning::Number);
+        };
+        let velocity = graph.expr(velocity);
+        let velocity =
+            velocity.named(motion.name(&format!("v_along_{name}")), format!("velocity along {name}, at unit rate"));
+        let failure = Failure::DeadCentre { group: name.text.clone(), pivot: format!("v_along_{name}") };
+        let limit = graph.epsilons(8) * velocity.magnitude_given(&mut self.unit_vectors());
+        let divisor = velocity.require_above(velocity.abs(), limit, failure);
+        Output::scalar(graph.one() / divisor, Meaning::Number)
+    }
+
     /// The term of a load; of gravity one for each link.
     fn terms(&self, motion: &Motion<'m, '_>, load: LoadId) -> Output {
         let cases = self.cases_of(load);
@@ -567,7 +604,12 @@ impl<'m> Forces<'_, 'm> {
     }
 }
 
-fn of_spot<'m>(motion: &Motion<'m, '_>, spot: Spot) -> Framed<'m> {
+/// The name of a joint.
+pub(super) fn joint_of(model: &Model, joint: JointId) -> &str {
+    joint_name(model, joint)
+}
+
+pub(super) fn of_spot<'m>(motion: &Motion<'m, '_>, spot: Spot) -> Framed<'m> {
     match spot {
         Spot::Joint(joint) => motion.of_joint(joint),
         Spot::Point(end) => motion.of_point(end),
@@ -730,7 +772,7 @@ fn about_doc(model: &Model, joint: JointId, at: End) -> String {
     format!("Couple on `{to}` by `{from}` at `{}`, about `{at}`, {moment}.", data.name)
 }
 
-fn unknown_meaning(model: &Model, unknown: UnknownId) -> Meaning {
+pub(super) fn unknown_meaning(model: &Model, unknown: UnknownId) -> Meaning {
     match model.unknown(unknown).kind {
         UnknownKind::Torque(..) => Meaning::Moment,
         UnknownKind::Drive(drive) if model.drive(drive).turns => Meaning::Moment,

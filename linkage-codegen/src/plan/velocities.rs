@@ -20,7 +20,7 @@ use super::rules::Rule;
 use crate::diagnostics::Sink;
 use crate::equations::loads::Action;
 use crate::graph::{Expr, Graph, Vector};
-use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
+use crate::model::ids::{DriveId, GROUND, JointId, LinkId, UnknownId};
 use crate::model::{JointKind, Model, UnknownKind};
 use crate::topology::{Group, Input};
 
@@ -40,10 +40,13 @@ pub struct Twist<'m> {
 enum Purpose<'m, 'p> {
     /// The coordinate of one unknown changes at unit rate.
     Virtual(UnknownId),
+    /// One drive moves at unit rate, the others rest.
+    Unit(DriveId),
     /// The drives move at their rates.
     Velocity,
-    /// The drives' accelerations, at these velocities.
-    Acceleration(&'p Motion<'m, 'p>),
+    /// The drives' accelerations, at these velocities. Of two different ones, what is left of the accelerations at their sum when those at
+    /// each of them are taken away, halved: the part that is linear in both.
+    Acceleration([&'p Motion<'m, 'p>; 2]),
 }
 
 /// The velocities or the accelerations of all links.
@@ -56,6 +59,8 @@ pub struct Motion<'m, 'p> {
     /// What distinguishes the names of this motion.
     pub prefix: String,
     purpose: Purpose<'m, 'p>,
+    /// Of accelerations: whether the drives accelerate, too.
+    driven: bool,
     twists: Vec<Twist<'m>>,
     /// Of slides: how fast the second link slides along the first one.
     sliding: BTreeMap<JointId, Expr<'m>>,
@@ -67,7 +72,7 @@ impl<'m, 'p> Motion<'m, 'p> {
         let rest = Framed { components: graph.zero_vector(), axes: placement.direction(GROUND) };
         let still = Twist { rate: graph.zero(), at: graph.zero_vector(), velocity: rest };
         let twists = vec![still; placement.model.links.len()];
-        Self { placement, pivots, prefix, purpose, twists, sliding: BTreeMap::new() }
+        Self { placement, pivots, prefix, purpose, driven: true, twists, sliding: BTreeMap::new() }
     }
 
     /// The virtual motion of an unknown, before any group is solved.
@@ -87,11 +92,59 @@ impl<'m, 'p> Motion<'m, 'p> {
         Self::new(placement, pivots, Purpose::Velocity, String::new())
     }
 
+    /// The velocities at unit rate of one drive, before any group is solved.
+    #[must_use]
+    pub fn of_drive(placement: &'p Placement<'m>, pivots: &'p Pivots<'m>, drive: DriveId, prefix: String) -> Self {
+        Self::new(placement, pivots, Purpose::Unit(drive), prefix)
+    }
+
+    /// The velocities as the sum of those at unit rates, each times the rate of its drive.
+    #[must_use]
+    pub fn combined(units: &[&Motion<'m, 'p>], placement: &'p Placement<'m>, pivots: &'p Pivots<'m>) -> Self {
+        let mut sum = Self::velocities(placement, pivots);
+        let (model, graph) = (placement.model, placement.graph());
+        let ground = placement.direction(GROUND);
+        let rates = || model.drives.iter().map(|drive| graph.expr(drive.rate));
+        for link in model.moving_links() {
+            let Some(at) = units.first().map(|unit| unit.twists[link.index()].at) else { continue };
+            let mut twist = Twist { at, ..sum.twists[link.index()] };
+            for (unit, rate) in units.iter().zip(rates()) {
+                let Framed { components, axes } = unit.of_place(link, at);
+                twist.rate = twist.rate + rate * unit.rate(link);
+                twist.velocity = twist.velocity.plus(&Framed { components: components.scaled(rate), axes }, ground);
+            }
+            let name = &model.link(link).name;
+            twist.rate = twist.rate.named(format!("omega_{name}"), format!("rate of rotation of {name}"));
+            sum.found(link, twist);
+        }
+        let slides = units.first().map(|unit| unit.sliding.keys().copied().collect::<Vec<_>>()).unwrap_or_default();
+        for slide in slides {
+            let to = model.joint(slide).to.link;
+            let speeds = units.iter().zip(rates()).map(|(unit, rate)| rate * unit.sliding(slide, to));
+            let speed = speeds.fold(graph.zero(), |sum, speed| sum + speed);
+            sum.sliding.insert(slide, speed);
+        }
+        sum
+    }
+
+    /// What the accelerations are at these velocities without any of the drives, before any group is solved.
+    #[must_use]
+    pub fn undriven_accelerations(velocities: &'p Motion<'m, 'p>) -> Self {
+        Self::second_order([velocities; 2], String::new())
+    }
+
+    /// The second derivatives of the motion by two drives, from the first ones; before any group is solved.
+    #[must_use]
+    pub fn second_order(first: [&'p Motion<'m, 'p>; 2], prefix: String) -> Self {
+        let Motion { placement, pivots, .. } = *first[0];
+        Self { driven: false, ..Self::new(placement, pivots, Purpose::Acceleration(first), prefix) }
+    }
+
     /// The accelerations at these velocities, before any group is solved.
     #[must_use]
     pub fn accelerations(velocities: &'p Motion<'m, 'p>) -> Self {
         let Motion { placement, pivots, .. } = *velocities;
-        Self::new(placement, pivots, Purpose::Acceleration(velocities), String::new())
+        Self::new(placement, pivots, Purpose::Acceleration([velocities; 2]), String::new())
     }
 
     /// The same, once all groups are solved, each by its rule.
@@ -99,7 +152,9 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn through(mut self, groups: &[Group], rules: &[&dyn Rule], sink: &Sink) -> Self {
         let what = match self.purpose {
             Purpose::Virtual(_) => "virtual velocities",
+            Purpose::Unit(_) => "velocities at unit rate",
             Purpose::Velocity => "velocities",
+            Purpose::Acceleration(_) if !self.driven => "accelerations by the velocities alone",
             Purpose::Acceleration(_) => "accelerations",
         };
         for (index, (group, rule)) in groups.iter().zip(rules).enumerate() {
@@ -137,10 +192,11 @@ impl<'m, 'p> Motion<'m, 'p> {
 
     /// `ω²` of a link, if these are accelerations and it turns.
     fn angular_velocity_squared(&self, link: LinkId) -> Option<Expr<'m>> {
-        let Purpose::Acceleration(velocities) = self.purpose else { return None };
-        let omega = velocities.rate(link);
+        let Purpose::Acceleration([one, other]) = self.purpose else { return None };
+        let product = one.rate(link) * other.rate(link);
         let name = &self.model().link(link).name;
-        (!omega.is_zero()).then(|| omega.squared().named(format!("omega2_{name}"), format!("ω² of {name}")))
+        let how = if core::ptr::eq(one, other) { "ω²" } else { "the product of the rates of rotation" };
+        (!product.is_zero()).then(|| product.named(self.name(&format!("omega2_{name}")), format!("{how} of {name}")))
     }
 
     /// The rate at which the coordinate of a drive or an unknown changes: of a virtual motion one or zero.
@@ -156,10 +212,18 @@ impl<'m, 'p> Motion<'m, 'p> {
                 };
                 if same { graph.one() } else { graph.zero() }
             }
+            (Purpose::Unit(own), Input::Drive(drive)) => {
+                if own == drive {
+                    graph.one()
+                } else {
+                    graph.zero()
+                }
+            }
+            (Purpose::Acceleration(_), Input::Drive(_)) if !self.driven => graph.zero(),
             (Purpose::Velocity, Input::Drive(drive)) => graph.expr(model.drive(drive).rate),
             (Purpose::Acceleration(_), Input::Drive(drive)) => graph.expr(model.drive(drive).acceleration),
             // Real motion is driven.
-            (Purpose::Velocity | Purpose::Acceleration(_), Input::Unknown(_)) => graph.zero(),
+            (Purpose::Unit(_) | Purpose::Velocity | Purpose::Acceleration(_), Input::Unknown(_)) => graph.zero(),
         }
     }
 
@@ -262,7 +326,8 @@ impl<'m, 'p> Motion<'m, 'p> {
     }
 
     /// How fast a link slides along the other link of a slide or a slot.
-    fn sliding(&self, joint: JointId, link: LinkId) -> Expr<'m> {
+    #[must_use]
+    pub fn sliding(&self, joint: JointId, link: LinkId) -> Expr<'m> {
         if let Some(sliding) = self.sliding.get(&joint) {
             return if self.model().joint(joint).to.link == link { *sliding } else { -*sliding };
         }
@@ -280,18 +345,25 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn coriolis(&self, joint: JointId, link: LinkId) -> Framed<'m> {
         let graph = self.graph();
         let nothing = Framed { components: graph.zero_vector(), axes: self.placement.direction(GROUND) };
-        let (Purpose::Acceleration(velocities), Some((carrier, _))) =
+        let (Purpose::Acceleration([one, other]), Some((carrier, _))) =
             (self.purpose, self.model().joint(joint).kind.line())
         else {
             return nothing;
         };
-        let omega = velocities.rate(carrier);
-        if omega.is_zero() {
+        if one.rate(carrier).is_zero() && other.rate(carrier).is_zero() {
             return nothing;
         }
         let name = &self.model().joint(joint).name;
-        let across = (2 * graph.one()) * (omega * velocities.sliding(joint, link));
-        let across = across.named(format!("coriolis_{name}"), "Coriolis: 2 ω times the speed of sliding");
+        let (across, how) = if core::ptr::eq(one, other) {
+            ((2 * graph.one()) * (one.rate(carrier) * one.sliding(joint, link)), "2 ω times the speed of sliding")
+        } else {
+            let part = |turning: &Motion<'m, '_>, sliding: &Motion<'m, '_>| {
+                let omega = turning.rate(carrier);
+                if omega.is_zero() { omega } else { omega * sliding.sliding(joint, link) }
+            };
+            (part(one, other) + part(other, one), "ω times the speed of sliding, of either by the other")
+        };
+        let across = across.named(self.name(&format!("coriolis_{name}")), format!("Coriolis: {how}"));
         Framed { components: Vector::new(graph.zero(), across), axes: self.placement.slide_direction(joint) }
     }
 
@@ -317,7 +389,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn lacking(&self, joint: JointId, needed: &Framed<'m>, has: &Framed<'m>) -> Framed<'m> {
         let gap = self.difference(needed, has);
         let (letter, what) = match self.purpose {
-            Purpose::Virtual(_) => return gap,
+            Purpose::Virtual(_) | Purpose::Unit(_) => return gap,
             Purpose::Velocity => ('v', "velocity"),
             Purpose::Acceleration(_) => ('a', "acceleration"),
         };
@@ -381,7 +453,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn named_rate(&self, rate: Expr<'m>, of: &str, how: &str) -> Expr<'m> {
         let (name, what) = match self.purpose {
-            Purpose::Virtual(_) => ("rate", "rate of rotation"),
+            Purpose::Virtual(_) | Purpose::Unit(_) => ("rate", "rate of rotation"),
             Purpose::Velocity => ("omega", "angular velocity"),
             Purpose::Acceleration(_) => ("alpha", "angular acceleration"),
         };
@@ -393,7 +465,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn named_sliding(&self, sliding: Expr<'m>, slide: JointId, of: &str, how: &str) -> Expr<'m> {
         let what = match self.purpose {
-            Purpose::Virtual(_) | Purpose::Velocity => "speed",
+            Purpose::Virtual(_) | Purpose::Unit(_) | Purpose::Velocity => "speed",
             Purpose::Acceleration(_) => "acceleration",
         };
         let (how, slide) = (self.in_words(how), &self.model().joint(slide).name);
@@ -402,7 +474,7 @@ impl<'m, 'p> Motion<'m, 'p> {
 
     fn in_words(&self, how: &str) -> String {
         let word = match self.purpose {
-            Purpose::Virtual(_) | Purpose::Velocity => "velocity",
+            Purpose::Virtual(_) | Purpose::Unit(_) | Purpose::Velocity => "velocity",
             Purpose::Acceleration(_) => "acceleration",
         };
         how.replace("{velocity}", word)

@@ -536,6 +536,8 @@ pub struct Scene {
     pub method: Name,
     /// Its loads; all if left out. Of a sweep, the scene that it goes through.
     pub loads: Option<Vec<Name>>,
+    /// Of an inverse scene, the joints whose motion is wanted, each with the word for its coordinate if that is said.
+    pub wanted: Vec<End>,
     /// Its results; all if left out.
     pub results: Option<Vec<ResultItem>>,
 }

@@ -10,10 +10,21 @@ use super::tokens::{between, comma_list, eat_word, name, place_of, take};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
 /// The methods that are carried out.
-pub(crate) const METHODS: [&str; 8] =
-    ["position", "velocity", "acceleration", "equilibrium", "superposition", "virtual_work", "verify", "sweep"];
+pub(crate) const METHODS: [&str; 11] = [
+    "position",
+    "velocity",
+    "acceleration",
+    "coefficients",
+    "equilibrium",
+    "superposition",
+    "virtual_work",
+    "motion",
+    "inverse",
+    "verify",
+    "sweep",
+];
 /// The methods that are not carried out yet.
-pub(crate) const PLANNED: [&str; 3] = ["motion", "derivative", "inverse"];
+pub(crate) const PLANNED: [&str; 1] = ["derivative"];
 
 pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let name_ = name(input)?;
@@ -30,20 +41,23 @@ pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     if !METHODS.contains(&method.text.as_str()) {
         // Whether planned or unknown, the model says what is wrong with it.
         rest(input);
-        return Ok(Item::Scene(Scene { name: name_, method, loads: None, results: None }));
+        return Ok(Item::Scene(Scene { name: name_, method, loads: None, wanted: Vec::new(), results: None }));
     }
-    let mut loads = None;
+    let (mut loads, mut wanted) = (None, Vec::new());
     if input.peek(Paren) {
         let content;
         let _ = syn::parenthesized!(content in input);
-        loads = Some(comma_list(&content, name)?);
+        match method.text.as_str() {
+            "inverse" => wanted = comma_list(&content, end)?,
+            _ => loads = Some(comma_list(&content, name)?),
+        }
     }
     let mut results = None;
     if input.peek(Token![->]) {
         input.parse::<Token![->]>()?;
         results = Some(result_list(input, slips)?);
     }
-    Ok(Item::Scene(Scene { name: name_, method, loads, results }))
+    Ok(Item::Scene(Scene { name: name_, method, loads, wanted, results }))
 }
 
 /// `( … )`; without parentheses it is clear what is meant, too.

@@ -11,6 +11,7 @@ mod generic;
 mod matching;
 mod mobility;
 mod redundant;
+mod sides;
 
 use std::collections::BTreeSet;
 

@@ -25,8 +25,7 @@ linkage! {
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
 
-    scene control: motion;
-    scene cycle: inverse(A0);
+    scene sensitive: derivative(statics) by (theta);
 }
 
 fn main() {

@@ -98,6 +98,12 @@ pub fn cases_of(posture: &dyn Posture<'_>, load: LoadId) -> Vec<(Case, Vec<Actio
     }
 }
 
+/// The inertia of a link by D'Alembert; nothing if it has no mass.
+#[must_use]
+pub fn inertia_of(posture: &dyn Posture<'_>, link: LinkId) -> Vec<Action> {
+    posture.model().link(link).mass.map_or_else(Vec::new, |mass| inertia::actions(posture, link, mass))
+}
+
 /// What a force at a point of a link exerts about the origin of its frame: with `r` from there to the point, `r × F`.
 pub(super) fn exerted_at<'g>(link: LinkId, body: &Body<'g>, local: Vector<'g>, force: Vector<'g>) -> Exerted {
     let arm = body.turned(local);

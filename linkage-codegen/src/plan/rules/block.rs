@@ -372,6 +372,10 @@ impl Rule for Block {
         "block"
     }
 
+    fn is_closed(&self) -> bool {
+        false
+    }
+
     fn fits(&self, _: &Model, _: &Group) -> bool {
         true
     }

@@ -254,8 +254,11 @@ fn side<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'_>) -> Resu
     let slide = dyad.joint_name(dyad.inner);
     let outer: [JointId; 2] = dyad.legs.each_ref().map(|leg| leg.outer);
     let [p, q] = outer.map(|joint| dyad.joint_name(joint));
-    let Some(closure) = assembly.closure(dyad.inner) else {
-        return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], p));
+    let Some(closure) = assembly.closure(dyad.inner, group) else {
+        // Of the two ways to say it, the one that no other group at this joint has.
+        let taken = dyad.model.closures.iter().any(|other| other.joint == dyad.inner && other.of == [outer[0]]);
+        let of = if taken { q } else { p };
+        return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], of));
     };
     let sign = match (closure.side, outer.iter().position(|joint| closure.of == [*joint])) {
         (Side::Ahead | Side::Behind | Side::Either, Some(0)) => assembly.sign(closure, Side::Ahead),
