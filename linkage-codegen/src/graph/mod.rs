@@ -11,6 +11,7 @@ mod fold;
 pub mod number;
 pub mod real;
 mod search;
+pub(crate) mod tangent;
 mod vector;
 
 use core::cell::RefCell;

@@ -16,6 +16,7 @@ mod posed;
 mod reactions;
 pub mod rules;
 pub(crate) mod scenes;
+mod sensitivities;
 mod velocities;
 
 pub use assembly::Assembly;
@@ -166,7 +167,7 @@ impl Plan {
         let plan = Self {
             pose: kept(&assembly),
             accessors: accessors(&assembly),
-            scenes: scenes::outputs(&assembly, posed, &force_rules, (system, &links), sink),
+            scenes: scenes::outputs(&assembly, posed, [&motion_rules, &force_rules], (system, &links), sink),
             links,
             motion_rules: motion_rules.iter().map(|rule| rule.class()).collect(),
             force_rules: force_rules.iter().map(|rule| rule.class()).collect(),

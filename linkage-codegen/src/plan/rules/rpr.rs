@@ -133,12 +133,16 @@ impl Rule for Rpr {
     }
 }
 
-/// Supposes that the links that slide along each other do not turn. Gives what drives turn them by within their legs.
+/// Supposes that the links that slide along each other do not turn. Gives what drives turn them by within their legs; the second one
+/// less what the slide turns it by.
 fn turns_within<'m>(dyad: &Dyad<'m>, motion: &mut Motion<'m, '_>) -> Result<[Expr<'m>; 2], Diagnostic> {
     let mut own = [motion.graph().zero(); 2];
-    for (leg, own) in dyad.legs.iter().zip(&mut own) {
+    for ((leg, own), is_second) in dyad.legs.iter().zip(&mut own).zip([false, true]) {
         dyad.turn(motion, leg, *own)?;
         *own = motion.rate(leg.tip.link);
+        if is_second {
+            *own = *own - motion.turned_by(dyad.inner, leg.tip.link);
+        }
         if !own.is_zero() {
             dyad.turn(motion, leg, -*own)?;
         }
