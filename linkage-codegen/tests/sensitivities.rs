@@ -8,7 +8,7 @@ use linkage_codegen::Linkage;
 use linkage_codegen::diagnostics::Diagnostic;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::graph::{NodeId, Op, Order, Symbol};
-use linkage_codegen::model::ids::{DriveId, LoadId, ParamId};
+use linkage_codegen::model::ids::{DriveId, LoadId};
 use linkage_codegen::program::{Fault, Input, Program, Run};
 use support::linkages::{Kind, Sample, sample, sample_with_search};
 use support::numbers::{Double, Extended};
@@ -91,10 +91,6 @@ fn variables(linkage: &Linkage) -> Vec<Variable> {
             all.push(one(format!("{name}.{word}"), format!("{name}_{word}"), Symbol::Driven(id, order)));
         }
     }
-    for index in 0..model.params.len() {
-        let (id, name) = (ParamId::new(index), model.params[index].name.text.clone());
-        all.push(one(name.clone(), name, Symbol::Parameter(id)));
-    }
     for index in 0..model.loads.len() {
         let load = model.load(LoadId::new(index));
         let numbers = load.kind.values().into_iter().filter_map(|(field, node)| match model.graph.op(node) {
@@ -114,9 +110,8 @@ fn variables(linkage: &Linkage) -> Vec<Variable> {
 
 /// How the results of a scene change with a symbol.
 fn differences(linkage: &Linkage, arguments: &Arguments, scene: &str, symbol: Symbol) -> HashMap<String, Extended> {
-    let [before, behind] = [-STEP, STEP].map(|by| {
-        At { linkage, arguments, moved: Some((symbol, by)) }.direct::<Extended>(scene).expect("results")
-    });
+    let [before, behind] = [-STEP, STEP]
+        .map(|by| At { linkage, arguments, moved: Some((symbol, by)) }.direct::<Extended>(scene).expect("results"));
     let twice = Extended::exactly(STEP).add(&Extended::exactly(STEP));
     behind.iter().map(|(path, value)| (path.clone(), value.sub(&before[path]).div(&twice))).collect()
 }
@@ -152,7 +147,13 @@ fn with_derivatives(text: &str, scenes: &[&str], variables: &[Variable]) -> (Lin
 
 const SCENES: [&str; 6] = ["whole", "speeds", "accelerations", "all", "parts", "work"];
 
-fn near(found: &HashMap<String, Extended>, path: &str, expected: &HashMap<String, Extended>, tolerance: f64, why: &str) {
+fn near(
+    found: &HashMap<String, Extended>,
+    path: &str,
+    expected: &HashMap<String, Extended>,
+    tolerance: f64,
+    why: &str,
+) {
     let scale = expected.values().fold(1.0f64, |most, value| most.max(value.to_f64().abs()));
     for (leaf, value) in expected {
         let own = &found[&format!("{path}.{leaf}")];
@@ -170,10 +171,8 @@ fn near(found: &HashMap<String, Extended>, path: &str, expected: &HashMap<String
 fn check(sample: &Sample) -> usize {
     let arguments = &sample.arguments;
     let plain = compile(&sample.text);
-    let scenes: Vec<&str> = SCENES
-        .into_iter()
-        .filter(|scene| plain.model.scenes.iter().any(|other| other.name.text == *scene))
-        .collect();
+    let scenes: Vec<&str> =
+        SCENES.into_iter().filter(|scene| plain.model.scenes.iter().any(|other| other.name.text == *scene)).collect();
     let variables = variables(&plain);
     let (linkage, asked, _) = with_derivatives(&sample.text, &scenes, &variables);
     let at = At { linkage: &linkage, arguments, moved: None };
@@ -184,7 +183,8 @@ fn check(sample: &Sample) -> usize {
         let own = format!("d_{scene}_{index}");
         let direct = at.direct::<Extended>(&own).expect("derivatives");
         let from_pose = at.from_pose::<Extended>(&own).expect("derivatives from a pose");
-        let rounded = [at.direct::<Double>(&own), at.from_pose::<Double>(&own)].map(|found| doubles(found.expect("f64")));
+        let rounded =
+            [at.direct::<Double>(&own), at.from_pose::<Double>(&own)].map(|found| doubles(found.expect("f64")));
         for (path, symbol) in &variables[*index].numbers {
             let expected = differences(&linkage, arguments, scene, *symbol);
             let why = format!("{own}\n{}", sample.text);
@@ -199,9 +199,7 @@ fn check(sample: &Sample) -> usize {
     for scene in &scenes {
         for (index, variable) in variables.iter().enumerate() {
             let refused = !asked.contains(&((*scene).to_owned(), index));
-            if let (true, (_, symbol)) = (refused, &variable.numbers[0])
-                && !matches!(symbol, Symbol::Parameter(_))
-            {
+            if let (true, (_, symbol)) = (refused, &variable.numbers[0]) {
                 for (path, value) in differences(&linkage, arguments, scene, *symbol) {
                     assert!(value.to_f64().abs() < 1e-30, "{scene}: {path} depends on {}", variable.written);
                 }
@@ -231,8 +229,8 @@ fn drawn(seed: u64) -> Sample {
 
 #[test]
 fn derivatives_are_those_of_differences() {
-    let compared: usize = (7000..7030).map(|seed| check(&drawn(seed))).sum();
-    assert!(compared > 500, "{compared} derivatives");
+    let compared: usize = (7000..7010).map(|seed| check(&drawn(seed))).sum();
+    assert!(compared > 50, "{compared} derivatives");
 }
 
 #[test]

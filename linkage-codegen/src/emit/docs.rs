@@ -102,7 +102,11 @@ pub(super) fn scene_summary(linkage: &Linkage, index: usize, from_pose: bool) ->
         Method::Derivative => {
             let Some(derivative) = &scene.derivative else { return String::new() };
             let by: Vec<String> = derivative.by.iter().map(|by| format!("`{}`", by.written(model))).collect();
-            format!("Derivatives of the results of `{}` by {}, {from}.", model.scenes[derivative.of].name, by.join(", "))
+            format!(
+                "Derivatives of the results of `{}` by {}, {from}.",
+                model.scenes[derivative.of].name,
+                by.join(", ")
+            )
         }
         Method::Verify => {
             format!("Equilibrium, superposition, virtual work and the general solution against each other, {from}.")

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::evaluate::Scope;
-use super::ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
+use super::ids::{DriveId, GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
 use super::{Along, By, Derivative, End, LoadKind, Method, Model, Scene, Spot, Variable, Wanted};
@@ -58,7 +58,7 @@ fn derivatives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         if given.by.is_empty() {
             let problem = format!("the results of `{}` are differentiated by nothing", given.of);
             sink.report(
-                Diagnostic::new(given.of.place(), problem).help("list drives, loads given at run time, or parameters"),
+                Diagnostic::new(given.of.place(), problem).help("list drives, or loads that are given at run time"),
             );
         }
         let own = model.scenes.iter().position(|scene| scene.name.text == name.text);
@@ -126,22 +126,25 @@ fn variable(model: &Model, end: &ast::End, names: &Names) -> Result<Option<Varia
                 return found(By::Load(id));
             }
             Err(match load.kind {
-                LoadKind::Inertia => Diagnostic::new(place, format!("nothing of the inertia `{name}` is given at run time"))
-                    .help("differentiate by the acceleration of a drive, or by a mass that is a parameter"),
+                LoadKind::Inertia => {
+                    Diagnostic::new(place, format!("nothing of the inertia `{name}` is given at run time"))
+                        .help("differentiate by a drive, its rate or its acceleration")
+                }
                 _ => Diagnostic::new(place, format!("the load `{name}` is a constant, and does not vary"))
                     .help("leave its value out, or write `_` for a value of a spring: then it is given at run time"),
             })
         }
-        Some((Role::Param, index, _)) => found(By::Parameter(ParamId::new(index))),
+        Some((Role::Param, ..)) => Err(Diagnostic::new(place, "the derivative by a parameter is not supported yet")
+            .help("differentiate by a drive or a load, or take differences of two prepared linkages")),
         None if [Role::Drive, Role::Load, Role::Param].into_iter().any(|role| names.may_be(role)) => Ok(None),
         Some((role, ..)) => {
             let problem = format!("`{name}` is {}, and nothing that varies by itself", role.describe());
-            Err(Diagnostic::new(name.place(), problem).help("differentiate by a drive, a load given at run time, or a parameter"))
+            Err(Diagnostic::new(name.place(), problem)
+                .help("differentiate by a drive, or by a load that is given at run time"))
         }
         None => {
-            let known = names.of(Role::Drive).chain(names.of(Role::Load)).chain(names.of(Role::Param));
-            Err(Diagnostic::new(name.place(), format!("there is no drive, load or parameter `{name}`"))
-                .suggest(&name.text, known))
+            let known = names.of(Role::Drive).chain(names.of(Role::Load));
+            Err(Diagnostic::new(name.place(), format!("there is no drive or load `{name}`")).suggest(&name.text, known))
         }
     }
 }

@@ -48,12 +48,17 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
         let fields = parts.iter().flat_map(|part| part.value.leaves());
         if fields.into_iter().all(|(_, node)| model.graph.expr(node).is_zero()) && self.sink.is_clean() {
             let scene = &model.scenes[derivative.of].name;
-            let problem = format!("no result of `{scene}` depends on `{}`: all these derivatives are zero", variable.written(model));
+            let problem = format!(
+                "no result of `{scene}` depends on `{}`: all these derivatives are zero",
+                variable.written(model)
+            );
             self.sink.report(Diagnostic::new(variable.place, problem).help("leave it out"));
         }
         match <[Field; 1]>::try_from(parts) {
             Ok([only]) if only.name.is_empty() => Field { name, ..only },
-            Ok(parts) => Field { name, doc: format!("By `{}`.", variable.written(model)), value: Output::Record(parts.into()) },
+            Ok(parts) => {
+                Field { name, doc: format!("By `{}`.", variable.written(model)), value: Output::Record(parts.into()) }
+            }
             Err(parts) => {
                 Field { name, doc: format!("By `{}`.", variable.written(model)), value: Output::Record(parts) }
             }
@@ -70,12 +75,12 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
         let tangent = &self.tangents[index];
         let graph = self.assembly.graph();
         graph.begin_section(format!("Derivatives by {}", tangent.name()));
-        let output = results.mapped(
-            &mut |node| tangent.of(graph.expr(node)).id(),
-            &|doc| format!("By {}: {}", part.what, lowered(doc)),
-        );
+        let output = results.mapped(&mut |node| tangent.of(graph.expr(node)).id(), &|doc| {
+            format!("By {}: {}", part.what, lowered(doc))
+        });
         if tangent.reached_a_search() && self.sink.is_clean() {
-            let problem = format!("the derivative by `{}` is not supported yet", variable.written(self.assembly.model()));
+            let problem =
+                format!("the derivative by `{}` is not supported yet", variable.written(self.assembly.model()));
             self.sink.report(
                 Diagnostic::new(variable.place, problem)
                     .note("it would need the change of a number of a search by Newton's method that is no direction and no travel")
@@ -149,7 +154,9 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
                 let problem = format!("the derivative by `{by}` is not supported yet: a gear pair depends on it");
                 self.sink.report(
                     Diagnostic::new(variable.place, problem)
-                        .note(format!("it is a dimension of `{gear}`: of its radii, its phase, or where its wheels are"))
+                        .note(format!(
+                            "it is a dimension of `{gear}`: of its radii, its phase, or where its wheels are"
+                        ))
                         .help("leave it out"),
                 );
             }
@@ -195,7 +202,8 @@ fn parts_of(model: &Model, by: By) -> Vec<Part> {
             let data = model.load(load);
             let numbers = data.kind.values().into_iter().filter_map(|(field, node)| match model.graph.op(node) {
                 Op::Symbol(symbol @ Symbol::Load(..)) => {
-                    let shown = if field.is_empty() { data.name.text.clone() } else { format!("{}.{field}", data.name) };
+                    let shown =
+                        if field.is_empty() { data.name.text.clone() } else { format!("{}.{field}", data.name) };
                     Some(Part {
                         symbol,
                         field: field.to_owned(),
@@ -216,9 +224,27 @@ fn kind_of(load: LoadKind, value: &str) -> Kind {
     match (load, value) {
         (LoadKind::Gravity { .. }, _) => Kind::Acceleration,
         (LoadKind::Moment { .. }, _) => Kind::Moment,
-        (_, "rate") => if turns { Kind::TorsionStiffness } else { Kind::Stiffness },
-        (_, "free" | "near") => if turns { Kind::Angle } else { Kind::Length },
-        (_, "damping") => if turns { Kind::TorsionDamping } else { Kind::Damping },
+        (_, "rate") => {
+            if turns {
+                Kind::TorsionStiffness
+            } else {
+                Kind::Stiffness
+            }
+        }
+        (_, "free" | "near") => {
+            if turns {
+                Kind::Angle
+            } else {
+                Kind::Length
+            }
+        }
+        (_, "damping") => {
+            if turns {
+                Kind::TorsionDamping
+            } else {
+                Kind::Damping
+            }
+        }
         _ => Kind::Force,
     }
 }

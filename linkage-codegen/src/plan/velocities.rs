@@ -116,7 +116,8 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn turned_by(&self, joint: JointId, link: LinkId) -> Expr<'m> {
         let data = self.model().joint(joint);
-        let change = data.kind.turn().map_or_else(|| self.graph().zero(), |(_, angle)| self.change_of(self.graph().expr(angle)));
+        let change =
+            data.kind.turn().map_or_else(|| self.graph().zero(), |(_, angle)| self.change_of(self.graph().expr(angle)));
         if data.to.link == link { change } else { -change }
     }
 
@@ -215,7 +216,11 @@ impl<'m, 'p> Motion<'m, 'p> {
             (Purpose::Velocity, Input::Drive(drive)) => graph.expr(model.drive(drive).rate),
             (Purpose::Acceleration(_), Input::Drive(drive)) => graph.expr(model.drive(drive).acceleration),
             (Purpose::Change(by), Input::Drive(drive)) => {
-                if by == Symbol::Drive(drive) { graph.one() } else { graph.zero() }
+                if by == Symbol::Drive(drive) {
+                    graph.one()
+                } else {
+                    graph.zero()
+                }
             }
             // Real motion is driven.
             (Purpose::Change(_), Input::Unknown(_)) => graph.zero(),

@@ -23,7 +23,7 @@ use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::{GROUND, JointId};
 use crate::model::{Model, Side};
-use crate::plan::assembly::{Assembly, DyadPivot};
+use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::pivots::Pivots;
@@ -133,16 +133,12 @@ impl Rule for Rpr {
     }
 }
 
-/// Supposes that the links that slide along each other do not turn. Gives what drives turn them by within their legs; the second one
-/// less what the slide turns it by.
+/// Supposes that the links that slide along each other do not turn. Gives what drives turn them by within their legs.
 fn turns_within<'m>(dyad: &Dyad<'m>, motion: &mut Motion<'m, '_>) -> Result<[Expr<'m>; 2], Diagnostic> {
     let mut own = [motion.graph().zero(); 2];
-    for ((leg, own), is_second) in dyad.legs.iter().zip(&mut own).zip([false, true]) {
+    for (leg, own) in dyad.legs.iter().zip(&mut own) {
         dyad.turn(motion, leg, *own)?;
         *own = motion.rate(leg.tip.link);
-        if is_second {
-            *own = *own - motion.turned_by(dyad.inner, leg.tip.link);
-        }
         if !own.is_zero() {
             dyad.turn(motion, leg, -*own)?;
         }
@@ -208,6 +204,16 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let rough = d.scaled(along) - d.perp().scaled(across);
     let rough = rough.named_direction(&format!("rough_{name}"), &format!("(s d − h d⊥)/D2_{slide}"));
     let direction = towards_unit(rough, &name).named_direction(slide, &format!("direction of the slide {slide}"));
+    let arm = direction.scaled(s) + direction.perp().scaled(h);
+    assembly.closed(|| ClosedLoop {
+        residual: arm - d,
+        found: [
+            Found::Direction { direction, column: arm.perp(), arm },
+            Found::Length { length: s, column: direction },
+        ],
+        determinant: s.abs(),
+        beside: Vec::new(),
+    });
     place(assembly, dyad, direction)?;
     let travel =
         (s - offset.x).named(format!("travel_{slide}"), format!("travel of the slide {slide}: s less what is fixed"));
