@@ -23,7 +23,7 @@ use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::{GROUND, JointId};
 use crate::model::{Model, Side};
-use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found};
+use crate::plan::assembly::{Assembly, DyadPivot};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::pivots::Pivots;
@@ -204,16 +204,6 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let rough = d.scaled(along) - d.perp().scaled(across);
     let rough = rough.named_direction(&format!("rough_{name}"), &format!("(s d − h d⊥)/D2_{slide}"));
     let direction = towards_unit(rough, &name).named_direction(slide, &format!("direction of the slide {slide}"));
-    let arm = direction.scaled(s) + direction.perp().scaled(h);
-    assembly.closed(|| ClosedLoop {
-        residual: arm - d,
-        found: [
-            Found::Direction { direction, column: arm.perp(), arm },
-            Found::Length { length: s, column: direction },
-        ],
-        determinant: s.abs(),
-        beside: Vec::new(),
-    });
     place(assembly, dyad, direction)?;
     let travel =
         (s - offset.x).named(format!("travel_{slide}"), format!("travel of the slide {slide}: s less what is fixed"));
