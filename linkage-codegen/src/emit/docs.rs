@@ -99,6 +99,15 @@ pub(super) fn scene_summary(linkage: &Linkage, index: usize, from_pose: bool) ->
         Method::Equilibrium => format!("Equilibrium under {loads}, {from}."),
         Method::Superposition => format!("Equilibrium under each of {loads} by itself, {from}."),
         Method::VirtualWork => format!("Virtual work of {loads}, {from}."),
+        Method::Derivative => {
+            let Some(derivative) = &scene.derivative else { return String::new() };
+            let by: Vec<String> = derivative.by.iter().map(|by| format!("`{}`", by.written(model))).collect();
+            format!(
+                "Derivatives of the results of `{}` by {}, {from}.",
+                model.scenes[derivative.of].name,
+                by.join(", ")
+            )
+        }
         Method::Verify => {
             format!("Equilibrium, superposition, virtual work and the general solution against each other, {from}.")
         }

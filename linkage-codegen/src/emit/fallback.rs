@@ -10,7 +10,7 @@ use super::literals::ident;
 use super::types::{closures, given_motion, loads, motion, results, run_time_loads, scalar};
 use crate::graph::NodeId;
 use crate::model::ids::LinkId;
-use crate::model::{Along, Load, Method, Model, OWN_TYPES, Scene, Wanted, type_name};
+use crate::model::{Along, By, Load, Method, Model, OWN_TYPES, Scene, Wanted, type_name};
 use crate::plan::{Field, Meaning, Output, reaction_type};
 
 /// The names of a module. Where several things would have one name, the first has it.
@@ -226,6 +226,22 @@ fn shape(model: &Model, scene: &Scene) -> Output {
         });
         Output::Record(fields.collect())
     };
+    if let Some(derivative) = &scene.derivative {
+        let of = &model.scenes[derivative.of];
+        let by = derivative.by.iter().map(|variable| {
+            let numbers: Vec<&str> = match variable.by {
+                By::Load(load) => model.load(load).kind.given(model).filter(|value| !value.is_empty()).collect(),
+                _ => Vec::new(),
+            };
+            let value = if numbers.is_empty() {
+                shape(model, of)
+            } else {
+                Output::Record(numbers.into_iter().map(|number| field(number, shape(model, of))).collect())
+            };
+            field(&variable.name(model), value)
+        });
+        return Output::Record(by.collect());
+    }
     match scene.method {
         Method::Superposition => parts(&|| record(model, scene, zero)),
         _ => record(model, scene, zero),

@@ -567,6 +567,8 @@ pub struct Scene {
     pub loads: Vec<LoadId>,
     /// For which results.
     pub results: Vec<Wanted>,
+    /// Of a scene of derivatives, of what and by what.
+    pub derivative: Option<Derivative>,
     /// Results that were asked for in vain, and what they are like. None in a sound declaration.
     pub refused: Vec<(String, Option<Wanted>)>,
 }
@@ -577,6 +579,37 @@ impl Scene {
     pub fn has_power(&self) -> bool {
         self.results.iter().any(|wanted| matches!(wanted, Wanted::Power(_)))
     }
+}
+
+/// What a scene of derivatives differentiates.
+#[derive(Clone, Debug)]
+pub struct Derivative {
+    /// The scene whose results are differentiated, by its place in the list of scenes.
+    pub of: usize,
+    /// By what.
+    pub by: Vec<Variable>,
+}
+
+/// What results are differentiated by.
+#[derive(Clone, Copy, Debug)]
+pub struct Variable {
+    /// What it is.
+    pub by: By,
+    /// Where it is asked for.
+    pub place: Place,
+}
+
+/// A value of run time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum By {
+    /// The coordinate of a drive.
+    Drive(DriveId),
+    /// Its rate or its acceleration.
+    Driven(DriveId, Order),
+    /// All that is given of a load.
+    Load(LoadId),
+    /// A parameter.
+    Parameter(ParamId),
 }
 
 /// How a scene is solved.
@@ -596,6 +629,8 @@ pub enum Method {
     VirtualWork,
     /// All of these against the general solution.
     Verify,
+    /// How the results of another scene change.
+    Derivative,
 }
 
 impl Method {
@@ -796,9 +831,11 @@ impl Model {
     #[must_use]
     pub fn scene_moves(&self, scene: &Scene) -> bool {
         let load = |load: &LoadId| self.loads.get(load.index()).is_some_and(|load| load.kind.depends_on_motion());
+        let differentiated = scene.derivative.as_ref().and_then(|derivative| self.scenes.get(derivative.of));
         matches!(scene.method, Method::Velocity | Method::Acceleration)
             || scene.has_power()
             || scene.loads.iter().any(load)
+            || differentiated.is_some_and(|scene| scene.derivative.is_none() && self.scene_moves(scene))
     }
 
     /// Whether the results of a scene depend on accelerations.

@@ -18,6 +18,7 @@ mod reactions;
 mod resultants;
 pub mod rules;
 pub(crate) mod scenes;
+mod sensitivities;
 mod sweeps;
 mod velocities;
 
@@ -169,7 +170,7 @@ impl Plan {
         let links = placed_links(posed);
         let accessors = accessors(&assembly);
         let mut pose = kept(&assembly);
-        let mut scenes = scenes::outputs(&assembly, posed, &force_rules, (system, &links), sink);
+        let mut scenes = scenes::outputs(&assembly, posed, [&motion_rules, &force_rules], (system, &links), sink);
         pose.extend(error_bound::add(&assembly, &mut scenes, &pose, sink));
         let plan = Self {
             pose,

@@ -4,6 +4,7 @@ use super::framed::Framed;
 use super::posed::Posed;
 use super::resultants::{Resultant, rate_of, reacted_by_ground};
 use super::rules::{Rule, RuleResult};
+use super::sensitivities::Sensitivities;
 use super::{Assembly, Balance, Comparison, Meaning, Motion, Output, PlacedLink, heading, joint_name};
 use crate::diagnostics::Sink;
 use crate::equations::joints::Component;
@@ -32,7 +33,7 @@ struct Forces<'a, 'm> {
 pub(super) fn outputs<'m>(
     assembly: &Assembly<'m>,
     posed: Posed<'m, '_>,
-    rules: &[&'static dyn Rule],
+    [motion_rules, rules]: [&[&'static dyn Rule]; 2],
     equations: (&System, &[PlacedLink]),
     sink: &Sink,
 ) -> Vec<Output> {
@@ -43,7 +44,7 @@ pub(super) fn outputs<'m>(
     });
     let cases = cases.collect();
     let forces = Forces { model, groups: &assembly.topology.forces, rules, assembly, posed, cases, sink };
-    model
+    let mut all: Vec<Output> = model
         .scenes
         .iter()
         .map(|scene| match scene.method {
@@ -54,8 +55,17 @@ pub(super) fn outputs<'m>(
             Method::Superposition => forces.superposition(scene),
             Method::VirtualWork => forces.virtual_work(scene),
             Method::Verify => forces.verify(scene, equations),
+            // Of the results of another one, once these are known.
+            Method::Derivative => Output::Record(Vec::new()),
         })
-        .collect()
+        .collect();
+    let mut sensitivities = Sensitivities::new(assembly, motion_rules, sink);
+    for (index, scene) in model.scenes.iter().enumerate() {
+        if let Some(derivative) = &scene.derivative {
+            all[index] = sensitivities.of(derivative, &all[derivative.of]);
+        }
+    }
+    all
 }
 
 fn position(forces: &Forces<'_, '_>, scene: &Scene) -> Output {

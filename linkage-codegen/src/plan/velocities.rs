@@ -1,4 +1,4 @@
-//! Motion: how the links move, found group by group in one way for three purposes.
+//! Motion: how the links move, found group by group in one way for four purposes.
 //!
 //! * **Virtual**: the velocities of the links when the coordinate of one unknown changes at unit rate and the others rest. It is the
 //!   transpose of equilibrium: the groups of forces, in the order from the unknowns outwards.
@@ -6,8 +6,10 @@
 //! * **Accelerations**: the same groups again. What is found is the acceleration of material places, so that a place of a turning link has
 //!   `a + α r⊥ − ω² r` where velocities have `v + ω r⊥`; where links slide along each other, Coriolis' acceleration stands between them.
 //!
+//! * **Change**: the derivative of the pose by a drive's coordinate or by a parameter; of a parameter, places move in their links too.
+//!
 //! A rule first supposes that its links do not turn or slide by themselves, reads what is missing at its inner joint, and divides it by
-//! its pivot: the same for all three.
+//! its pivot: the same for all of them.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +21,8 @@ use super::placement::{Placement, Spot};
 use super::rules::Rule;
 use crate::diagnostics::Sink;
 use crate::equations::loads::Action;
-use crate::graph::{Expr, Graph, Vector};
+use crate::graph::tangent::Tangent;
+use crate::graph::{Expr, Graph, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
 use crate::model::{JointKind, Model, UnknownKind};
 use crate::topology::{Group, Input};
@@ -44,6 +47,8 @@ enum Purpose<'m, 'p> {
     Velocity,
     /// The drives' accelerations, at these velocities.
     Acceleration(&'p Motion<'m, 'p>),
+    /// The coordinate of this drive, or this parameter, changes at unit rate.
+    Change(Symbol),
 }
 
 /// The velocities or the accelerations of all links.
@@ -59,6 +64,8 @@ pub struct Motion<'m, 'p> {
     twists: Vec<Twist<'m>>,
     /// Of slides: how fast the second link slides along the first one.
     sliding: BTreeMap<JointId, Expr<'m>>,
+    /// How dimensions change, if a parameter does.
+    dimensions: Option<Tangent<'m>>,
 }
 
 impl<'m, 'p> Motion<'m, 'p> {
@@ -67,9 +74,58 @@ impl<'m, 'p> Motion<'m, 'p> {
         let rest = Framed { components: graph.zero_vector(), axes: placement.direction(GROUND) };
         let still = Twist { rate: graph.zero(), at: graph.zero_vector(), velocity: rest };
         let twists = vec![still; placement.model.links.len()];
-        Self { placement, pivots, prefix, purpose, twists, sliding: BTreeMap::new() }
+        Self { placement, pivots, prefix, purpose, twists, sliding: BTreeMap::new(), dimensions: None }
     }
 
+    /// The change of the pose with a drive's coordinate or with a parameter, before any group is solved.
+    #[must_use]
+    pub(crate) fn change(placement: &'p Placement<'m>, pivots: &'p Pivots<'m>, by: Symbol, name: &str) -> Self {
+        let mut motion = Self::new(placement, pivots, Purpose::Change(by), format!("by_{name}_"));
+        if let Symbol::Parameter(_) = by {
+            motion.dimensions = Some(Tangent::by(placement.graph(), by, name).at_rest());
+        }
+        motion
+    }
+
+    /// How a dimension changes: a length, an angle or a part of a vector in a link's own axes.
+    #[must_use]
+    pub fn change_of(&self, dimension: Expr<'m>) -> Expr<'m> {
+        self.dimensions.as_ref().map_or_else(|| self.graph().zero(), |tangent| tangent.of(dimension))
+    }
+
+    /// How fast the direction that a link carries turns in the link's frame: dimensions may tell where it points to.
+    fn turn_in_frame(&self, link: LinkId) -> Expr<'m> {
+        let axis = self.placement.orientation(link).axis;
+        axis.cross(Vector::new(self.change_of(axis.x), self.change_of(axis.y)))
+    }
+
+    /// How a vector of a link, along and across the direction that the link carries, changes in the link's frame: dimensions do.
+    #[must_use]
+    pub fn within(&self, link: LinkId, vector: Vector<'m>) -> Vector<'m> {
+        let own = Vector::new(self.change_of(vector.x), self.change_of(vector.y));
+        own + vector.perp().scaled(self.turn_in_frame(link))
+    }
+
+    /// How fast the direction that a link carries turns.
+    #[must_use]
+    pub fn rate_of_direction(&self, link: LinkId) -> Expr<'m> {
+        self.rate(link) + self.turn_in_frame(link)
+    }
+
+    /// How fast the angle changes by which a slide or a weld turns a link against the other one.
+    #[must_use]
+    pub fn turned_by(&self, joint: JointId, link: LinkId) -> Expr<'m> {
+        let data = self.model().joint(joint);
+        let change =
+            data.kind.turn().map_or_else(|| self.graph().zero(), |(_, angle)| self.change_of(self.graph().expr(angle)));
+        if data.to.link == link { change } else { -change }
+    }
+
+    /// How fast the travel of a slide or a slot changes: its second point along it, from the first one.
+    #[must_use]
+    pub fn of_travel(&self, joint: JointId) -> Expr<'m> {
+        self.sliding(joint, self.model().joint(joint).to.link)
+    }
     /// The virtual motion of an unknown, before any group is solved.
     #[must_use]
     pub fn of_unknown(
@@ -99,6 +155,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn through(mut self, groups: &[Group], rules: &[&dyn Rule], sink: &Sink) -> Self {
         let what = match self.purpose {
             Purpose::Virtual(_) => "virtual velocities",
+            Purpose::Change(_) => "change of the pose",
             Purpose::Velocity => "velocities",
             Purpose::Acceleration(_) => "accelerations",
         };
@@ -158,7 +215,15 @@ impl<'m, 'p> Motion<'m, 'p> {
             }
             (Purpose::Velocity, Input::Drive(drive)) => graph.expr(model.drive(drive).rate),
             (Purpose::Acceleration(_), Input::Drive(drive)) => graph.expr(model.drive(drive).acceleration),
+            (Purpose::Change(by), Input::Drive(drive)) => {
+                if by == Symbol::Drive(drive) {
+                    graph.one()
+                } else {
+                    graph.zero()
+                }
+            }
             // Real motion is driven.
+            (Purpose::Change(_), Input::Unknown(_)) => graph.zero(),
             (Purpose::Velocity | Purpose::Acceleration(_), Input::Unknown(_)) => graph.zero(),
         }
     }
@@ -191,6 +256,8 @@ impl<'m, 'p> Motion<'m, 'p> {
             Some(squared) => turning - arm.scaled(squared),
             None => turning,
         };
+        // A parameter moves places in their link.
+        let turning = if self.dimensions.is_some() { turning + self.within(link, arm) } else { turning };
         let turning = Framed { components: turning, axes: self.placement.direction(link) };
         turning.plus(&twist.velocity, self.placement.direction(GROUND))
     }
@@ -202,7 +269,7 @@ impl<'m, 'p> Motion<'m, 'p> {
         let guided = self.of_place(far, self.placement.slide_point(slide, far));
         let velocity = guided.plus(&self.coriolis(slide, link), self.placement.direction(GROUND));
         Twist {
-            rate: self.rate(far) + self.driven_rate(slide, far),
+            rate: self.rate(far) + self.driven_rate(slide, far) + self.turned_by(slide, link),
             at: self.placement.slide_point(slide, link),
             velocity,
         }
@@ -317,7 +384,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn lacking(&self, joint: JointId, needed: &Framed<'m>, has: &Framed<'m>) -> Framed<'m> {
         let gap = self.difference(needed, has);
         let (letter, what) = match self.purpose {
-            Purpose::Virtual(_) => return gap,
+            Purpose::Virtual(_) | Purpose::Change(_) => return gap,
             Purpose::Velocity => ('v', "velocity"),
             Purpose::Acceleration(_) => ('a', "acceleration"),
         };
@@ -381,7 +448,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn named_rate(&self, rate: Expr<'m>, of: &str, how: &str) -> Expr<'m> {
         let (name, what) = match self.purpose {
-            Purpose::Virtual(_) => ("rate", "rate of rotation"),
+            Purpose::Virtual(_) | Purpose::Change(_) => ("rate", "rate of rotation"),
             Purpose::Velocity => ("omega", "angular velocity"),
             Purpose::Acceleration(_) => ("alpha", "angular acceleration"),
         };
@@ -393,7 +460,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn named_sliding(&self, sliding: Expr<'m>, slide: JointId, of: &str, how: &str) -> Expr<'m> {
         let what = match self.purpose {
-            Purpose::Virtual(_) | Purpose::Velocity => "speed",
+            Purpose::Virtual(_) | Purpose::Change(_) | Purpose::Velocity => "speed",
             Purpose::Acceleration(_) => "acceleration",
         };
         let (how, slide) = (self.in_words(how), &self.model().joint(slide).name);
@@ -402,7 +469,7 @@ impl<'m, 'p> Motion<'m, 'p> {
 
     fn in_words(&self, how: &str) -> String {
         let word = match self.purpose {
-            Purpose::Virtual(_) | Purpose::Velocity => "velocity",
+            Purpose::Virtual(_) | Purpose::Change(_) | Purpose::Velocity => "velocity",
             Purpose::Acceleration(_) => "acceleration",
         };
         how.replace("{velocity}", word)

@@ -4,16 +4,26 @@ use syn::parse::ParseStream;
 use syn::token::Paren;
 use syn::{Result, Token};
 
-use super::ast::{Item, ResultItem, Scene};
+use super::ast::{Derivative, Item, ResultItem, Scene};
 use super::items::{end, rest};
 use super::tokens::{between, comma_list, eat_word, name, place_of, take};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
 /// The methods that are carried out.
-pub(crate) const METHODS: [&str; 8] =
-    ["position", "velocity", "acceleration", "equilibrium", "superposition", "virtual_work", "verify", "sweep"];
+pub(crate) const METHODS: [&str; 9] =
+    [
+        "position",
+        "velocity",
+        "acceleration",
+        "equilibrium",
+        "superposition",
+        "virtual_work",
+        "verify",
+        "sweep",
+        "derivative",
+    ];
 /// The methods that are not carried out yet.
-pub(crate) const PLANNED: [&str; 3] = ["motion", "derivative", "inverse"];
+pub(crate) const PLANNED: [&str; 2] = ["motion", "inverse"];
 
 pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let name_ = name(input)?;
@@ -30,7 +40,11 @@ pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     if !METHODS.contains(&method.text.as_str()) {
         // Whether planned or unknown, the model says what is wrong with it.
         rest(input);
-        return Ok(Item::Scene(Scene { name: name_, method, loads: None, results: None }));
+        return Ok(Item::Scene(Scene { name: name_, method, loads: None, results: None, derivative: None }));
+    }
+    if method.text == "derivative" {
+        let derivative = Some(derivative(input)?);
+        return Ok(Item::Scene(Scene { name: name_, method, loads: None, results: None, derivative }));
     }
     let mut loads = None;
     if input.peek(Paren) {
@@ -43,7 +57,26 @@ pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         input.parse::<Token![->]>()?;
         results = Some(result_list(input, slips)?);
     }
-    Ok(Item::Scene(Scene { name: name_, method, loads, results }))
+    Ok(Item::Scene(Scene { name: name_, method, loads, results, derivative: None }))
+}
+
+/// `(statics) by (theta, F13.x)`
+fn derivative(input: ParseStream<'_>) -> Result<Derivative> {
+    if !input.peek(Paren) {
+        return Err(input.error("expected the scene that is differentiated, as in `derivative(statics) by (theta)`"));
+    }
+    let content;
+    let _ = syn::parenthesized!(content in input);
+    let of = name(&content)?;
+    if !content.is_empty() {
+        return Err(content.error("one scene is differentiated at a time: expected `)`"));
+    }
+    if !eat_word(input, "by") || !input.peek(Paren) {
+        return Err(input.error(format!("expected what is varied, as in `derivative({of}) by (theta)`")));
+    }
+    let content;
+    let _ = syn::parenthesized!(content in input);
+    Ok(Derivative { of, by: comma_list(&content, end)? })
 }
 
 /// `( … )`; without parentheses it is clear what is meant, too.

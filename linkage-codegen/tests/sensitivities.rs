@@ -1,0 +1,242 @@
+//! Derivatives of the results of every kind of scene, of random linkages, against central differences in 220 bits.
+
+mod support;
+
+use std::collections::HashMap;
+
+use linkage_codegen::Linkage;
+use linkage_codegen::diagnostics::Diagnostic;
+use linkage_codegen::graph::real::Real;
+use linkage_codegen::graph::{NodeId, Op, Order, Symbol};
+use linkage_codegen::model::ids::{DriveId, LoadId};
+use linkage_codegen::program::{Fault, Input, Program, Run};
+use support::linkages::{Kind, Sample, sample, sample_with_search};
+use support::numbers::{Double, Extended};
+use support::{Arguments, Number, compile};
+
+/// Its square is far below what is compared, and rounding over it is too.
+const STEP: f64 = 1e-18;
+/// Of central differences: what the third derivative brings.
+const TOLERANCE: f64 = 1e-22;
+
+/// A linkage at arguments of which one may be a little off.
+struct At<'a> {
+    linkage: &'a Linkage,
+    arguments: &'a Arguments,
+    moved: Option<(Symbol, f64)>,
+}
+
+impl At<'_> {
+    fn known<T: Number>(&self, symbol: Symbol) -> T {
+        let value = T::exactly(self.arguments.of(symbol));
+        match self.moved {
+            Some((moved, by)) if moved == symbol => value.add(&T::exactly(by)),
+            _ => value,
+        }
+    }
+
+    fn run<T: Number>(&self, program: &Program, pose: &HashMap<NodeId, T>) -> Result<Vec<T>, Fault> {
+        let graph = &self.linkage.model.graph;
+        let nothing = || T::exactly(f64::NAN);
+        let functions = &self.linkage.functions;
+        let values = Run { program: &functions.prepare, graph }.with(&|input| match input {
+            Input::Symbol(symbol) => self.known(symbol),
+            _ => nothing(),
+        })?;
+        let prepared: HashMap<NodeId, T> = functions.prepared.iter().copied().zip(values).collect();
+        Run { program, graph }.with(&|input| match input {
+            Input::Symbol(symbol) => self.known(symbol),
+            Input::Prepared(node) => prepared[&node].clone(),
+            Input::Kept(node) => pose[&node].clone(),
+            Input::Known(_) => nothing(),
+        })
+    }
+
+    fn direct<T: Number>(&self, scene: &str) -> Result<HashMap<String, T>, Fault> {
+        let program = &self.linkage.functions.scenes[index_of(self.linkage, scene)].direct;
+        Ok(paths(program).zip(self.run(program, &HashMap::new())?).collect())
+    }
+
+    fn from_pose<T: Number>(&self, scene: &str) -> Result<HashMap<String, T>, Fault> {
+        let kept = self.run(&self.linkage.functions.pose, &HashMap::new())?;
+        let pose = self.linkage.plan.pose.iter().map(|kept| kept.node).zip(kept).collect();
+        let program = &self.linkage.functions.scenes[index_of(self.linkage, scene)].from_pose;
+        Ok(paths(program).zip(self.run(program, &pose)?).collect())
+    }
+}
+
+fn paths(program: &Program) -> impl Iterator<Item = String> {
+    program.outputs.iter().map(|(path, _)| path.clone())
+}
+
+fn index_of(linkage: &Linkage, scene: &str) -> usize {
+    linkage.model.scenes.iter().position(|other| other.name.text == scene).expect("a scene of this name")
+}
+
+/// Something to differentiate by: as it is written, the path of its record, and its symbol.
+struct Variable {
+    written: String,
+    numbers: Vec<(String, Symbol)>,
+}
+
+fn variables(linkage: &Linkage) -> Vec<Variable> {
+    let model = &linkage.model;
+    let one = |written: String, path: String, symbol| Variable { written, numbers: vec![(path, symbol)] };
+    let mut all = Vec::new();
+    for (index, drive) in model.drives.iter().enumerate() {
+        let (id, name) = (DriveId::new(index), drive.name.text.clone());
+        all.push(one(name.clone(), name.clone(), Symbol::Drive(id)));
+        for order in drive.given_motion(&model.graph) {
+            let word = if order == Order::Rate { "rate" } else { "acceleration" };
+            all.push(one(format!("{name}.{word}"), format!("{name}_{word}"), Symbol::Driven(id, order)));
+        }
+    }
+    for index in 0..model.loads.len() {
+        let load = model.load(LoadId::new(index));
+        let numbers = load.kind.values().into_iter().filter_map(|(field, node)| match model.graph.op(node) {
+            Op::Symbol(symbol @ Symbol::Load(..)) => {
+                let dot = if field.is_empty() { "" } else { "." };
+                Some((format!("{}{dot}{field}", load.name), symbol))
+            }
+            _ => None,
+        });
+        let numbers: Vec<_> = numbers.collect();
+        if !numbers.is_empty() {
+            all.push(Variable { written: load.name.text.clone(), numbers });
+        }
+    }
+    all
+}
+
+/// How the results of a scene change with a symbol.
+fn differences(linkage: &Linkage, arguments: &Arguments, scene: &str, symbol: Symbol) -> HashMap<String, Extended> {
+    let [before, behind] = [-STEP, STEP]
+        .map(|by| At { linkage, arguments, moved: Some((symbol, by)) }.direct::<Extended>(scene).expect("results"));
+    let twice = Extended::exactly(STEP).add(&Extended::exactly(STEP));
+    behind.iter().map(|(path, value)| (path.clone(), value.sub(&before[path]).div(&twice))).collect()
+}
+
+/// The declaration with the derivatives that it has: those by what no result depends on are refused, and so are they that are not
+/// supported, each in words that are counted.
+fn with_derivatives(text: &str, scenes: &[&str], variables: &[Variable]) -> (Linkage, Vec<(String, usize)>, usize) {
+    let mut asked: Vec<(String, usize)> =
+        scenes.iter().flat_map(|scene| (0..variables.len()).map(|index| ((*scene).to_owned(), index))).collect();
+    let mut unsupported = 0;
+    loop {
+        let mut all = text.to_owned();
+        for (scene, index) in &asked {
+            let written = &variables[*index].written;
+            all.push_str(&format!("scene d_{scene}_{index}: derivative({scene}) by ({written});\n"));
+        }
+        let refusal = match linkage_codegen::analyse(all.parse().expect("tokens")) {
+            Ok(linkage) => return (linkage, asked, unsupported),
+            Err(refusal) => refusal,
+        };
+        let errors: Vec<&str> = refusal.errors.iter().map(Diagnostic::message).collect();
+        let before = asked.len();
+        asked.retain(|(scene, index)| {
+            let written = &variables[*index].written;
+            let zero = errors.iter().any(|e| e.contains(&format!("no result of `{scene}` depends on `{written}`")));
+            let gear = errors.iter().any(|e| e.contains(&format!("by `{written}` is not supported yet: a gear pair")));
+            unsupported += usize::from(gear);
+            !zero && !gear
+        });
+        assert!(asked.len() < before, "{}\n\n{all}", errors.join("\n\n"));
+    }
+}
+
+const SCENES: [&str; 6] = ["whole", "speeds", "accelerations", "all", "parts", "work"];
+
+fn near(
+    found: &HashMap<String, Extended>,
+    path: &str,
+    expected: &HashMap<String, Extended>,
+    tolerance: f64,
+    why: &str,
+) {
+    let scale = expected.values().fold(1.0f64, |most, value| most.max(value.to_f64().abs()));
+    for (leaf, value) in expected {
+        let own = &found[&format!("{path}.{leaf}")];
+        let off = own.sub(value).to_f64().abs();
+        assert!(
+            off <= tolerance * scale,
+            "{path}.{leaf}: {:e} and not {:e}, of {scale:e}: {why}",
+            own.to_f64(),
+            value.to_f64()
+        );
+    }
+}
+
+/// How many derivatives were compared.
+fn check(sample: &Sample) -> usize {
+    let arguments = &sample.arguments;
+    let plain = compile(&sample.text);
+    let scenes: Vec<&str> =
+        SCENES.into_iter().filter(|scene| plain.model.scenes.iter().any(|other| other.name.text == *scene)).collect();
+    let variables = variables(&plain);
+    let (linkage, asked, _) = with_derivatives(&sample.text, &scenes, &variables);
+    let at = At { linkage: &linkage, arguments, moved: None };
+    let doubles = |results: HashMap<String, Double>| -> HashMap<String, Extended> {
+        results.into_iter().map(|(path, value)| (path, Extended::exactly(value.0))).collect()
+    };
+    for (scene, index) in &asked {
+        let own = format!("d_{scene}_{index}");
+        let direct = at.direct::<Extended>(&own).expect("derivatives");
+        let from_pose = at.from_pose::<Extended>(&own).expect("derivatives from a pose");
+        let rounded =
+            [at.direct::<Double>(&own), at.from_pose::<Double>(&own)].map(|found| doubles(found.expect("f64")));
+        for (path, symbol) in &variables[*index].numbers {
+            let expected = differences(&linkage, arguments, scene, *symbol);
+            let why = format!("{own}\n{}", sample.text);
+            near(&direct, path, &expected, TOLERANCE, &why);
+            near(&from_pose, path, &expected, TOLERANCE, &why);
+            for rounded in &rounded {
+                near(rounded, path, &expected, 1e-9, &format!("rounded, {why}"));
+            }
+        }
+    }
+    // What is refused because nothing depends on it does not change.
+    for scene in &scenes {
+        for (index, variable) in variables.iter().enumerate() {
+            let refused = !asked.contains(&((*scene).to_owned(), index));
+            if let (true, (_, symbol)) = (refused, &variable.numbers[0]) {
+                for (path, value) in differences(&linkage, arguments, scene, *symbol) {
+                    assert!(value.to_f64().abs() < 1e-30, "{scene}: {path} depends on {}", variable.written);
+                }
+            }
+        }
+    }
+    asked.len()
+}
+
+fn kind(seed: u64, params: bool) -> Kind {
+    let dyads = 1 + usize::try_from(seed % 3).expect("small");
+    Kind {
+        dyads,
+        sliders: true,
+        joints: seed % 2 == 1,
+        unknown_anywhere: seed % 7 == 3,
+        moving: seed % 3 != 0,
+        params,
+        scalar: "f64",
+    }
+}
+
+fn drawn(seed: u64) -> Sample {
+    let kind = kind(seed, seed % 4 == 3);
+    if seed % 6 == 5 { sample_with_search(seed, kind) } else { sample(seed, kind) }
+}
+
+#[test]
+fn derivatives_are_those_of_differences() {
+    let compared: usize = (7000..7010).map(|seed| check(&drawn(seed))).sum();
+    assert!(compared > 50, "{compared} derivatives");
+}
+
+#[test]
+#[ignore = "long"]
+fn derivatives_of_many_linkages_are_those_of_differences() {
+    (70_000..70_500).for_each(|seed| {
+        check(&drawn(seed));
+    });
+}
