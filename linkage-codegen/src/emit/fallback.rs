@@ -227,7 +227,7 @@ fn shape(model: &Model, scene: &Scene) -> Output {
         Output::Record(fields.collect())
     };
     if let Some(derivative) = &scene.derivative {
-        let of = &model.scenes[derivative.of];
+        let of = &Scene { results: scene.results.clone(), ..model.scenes[derivative.of].clone() };
         let by = derivative.by.iter().map(|variable| {
             let numbers: Vec<&str> = match variable.by {
                 By::Load(load) => model.load(load).kind.given(model).filter(|value| !value.is_empty()).collect(),

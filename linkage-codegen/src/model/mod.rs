@@ -835,14 +835,16 @@ impl Model {
         matches!(scene.method, Method::Velocity | Method::Acceleration)
             || scene.has_power()
             || scene.loads.iter().any(load)
-            || differentiated.is_some_and(|scene| scene.derivative.is_none() && self.scene_moves(scene))
+            || differentiated.is_some_and(|scene| matches!(scene.method, Method::Velocity | Method::Acceleration))
     }
 
     /// Whether the results of a scene depend on accelerations.
     #[must_use]
     pub fn scene_accelerates(&self, scene: &Scene) -> bool {
         let inertia = |load: &LoadId| self.loads.get(load.index()).map(|load| &load.kind);
+        let differentiated = scene.derivative.as_ref().and_then(|derivative| self.scenes.get(derivative.of));
         scene.method == Method::Acceleration
+            || differentiated.is_some_and(|scene| scene.method == Method::Acceleration)
             || scene.loads.iter().filter_map(inertia).any(|kind| matches!(kind, LoadKind::Inertia))
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::evaluate::Scope;
-use super::ids::{DriveId, GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
+use super::ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
 use super::sweeps;
@@ -63,15 +63,17 @@ fn derivatives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         if given.by.is_empty() {
             let problem = format!("the results of `{}` are differentiated by nothing", given.of);
             sink.report(
-                Diagnostic::new(given.of.place(), problem).help("list drives, or loads that are given at run time"),
+                Diagnostic::new(given.of.place(), problem).help("list drives, loads that are given at run time, or parameters"),
             );
         }
         let own = model.scenes.iter().position(|scene| scene.name.text == name.text);
         let (Some(own), Some(of)) = (own, found) else { continue };
-        let (loads, results, refused) = {
+        let (loads, mut results, refused) = {
             let Scene { loads, results, refused, .. } = &model.scenes[of];
             (loads.clone(), results.clone(), refused.clone())
         };
+        // How uncertain the other results are is none that varies smoothly.
+        results.retain(|wanted| *wanted != Wanted::ErrorBound);
         let scene = &mut model.scenes[own];
         (scene.loads, scene.results, scene.refused) = (loads, results, refused);
         scene.derivative = Some(Derivative { of, by });
@@ -83,7 +85,10 @@ fn differentiated(model: &Model, given: &ast::Derivative, names: &Names) -> Resu
     if names.find(Role::Scene, &given.of)?.is_none() {
         return Ok(None);
     }
-    let Some(of) = model.scenes.iter().position(|scene| scene.name.text == given.of.text) else { return Ok(None) };
+    let Some(of) = model.scenes.iter().position(|scene| scene.name.text == given.of.text) else {
+        return Err(Diagnostic::new(given.of.place(), format!("`{}` is a sweep: it has no results of its own", given.of))
+            .help("differentiate the scene that it sweeps; a scene of derivatives can be swept itself"));
+    };
     let what = match model.scenes[of].method {
         Method::Derivative => "a derivative of a derivative is not supported",
         Method::Verify => "how far methods disagree is nothing to differentiate",
@@ -133,23 +138,23 @@ fn variable(model: &Model, end: &ast::End, names: &Names) -> Result<Option<Varia
             Err(match load.kind {
                 LoadKind::Inertia => {
                     Diagnostic::new(place, format!("nothing of the inertia `{name}` is given at run time"))
-                        .help("differentiate by a drive, its rate or its acceleration")
+                        .help("differentiate by the acceleration of a drive, or by a mass that is a parameter")
                 }
                 _ => Diagnostic::new(place, format!("the load `{name}` is a constant, and does not vary"))
                     .help("leave its value out, or write `_` for a value of a spring: then it is given at run time"),
             })
         }
-        Some((Role::Param, ..)) => Err(Diagnostic::new(place, "the derivative by a parameter is not supported yet")
-            .help("differentiate by a drive or a load, or take differences of two prepared linkages")),
+        Some((Role::Param, index, _)) => found(By::Parameter(ParamId::new(index))),
         None if [Role::Drive, Role::Load, Role::Param].into_iter().any(|role| names.may_be(role)) => Ok(None),
         Some((role, ..)) => {
             let problem = format!("`{name}` is {}, and nothing that varies by itself", role.describe());
             Err(Diagnostic::new(name.place(), problem)
-                .help("differentiate by a drive, or by a load that is given at run time"))
+                .help("differentiate by a drive, a load that is given at run time, or a parameter"))
         }
         None => {
-            let known = names.of(Role::Drive).chain(names.of(Role::Load));
-            Err(Diagnostic::new(name.place(), format!("there is no drive or load `{name}`")).suggest(&name.text, known))
+            let known = names.of(Role::Drive).chain(names.of(Role::Load)).chain(names.of(Role::Param));
+            Err(Diagnostic::new(name.place(), format!("there is no drive, load or parameter `{name}`"))
+                .suggest(&name.text, known))
         }
     }
 }

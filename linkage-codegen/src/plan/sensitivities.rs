@@ -21,12 +21,14 @@ pub(super) struct Sensitivities<'a, 'm> {
     sink: &'a Sink,
     /// Of each unknown that was asked for.
     tangents: Vec<Tangent<'m>>,
+    /// Whether the motion was found: only then is it worth saying what is zero.
+    sound: bool,
 }
 
 impl<'a, 'm> Sensitivities<'a, 'm> {
     /// None asked for yet. The rules are those of the groups of motion.
     pub(super) fn new(assembly: &'a Assembly<'m>, rules: &'a [&'static dyn Rule], sink: &'a Sink) -> Self {
-        Self { assembly, rules, sink, tangents: Vec::new() }
+        Self { assembly, rules, sink, tangents: Vec::new(), sound: sink.is_clean() }
     }
 
     /// A record for each variable, of the shape of the scene's own results.
@@ -46,7 +48,7 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
             })
             .collect();
         let fields = parts.iter().flat_map(|part| part.value.leaves());
-        if fields.into_iter().all(|(_, node)| model.graph.expr(node).is_zero()) && self.sink.is_clean() {
+        if fields.into_iter().all(|(_, node)| model.graph.expr(node).is_zero()) && self.sound {
             let scene = &model.scenes[derivative.of].name;
             let problem = format!(
                 "no result of `{scene}` depends on `{}`: all these derivatives are zero",
@@ -68,7 +70,9 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
     fn by_symbol(&mut self, part: &Part, variable: &Variable, results: &Output) -> Output {
         let found = self.tangents.iter().position(|tangent| tangent.unknown() == part.symbol);
         let index = found.unwrap_or_else(|| {
-            let tangent = self.tangent(part, variable);
+            let before = self.sink.is_clean();
+            let tangent = self.tangent(part);
+            self.sound &= !before || self.sink.is_clean();
             self.tangents.push(tangent);
             self.tangents.len() - 1
         });
@@ -91,14 +95,11 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
     }
 
     /// The derivatives by an unknown, those of the pose stated as the motion gives them.
-    fn tangent(&self, part: &Part, variable: &Variable) -> Tangent<'m> {
+    fn tangent(&self, part: &Part) -> Tangent<'m> {
         let (assembly, model, graph) = (self.assembly, self.assembly.model(), self.assembly.graph());
         let tangent = Tangent::by(graph, part.symbol, &part.name);
         if !matches!(part.symbol, Symbol::Drive(_) | Symbol::Parameter(_)) {
             return tangent;
-        }
-        if let Symbol::Parameter(_) = part.symbol {
-            self.check_gears(part, variable);
         }
         let (placement, pivots) = (&assembly.placement, &assembly.pivots);
         let motion = Motion::change(placement, pivots, part.symbol, &part.name).through(
@@ -112,10 +113,7 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
             let turning = direction.perp().scaled(rate);
             tangent.state(direction.x, turning.x);
             tangent.state(direction.y, turning.y);
-            let angle = placement.angle(link);
-            if let Op::Kernel { .. } = angle.op() {
-                tangent.state(angle, motion.rate(link));
-            }
+            tangent.state(placement.angle(link), motion.rate(link));
         }
         for (joint, travel) in placement.travels() {
             tangent.state(travel, motion.of_travel(joint));
@@ -138,29 +136,6 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
             }
         }
         tangent
-    }
-
-    /// What a parameter does to the phase of a gear pair is no motion that a rule knows.
-    fn check_gears(&self, part: &Part, variable: &Variable) {
-        let (model, graph) = (self.assembly.model(), self.assembly.graph());
-        let at_rest = Tangent::by(graph, part.symbol, &part.name).at_rest();
-        for id in model.joint_ids() {
-            let JointKind::Gear(gear) = model.joint(id).kind else { continue };
-            let centres = gear.arm.map(|end| model.local(end));
-            let dimensions = gear.radii.into_iter().chain([gear.phase]).map(|node| graph.expr(node));
-            let changes = dimensions.chain(centres.into_iter().flat_map(|place| [place.x, place.y]));
-            if changes.into_iter().any(|dimension| !at_rest.of(dimension).is_zero()) && self.sink.is_clean() {
-                let (gear, by) = (&model.joint(id).name, variable.written(model));
-                let problem = format!("the derivative by `{by}` is not supported yet: a gear pair depends on it");
-                self.sink.report(
-                    Diagnostic::new(variable.place, problem)
-                        .note(format!(
-                            "it is a dimension of `{gear}`: of its radii, its phase, or where its wheels are"
-                        ))
-                        .help("leave it out"),
-                );
-            }
-        }
     }
 }
 

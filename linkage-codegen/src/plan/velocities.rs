@@ -24,7 +24,7 @@ use crate::equations::loads::Action;
 use crate::graph::tangent::Tangent;
 use crate::graph::{Expr, Graph, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
-use crate::model::{JointKind, Model, UnknownKind};
+use crate::model::{Gear, JointKind, Model, UnknownKind};
 use crate::topology::{Group, Input};
 
 /// The motion of a link: its rate of rotation, and the velocity of one of its places. Of accelerations the same with one dot more.
@@ -119,6 +119,22 @@ impl<'m, 'p> Motion<'m, 'p> {
         let change =
             data.kind.turn().map_or_else(|| self.graph().zero(), |(_, angle)| self.change_of(self.graph().expr(angle)));
         if data.to.link == link { change } else { -change }
+    }
+
+    /// What a parameter does where two wheels roll, along the pitch line: as far as radii and phase change what rolls by.
+    #[must_use]
+    pub fn meshing(&self, joint: JointId, gear: &Gear) -> Expr<'m> {
+        let (model, graph) = (self.model(), self.graph());
+        let [first, second] = gear.radii.map(|radius| graph.expr(radius));
+        let changes = [first, second, graph.expr(gear.phase)].map(|dimension| self.change_of(dimension));
+        if changes.iter().all(|change| change.is_zero()) {
+            return graph.zero();
+        }
+        let [to_first, to_second, phase] = changes;
+        let centres = gear.centres(model);
+        let line = self.placement.angle(gear.arm[0].link) + graph.atan2(centres.y, centres.x);
+        let [a, b] = model.joint(joint).ends().map(|end| self.placement.angle(end.link) - line);
+        (gear.distance(model) / (first + second)) * (to_first * a + to_second * b - phase)
     }
 
     /// How fast the travel of a slide or a slot changes: its second point along it, from the first one.
