@@ -87,7 +87,7 @@ fn solve(model: &Model, sink: &Sink) -> Option<(Topology, System, Plan, Function
     let topology = Topology::of(model, sink)?;
     let system = System::of(model, &topology);
     let plan = Plan::of(model, &topology, &system, sink)?;
-    let functions = Functions::of(&model.graph, &plan);
+    let functions = Functions::of(model, &plan);
     program::check_range(model, &functions, sink);
     program::check_start(model, &functions, sink);
     // Last, as its expressions share the graph: they change no function.

@@ -60,6 +60,8 @@ declared! { CRUSHER:
     scene held: equilibrium; scene parts: superposition(I, K); scene work: virtual_work(Ij, D, W);
     scene speeds: velocity; scene accelerations: acceleration;
     scene more: acceleration -> (B along jaw, jaw.T along path, S, inertia(ram), offset(jaw), offset(rod));
+    scene slopes: derivative(held) by (theta, x, theta.rate, theta.acceleration, K, rod_mass);
+    scene curves: derivative(more) by (theta, x, theta.rate);
 }
 
 /// All numbers of a result, in the order of its fields.
@@ -336,6 +338,18 @@ fn in_motion() {
             &arguments,
             &crusher::accelerations_at(&linkage, theta, x, &motion),
             &pose.and_then(|pose| pose.accelerations(&motion)),
+        );
+        interpreted.check(
+            "slopes",
+            &arguments,
+            &crusher::slopes_at(&linkage, theta, x, &motion, &loads),
+            &pose.and_then(|pose| pose.slopes(&motion, &loads)),
+        );
+        interpreted.check(
+            "curves",
+            &arguments,
+            &crusher::curves_at(&linkage, theta, x, &motion),
+            &pose.and_then(|pose| pose.curves(&motion)),
         );
         interpreted.check(
             "more",

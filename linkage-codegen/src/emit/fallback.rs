@@ -233,12 +233,17 @@ fn shape(model: &Model, scene: &Scene) -> Output {
                 By::Load(load) => model.load(load).kind.given(model).filter(|value| !value.is_empty()).collect(),
                 _ => Vec::new(),
             };
+            (variable.name(model), numbers)
+        });
+        let mut seen = BTreeSet::new();
+        let by = by.chain(derivative.refused.iter().cloned()).filter(|(name, _)| seen.insert(name.clone()));
+        let by = by.map(|(name, numbers)| {
             let value = if numbers.is_empty() {
                 shape(model, of)
             } else {
                 Output::Record(numbers.into_iter().map(|number| field(number, shape(model, of))).collect())
             };
-            field(&variable.name(model), value)
+            field(&name, value)
         });
         return Output::Record(by.collect());
     }

@@ -89,7 +89,11 @@ impl<'g> Tangent<'g> {
             Op::Symbol(symbol) if symbol == self.by => graph.one(),
             Op::Symbol(_) => zero,
             Op::Neg(a) => -self.of(value(a)),
-            Op::Add(a, b) => self.of(value(a)) + self.of(value(b)),
+            Op::Add(a, b) => match self.sized(value(a), value(b)) {
+                // The size of a vector: u·v̇, since u̇ is across it.
+                Some((unit, vector)) => unit.dot(self.of_vector(vector)),
+                None => self.of(value(a)) + self.of(value(b)),
+            },
             Op::Sub(a, b) => self.of(value(a)) - self.of(value(b)),
             Op::Mul(a, b) if a == b => (2 * value(a)) * self.of(value(a)),
             Op::Mul(a, b) => self.of(value(a)) * value(b) + value(a) * self.of(value(b)),
@@ -123,15 +127,42 @@ impl<'g> Tangent<'g> {
                 let (name, by) = (&label.name, &self.name);
                 derivative.named(format!("{name}_by_{by}"), format!("∂{name}/∂{by}"))
             }
-            // Where the value is refused, so is its derivative.
+            // Where the value is refused, so is its derivative; parameters are refused before there is any.
             Op::Checked { value: inner, guard } => {
-                let derivative = self.of(value(inner));
-                if derivative.is_zero() { zero } else { graph.checked(derivative, &graph.guard(guard)) }
+                let (derivative, guard) = (self.of(value(inner)), graph.guard(guard));
+                let prepared = matches!(guard.failure, Failure::Parameter { .. });
+                if derivative.is_zero() || prepared { derivative } else { graph.checked(derivative, &guard) }
             }
             Op::Kernel { kernel, args, part } => {
                 let args: Vec<Expr<'g>> = args.into_iter().map(value).collect();
                 self.of_kernel(of, kernel, &args, part)
             }
+        }
+    }
+
+    /// The unit vector and the vector whose product is this sum, if it is one: the vector's size.
+    fn sized(&self, a: Expr<'g>, b: Expr<'g>) -> Option<(Vector<'g>, Vector<'g>)> {
+        let bare = |id: NodeId| {
+            let mut id = id;
+            while let Op::Quantity(inner) = self.graph.op(id) {
+                id = inner;
+            }
+            id
+        };
+        let product = |term: Expr<'g>| {
+            let Op::Mul(p, q) = term.op() else { return None };
+            [(p, q), (q, p)].into_iter().find_map(|(unit, component)| match self.graph.op(bare(unit)) {
+                Op::Kernel { kernel: Kernel::Unit, args, part } if bare(args[usize::from(part)]) == bare(component) => {
+                    Some((args, part, self.graph.expr(unit), self.graph.expr(component)))
+                }
+                _ => None,
+            })
+        };
+        match (product(a)?, product(b)?) {
+            ((args, 0, u, x), (same, 1, v, y)) | ((args, 1, v, y), (same, 0, u, x)) if args == same => {
+                Some((Vector::new(u, v), Vector::new(x, y)))
+            }
+            _ => None,
         }
     }
 

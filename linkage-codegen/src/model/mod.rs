@@ -588,6 +588,8 @@ pub struct Derivative {
     pub of: usize,
     /// By what.
     pub by: Vec<Variable>,
+    /// By what in vain: what it would be called, and the numbers that it would have. None in a sound declaration.
+    pub refused: Vec<(String, Vec<&'static str>)>,
 }
 
 /// What results are differentiated by.
@@ -634,10 +636,10 @@ pub enum Method {
 }
 
 impl Method {
-    /// Whether its results depend on loads.
+    /// Whether its results depend on loads. Those of a derivative may, as the results of its scene do.
     #[must_use]
     pub fn has_loads(self) -> bool {
-        !matches!(self, Self::Position | Self::Velocity | Self::Acceleration)
+        !matches!(self, Self::Position | Self::Velocity | Self::Acceleration | Self::Derivative)
     }
 }
 

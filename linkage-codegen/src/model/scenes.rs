@@ -50,9 +50,12 @@ fn derivatives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
     for item in &ast.items {
         let Item::Scene(ast::Scene { name, derivative: Some(given), .. }) = item else { continue };
         let found = sink.absorb(differentiated(model, given, names)).flatten();
-        let mut by: Vec<Variable> = Vec::new();
+        let (mut by, mut refused_by): (Vec<Variable>, _) = (Vec::new(), Vec::new());
         for end in &given.by {
-            let Some(variable) = sink.absorb(variable(model, end, names)).flatten() else { continue };
+            let Some(variable) = sink.absorb(variable(model, end, names)).flatten() else {
+                refused_by.push(in_vain(model, end, names));
+                continue;
+            };
             if by.iter().any(|other| other.by == variable.by) {
                 let problem = format!("`{}` is listed twice", end.written());
                 sink.report(Diagnostic::new(end.place(), problem).help("leave one of them out"));
@@ -63,7 +66,8 @@ fn derivatives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         if given.by.is_empty() {
             let problem = format!("the results of `{}` are differentiated by nothing", given.of);
             sink.report(
-                Diagnostic::new(given.of.place(), problem).help("list drives, loads that are given at run time, or parameters"),
+                Diagnostic::new(given.of.place(), problem)
+                    .help("list drives, loads that are given at run time, or parameters"),
             );
         }
         let own = model.scenes.iter().position(|scene| scene.name.text == name.text);
@@ -76,7 +80,7 @@ fn derivatives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         results.retain(|wanted| *wanted != Wanted::ErrorBound);
         let scene = &mut model.scenes[own];
         (scene.loads, scene.results, scene.refused) = (loads, results, refused);
-        scene.derivative = Some(Derivative { of, by });
+        scene.derivative = Some(Derivative { of, by, refused: refused_by });
     }
 }
 
@@ -86,8 +90,11 @@ fn differentiated(model: &Model, given: &ast::Derivative, names: &Names) -> Resu
         return Ok(None);
     }
     let Some(of) = model.scenes.iter().position(|scene| scene.name.text == given.of.text) else {
-        return Err(Diagnostic::new(given.of.place(), format!("`{}` is a sweep: it has no results of its own", given.of))
-            .help("differentiate the scene that it sweeps; a scene of derivatives can be swept itself"));
+        return Err(Diagnostic::new(
+            given.of.place(),
+            format!("`{}` is a sweep: it has no results of its own", given.of),
+        )
+        .help("differentiate the scene that it sweeps; a scene of derivatives can be swept itself"));
     };
     let what = match model.scenes[of].method {
         Method::Derivative => "a derivative of a derivative is not supported",
@@ -157,6 +164,14 @@ fn variable(model: &Model, end: &ast::End, names: &Names) -> Result<Option<Varia
                 .suggest(&name.text, known))
         }
     }
+}
+
+/// What a refused variable would be called, and the numbers that it would have.
+fn in_vain(model: &Model, end: &ast::End, names: &Names) -> (String, Vec<&'static str>) {
+    let known = names.entry(&end.link.text).filter(|entry| entry.role == Role::Load).map(|entry| entry.index);
+    let load = known.and_then(|index| model.loads.get(index));
+    let numbers = load.map(|load| load.kind.values().into_iter().map(|(name, _)| name).filter(|name| !name.is_empty()));
+    (end.written().replace('.', "_"), numbers.into_iter().flatten().collect())
 }
 
 /// The method that a refused one is most like.

@@ -12,7 +12,7 @@ use crate::graph::tangent::Tangent;
 use crate::graph::{Expr, Op, Symbol, Vector};
 use crate::model::ids::DriveId;
 use crate::model::units::Kind;
-use crate::model::{By, Derivative, JointKind, LoadKind, Model, Variable};
+use crate::model::{By, Derivative, LoadKind, Model, Variable};
 
 /// Derivatives of the results of scenes.
 pub(super) struct Sensitivities<'a, 'm> {
@@ -84,10 +84,10 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
         });
         if tangent.reached_a_search() && self.sink.is_clean() {
             let problem =
-                format!("the derivative by `{}` is not supported yet", variable.written(self.assembly.model()));
+                format!("the derivative by `{}` could not be formed", variable.written(self.assembly.model()));
             self.sink.report(
                 Diagnostic::new(variable.place, problem)
-                    .note("it would need the change of a number of a search by Newton's method that is no direction and no travel")
+                    .note("it would need the change of a number of a search by Newton's method that is no direction, angle or travel")
                     .help("leave it out"),
             );
         }

@@ -5,7 +5,6 @@
 //! * **Velocities**: the drives move at their rates; the groups of motion, in their order.
 //! * **Accelerations**: the same groups again. What is found is the acceleration of material places, so that a place of a turning link has
 //!   `a + α r⊥ − ω² r` where velocities have `v + ω r⊥`; where links slide along each other, Coriolis' acceleration stands between them.
-//!
 //! * **Change**: the derivative of the pose by a drive's coordinate or by a parameter; of a parameter, places move in their links too.
 //!
 //! A rule first supposes that its links do not turn or slide by themselves, reads what is missing at its inner joint, and divides it by
@@ -60,6 +59,8 @@ pub struct Motion<'m, 'p> {
     pub pivots: &'p Pivots<'m>,
     /// What distinguishes the names of this motion.
     pub prefix: String,
+    /// Of a change, what is behind its names: by what.
+    by: String,
     purpose: Purpose<'m, 'p>,
     twists: Vec<Twist<'m>>,
     /// Of slides: how fast the second link slides along the first one.
@@ -74,13 +75,15 @@ impl<'m, 'p> Motion<'m, 'p> {
         let rest = Framed { components: graph.zero_vector(), axes: placement.direction(GROUND) };
         let still = Twist { rate: graph.zero(), at: graph.zero_vector(), velocity: rest };
         let twists = vec![still; placement.model.links.len()];
-        Self { placement, pivots, prefix, purpose, twists, sliding: BTreeMap::new(), dimensions: None }
+        let by = String::new();
+        Self { placement, pivots, prefix, by, purpose, twists, sliding: BTreeMap::new(), dimensions: None }
     }
 
     /// The change of the pose with a drive's coordinate or with a parameter, before any group is solved.
     #[must_use]
     pub(crate) fn change(placement: &'p Placement<'m>, pivots: &'p Pivots<'m>, by: Symbol, name: &str) -> Self {
-        let mut motion = Self::new(placement, pivots, Purpose::Change(by), format!("by_{name}_"));
+        let mut motion = Self::new(placement, pivots, Purpose::Change(by), String::new());
+        motion.by = format!("_by_{name}");
         if let Symbol::Parameter(_) = by {
             motion.dimensions = Some(Tangent::by(placement.graph(), by, name).at_rest());
         }
@@ -456,7 +459,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     /// The name of a quantity of this motion.
     #[must_use]
     pub fn name(&self, name: &str) -> String {
-        format!("{}{name}", self.prefix)
+        format!("{}{name}{}", self.prefix, self.by)
     }
 
     /// A link's rate of rotation, or its angular acceleration, as a named quantity; how it comes about is said with `{velocity}` for
@@ -464,7 +467,8 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn named_rate(&self, rate: Expr<'m>, of: &str, how: &str) -> Expr<'m> {
         let (name, what) = match self.purpose {
-            Purpose::Virtual(_) | Purpose::Change(_) => ("rate", "rate of rotation"),
+            Purpose::Virtual(_) => ("rate", "rate of rotation"),
+            Purpose::Change(_) => ("turn", "change of the angle"),
             Purpose::Velocity => ("omega", "angular velocity"),
             Purpose::Acceleration(_) => ("alpha", "angular acceleration"),
         };
@@ -476,7 +480,8 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn named_sliding(&self, sliding: Expr<'m>, slide: JointId, of: &str, how: &str) -> Expr<'m> {
         let what = match self.purpose {
-            Purpose::Virtual(_) | Purpose::Change(_) | Purpose::Velocity => "speed",
+            Purpose::Virtual(_) | Purpose::Velocity => "speed",
+            Purpose::Change(_) => "shift",
             Purpose::Acceleration(_) => "acceleration",
         };
         let (how, slide) = (self.in_words(how), &self.model().joint(slide).name);
@@ -485,7 +490,8 @@ impl<'m, 'p> Motion<'m, 'p> {
 
     fn in_words(&self, how: &str) -> String {
         let word = match self.purpose {
-            Purpose::Virtual(_) | Purpose::Change(_) | Purpose::Velocity => "velocity",
+            Purpose::Virtual(_) | Purpose::Velocity => "velocity",
+            Purpose::Change(_) => "change",
             Purpose::Acceleration(_) => "acceleration",
         };
         how.replace("{velocity}", word)

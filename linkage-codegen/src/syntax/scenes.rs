@@ -10,18 +10,17 @@ use super::tokens::{between, comma_list, eat_word, name, place_of, take};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
 /// The methods that are carried out.
-pub(crate) const METHODS: [&str; 9] =
-    [
-        "position",
-        "velocity",
-        "acceleration",
-        "equilibrium",
-        "superposition",
-        "virtual_work",
-        "verify",
-        "sweep",
-        "derivative",
-    ];
+pub(crate) const METHODS: [&str; 9] = [
+    "position",
+    "velocity",
+    "acceleration",
+    "equilibrium",
+    "superposition",
+    "virtual_work",
+    "verify",
+    "sweep",
+    "derivative",
+];
 /// The methods that are not carried out yet.
 pub(crate) const PLANNED: [&str; 2] = ["motion", "inverse"];
 
@@ -60,7 +59,7 @@ pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     Ok(Item::Scene(Scene { name: name_, method, loads, results, derivative: None }))
 }
 
-/// `(statics) by (theta, F13.x)`
+/// `(statics) by (theta, F13)`
 fn derivative(input: ParseStream<'_>) -> Result<Derivative> {
     if !input.peek(Paren) {
         return Err(input.error("expected the scene that is differentiated, as in `derivative(statics) by (theta)`"));
@@ -76,7 +75,11 @@ fn derivative(input: ParseStream<'_>) -> Result<Derivative> {
     }
     let content;
     let _ = syn::parenthesized!(content in input);
-    Ok(Derivative { of, by: comma_list(&content, end)? })
+    let by = comma_list(&content, end)?;
+    if input.peek(Token![->]) {
+        return Err(input.error(format!("a derivative has the results of its scene: list them in `{of}`")));
+    }
+    Ok(Derivative { of, by })
 }
 
 /// `( … )`; without parentheses it is clear what is meant, too.
