@@ -73,7 +73,11 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
         Err(error) => return digest.refusal(error),
     };
     match linkage::Limits::of(&params) {
-        Ok(limits) => limits.B.transmission.into_iter().for_each(|extreme| digest.put((extreme.angle, extreme.at))),
+        Ok(limits) => {
+            let [least, greatest] = limits.B.transmission;
+            digest.put((least.angle, least.at));
+            digest.put((greatest.angle, greatest.at));
+        }
         Err(error) => digest.refusal(error),
     }
     let linkage = &prepared;
