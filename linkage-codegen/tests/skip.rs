@@ -156,7 +156,7 @@ fn derivatives_cost_nothing_elsewhere_and_share_what_they_have_in_common() {
     let plain = compile(FOUR_BAR);
     let with = compile(&format!(
         "{FOUR_BAR} scene both: derivative(torque) by (theta, F13); scene slope: derivative(torque) by (theta);
-         scene loads: derivative(torque) by (F13); scene far: derivative(statics) by (F12);"
+         scene linear: derivative(torque) by (F13); scene far: derivative(statics) by (F12);"
     ));
     // A scene stays as it was, and so does the pose.
     for scene in &plain.model.scenes {
@@ -167,13 +167,14 @@ fn derivatives_cost_nothing_elsewhere_and_share_what_they_have_in_common() {
     assert_eq!(plain.plan.pose.len(), with.plan.pose.len());
     // What a load changes does not depend on how large it is, nor on how the pose changes.
     let reads_load = |program: &Program| program.inputs().any(|(_, i)| matches!(i, Input::Symbol(Symbol::Load(..))));
-    assert!(reads_load(program(&with, "torque")) && !reads_load(program(&with, "loads")));
+    assert!(reads_load(program(&with, "torque")) && !reads_load(program(&with, "linear")));
     // The pose is solved once for all: the same sine, the same roots and divisions as for the torque itself.
-    let [torque, both, slope, loads] = ["torque", "both", "slope", "loads"].map(|scene| program(&with, scene).counts());
+    let [torque, both, slope, linear] =
+        ["torque", "both", "slope", "linear"].map(|scene| program(&with, scene).counts());
     assert_eq!([torque.sin_cos, torque.sqrt, torque.div], [both.sin_cos, both.sqrt, both.div]);
     // Together they take less than one by one, and all three less than the torque at the ends of two differences.
     let work = |counts: Counts| counts.add + counts.mul;
-    assert!(work(both) < work(slope) + work(loads), "{both}, {slope}, {loads}");
+    assert!(work(both) < work(slope) + work(linear), "{both}, {slope}, {linear}");
     assert!(work(both) < 2 * work(torque), "{both}, {torque}");
     // A load on the crank alone reaches no pin of the dyad.
     let far = program(&with, "far").outputs.iter().map(|(path, _)| path.clone());

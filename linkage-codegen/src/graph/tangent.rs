@@ -191,7 +191,8 @@ impl<'g> Tangent<'g> {
                 }
                 let unit = graph.unit(vector);
                 let size = unit.dot(vector);
-                let of = graph.label(args[0].id()).map_or_else(|| "a vector".to_owned(), |label| label.name);
+                let of = graph.label(args[0].id()).map(|label| label.name.trim_end_matches("_x").to_owned());
+                let of = of.unwrap_or_else(|| "a vector".to_owned());
                 let guard = Guard {
                     condition: Condition::Above { value: size.id(), limit: zero.id() },
                     failure: Failure::NoDirection { of },
