@@ -140,11 +140,13 @@ impl<'m, 'p> Motion<'m, 'p> {
         (gear.distance(model) / (first + second)) * (to_first * a + to_second * b - phase)
     }
 
-    /// How fast the travel of a slide or a slot changes: its second point along it, from the first one.
+    /// How fast the travel of a slide or a slot changes: its second point along it, from the first one. A travel that parameters alone
+    /// determine moves its place on the line as a dimension does; what slides beside that is found.
     #[must_use]
     pub fn of_travel(&self, joint: JointId) -> Expr<'m> {
-        self.sliding(joint, self.model().joint(joint).to.link)
+        self.sliding(joint, self.model().joint(joint).to.link) + self.change_of(self.placement.travel(joint))
     }
+
     /// The virtual motion of an unknown, before any group is solved.
     #[must_use]
     pub fn of_unknown(

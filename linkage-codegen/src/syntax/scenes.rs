@@ -42,7 +42,7 @@ pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         return Ok(Item::Scene(Scene { name: name_, method, loads: None, results: None, derivative: None }));
     }
     if method.text == "derivative" {
-        let derivative = Some(derivative(input)?);
+        let derivative = Some(derivative(input, slips)?);
         return Ok(Item::Scene(Scene { name: name_, method, loads: None, results: None, derivative }));
     }
     let mut loads = None;
@@ -60,24 +60,43 @@ pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
 }
 
 /// `(statics) by (theta, F13)`
-fn derivative(input: ParseStream<'_>) -> Result<Derivative> {
-    if !input.peek(Paren) {
-        return Err(input.error("expected the scene that is differentiated, as in `derivative(statics) by (theta)`"));
+fn derivative(input: ParseStream<'_>, slips: &Sink) -> Result<Derivative> {
+    let form = |of: &str| format!("as in `derivative({of}) by (theta)`");
+    let begin = input.fork();
+    let scenes = if input.peek(Paren) {
+        let content;
+        let _ = syn::parenthesized!(content in input);
+        comma_list(&content, name)?
+    } else {
+        vec![name(input)?]
+    };
+    let Some(of) = scenes.first().cloned() else {
+        return Err(begin.error(format!("a derivative is that of a scene\nhelp: {}", form("statics"))));
+    };
+    if let Some(other) = scenes.get(1) {
+        slips.report(
+            Diagnostic::new(other.place(), "one scene is differentiated at a time").help("declare a scene for each"),
+        );
     }
-    let content;
-    let _ = syn::parenthesized!(content in input);
-    let of = name(&content)?;
-    if !content.is_empty() {
-        return Err(content.error("one scene is differentiated at a time: expected `)`"));
+    if !eat_word(input, "by") {
+        return Err(input.error(format!("expected what varies\nhelp: {}", form(&of.text))));
     }
-    if !eat_word(input, "by") || !input.peek(Paren) {
-        return Err(input.error(format!("expected what is varied, as in `derivative({of}) by (theta)`")));
-    }
-    let content;
-    let _ = syn::parenthesized!(content in input);
-    let by = comma_list(&content, end)?;
+    let by = if input.peek(Paren) {
+        let content;
+        let _ = syn::parenthesized!(content in input);
+        comma_list(&content, end)?
+    } else {
+        vec![end(input)?]
+    };
     if input.peek(Token![->]) {
-        return Err(input.error(format!("a derivative has the results of its scene: list them in `{of}`")));
+        let begin = input.fork();
+        take(input);
+        result_list(input, slips)?;
+        let place = place_of(&between(&begin, input)).unwrap_or(Place::at(begin.span()));
+        slips.report(
+            Diagnostic::new(place, "a derivative has the results of its scene")
+                .help(format!("leave the list out, or list them in the scene `{of}`")),
+        );
     }
     Ok(Derivative { of, by })
 }

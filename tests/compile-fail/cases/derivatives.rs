@@ -45,11 +45,10 @@ linkage! {
 fn main() -> Result<(), Error> {
     let linkage = four_bar::Linkage::new(&four_bar::Params { reach: 90.0 })?;
     let loads = four_bar::Loads { F13: polar(50.0, 4.0) };
-    let motion = four_bar::Motion { theta_acceleration: 1.0 };
     let slopes = four_bar::slopes_at(&linkage, 1.0, &loads)?;
     println!("{} {}", slopes.theta.T12, slopes.F13.x.B.norm());
     println!("{} {}", slopes.F14.y.T12, slopes.thetta.T12);
     println!("{}", four_bar::e_at(&linkage, 1.0, &loads)?.reach.T12);
-    println!("{}", four_bar::j_at(&linkage, 1.0, &motion, &loads)?.I.T12);
+    println!("{}", four_bar::j_at(&linkage, 1.0, &loads)?.I.T12);
     Ok(())
 }

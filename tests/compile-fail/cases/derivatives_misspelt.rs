@@ -23,9 +23,9 @@ linkage! {
 
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
-    scene a: derivative statics by (theta);
+    scene a: derivative() by (theta);
     scene b: derivative(statics);
-    scene c: derivative(statics) by theta;
+    scene c: derivative statics by theta;
     scene d: derivative(statics, torque) by (theta);
     scene e: derivative(statics) by (theta) -> (T12);
 }
@@ -35,5 +35,7 @@ fn main() -> Result<(), Error> {
     let pose = four_bar::Pose::at(1.0)?;
     println!("{}", pose.statics(&loads)?.T12);
     println!("{}", four_bar::torque_at(1.0, &loads)?.T12);
+    println!("{}", four_bar::c_at(1.0, &loads)?.theta.T12);
+    println!("{} {}", four_bar::d_at(1.0, &loads)?.theta.T12, four_bar::e_at(1.0, &loads)?.theta.T12);
     Ok(())
 }
