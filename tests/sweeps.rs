@@ -89,7 +89,8 @@ linkage! {
     scene turned: sweep(held);
 }
 
-const COUNT: usize = 48;
+/// Some blocks of positions and a part of one.
+const COUNT: usize = 200;
 
 fn angles() -> [f64; COUNT] {
     core::array::from_fn(|step| 0.03 + TAU * step as f64 / COUNT as f64)
@@ -215,12 +216,35 @@ fn what_the_ground_feels_is_what_comes_from_outside() {
 
 #[test]
 fn the_first_position_without_an_answer_is_named() {
-    let (mut angles, gas) = (angles(), gas());
-    angles[17] = f64::NAN;
+    // First and last of a block, and of all.
+    for index in [0, 17, 63, 64, 137, COUNT - 1] {
+        let (mut angles, gas) = (angles(), gas());
+        angles[index] = f64::NAN;
+        let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
+        let error = cycle(&inputs(&angles, &gas), &mut rows).expect_err("no angle");
+        assert_eq!(error, SweepError::Position { index, error: Error::NotFinite { what: "theta" } });
+        for row in &rows {
+            assert!(row[..index].iter().all(|x| x.is_finite()) && row[index..].iter().all(|x| x.is_nan()));
+        }
+    }
+}
+
+#[test]
+fn angles_beyond_the_short_reduction_have_the_bits_of_the_point_function() {
+    // Among others: what needs a branch is solved by itself.
+    let mut angles = angles();
+    for (index, angle) in [(3, 1e6), (63, -7e8), (64, 1e17), (130, -1e300)] {
+        angles[index] = angle;
+    }
+    let gas = gas();
     let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
-    let error = cycle(&inputs(&angles, &gas), &mut rows).expect_err("no angle");
-    assert_eq!(error, SweepError::Position { index: 17, error: Error::NotFinite { what: "theta" } });
-    assert!(rows.iter().all(|row| row[..17].iter().all(|x| x.is_finite()) && row[17..].iter().all(|x| x.is_nan())));
+    cycle(&inputs(&angles, &gas), &mut rows).expect("regular everywhere");
+    for (index, theta) in angles.iter().enumerate() {
+        let (motion, loads) = at(index);
+        let one = engine::all_at(*theta, &motion, &loads).expect("regular");
+        assert_eq!(rows[0][index].to_bits(), one.effort_theta.to_bits());
+        assert_eq!(rows[11][index].to_bits(), one.ground_about_rod_C.force.y.to_bits());
+    }
 }
 
 #[test]

@@ -12,136 +12,152 @@ use linkage_runtime::Vector2;
 
 use crate::items::Reactions;
 
-/// The four-bar of METU Example 6.3.
+/// The four-bar of METU Example 6.3, in a scalar.
+macro_rules! four_bar {
+    ($scalar:ident) => {
+        /// A pose: A0 A, A B, B0 B in mm, and the reciprocal of A B × B0 B.
+        #[derive(Clone, Copy, Debug)]
+        pub(crate) struct Pose {
+            crank: Vector2<$scalar>,
+            coupler: Vector2<$scalar>,
+            rocker: Vector2<$scalar>,
+            determinant: $scalar,
+        }
+
+        /// The pose at an angle of the crank.
+        #[inline]
+        pub(crate) fn pose(theta: $scalar) -> Pose {
+            let (sin, cos) = theta.sin_cos();
+            let (ax, ay) = (80.0 * cos, 80.0 * sin);
+            // d from A to B0, |d|², and |A B|² − |B0 B|².
+            let (dx, dy) = (140.0 - ax, -ay);
+            let d2 = dx * dx + dy * dy;
+            let sum = d2 - 4400.0;
+            let root = (40000.0 * d2 - sum * sum).sqrt();
+            let half = 0.5 / d2;
+            let (along, across) = (sum * half, root * half);
+            let (x3, y3) = (along * dx - across * dy, along * dy + across * dx);
+            Pose {
+                crank: Vector2::new(ax, ay),
+                coupler: Vector2::new(x3, y3),
+                rocker: Vector2::new(x3 - dx, y3 - dy),
+                determinant: 0.5 * root,
+            }
+        }
+
+        /// The pose by half the angle; none at the dead centre, or if the angle is not finite.
+        #[inline]
+        pub(crate) fn careful_pose(theta: $scalar) -> Option<Pose> {
+            let (sin, cos) = (0.5 * theta).sin_cos();
+            // False for an angle that is not a number too, and for an infinite one, which has no cosine.
+            let regular = cos.abs() > 2.0 * $scalar::EPSILON * (1.0 + theta.abs());
+            if !regular {
+                return None;
+            }
+            // d from A to B0, |d|² − 60², and √(pq) with p = 4·80·140 cos².
+            let (sin2, sin_cos) = (sin * sin, sin * cos);
+            let (dx, dy) = (60.0 + 160.0 * sin2, -160.0 * sin_cos);
+            let spread = 44800.0 * sin2;
+            let root = 211.660_104_885_167_25 * cos.abs() * (3200.0 + spread).sqrt();
+            let half = 0.5 / (3600.0 + spread);
+            let (along, across) = ((spread - 800.0) * half, root * half);
+            let (x3, y3) = (along * dx - across * dy, along * dy + across * dx);
+            Some(Pose {
+                crank: Vector2::new(80.0 * (cos - sin) * (cos + sin), 160.0 * sin_cos),
+                coupler: Vector2::new(x3, y3),
+                rocker: Vector2::new(x3 - dx, y3 - dy),
+                determinant: 0.5 * root,
+            })
+        }
+
+        impl Pose {
+            /// The force on the rocker by the coupler, from the moments of the loads on coupler and rocker about A and B0.
+            #[inline]
+            fn joint(&self, inverse: $scalar, m3: $scalar, m4: $scalar) -> ($scalar, $scalar) {
+                let (p, q) = (m3 * inverse, m4 * inverse);
+                (p * self.rocker.x + q * self.coupler.x, p * self.rocker.y + q * self.coupler.y)
+            }
+
+            /// The moment of a force on the coupler at C about A.
+            #[inline]
+            fn coupler_moment(&self, force: &Vector2<$scalar>) -> $scalar {
+                let (x, y) = (self.coupler.x, self.coupler.y);
+                0.425 * (x * force.y - y * force.x) - 0.556_214_886_532_174_7 * (x * force.x + y * force.y)
+            }
+
+            /// The moment of a force on the rocker at D about B0.
+            #[inline]
+            fn rocker_moment(&self, force: &Vector2<$scalar>) -> $scalar {
+                0.75 * (self.rocker.x * force.y - self.rocker.y * force.x)
+            }
+
+            /// The torque on the crank that balances a force on the coupler by the crank.
+            #[inline]
+            fn torque(&self, ax: $scalar, ay: $scalar) -> $scalar {
+                self.crank.x * ay - self.crank.y * ax
+            }
+
+            /// All forces and the torque.
+            #[inline]
+            pub(crate) fn statics(&self, loads: &Loads, out: &mut Reactions<4, $scalar>) {
+                let (bx, by) =
+                    self.joint(1.0 / self.determinant, self.coupler_moment(&loads.F13), self.rocker_moment(&loads.F14));
+                let (ax, ay) = (bx - loads.F13.x, by - loads.F13.y);
+                out.torque = self.torque(ax, ay);
+                out.forces = [
+                    Vector2::new(ax, ay),
+                    Vector2::new(ax, ay),
+                    Vector2::new(bx, by),
+                    Vector2::new(-loads.F14.x - bx, -loads.F14.y - by),
+                ];
+            }
+
+            /// The same by each load alone.
+            #[inline]
+            pub(crate) fn parts(&self, loads: &Loads, out: &mut [Reactions<4, $scalar>; 2]) {
+                let inverse = 1.0 / self.determinant;
+                let p = self.coupler_moment(&loads.F13) * inverse;
+                let (bx, by) = (p * self.rocker.x, p * self.rocker.y);
+                let (ax, ay) = (bx - loads.F13.x, by - loads.F13.y);
+                out[0].torque = self.torque(ax, ay);
+                out[0].forces =
+                    [Vector2::new(ax, ay), Vector2::new(ax, ay), Vector2::new(bx, by), Vector2::new(-bx, -by)];
+                let q = self.rocker_moment(&loads.F14) * inverse;
+                let (bx, by) = (q * self.coupler.x, q * self.coupler.y);
+                out[1].torque = self.torque(bx, by);
+                out[1].forces = [
+                    Vector2::new(bx, by),
+                    Vector2::new(bx, by),
+                    Vector2::new(bx, by),
+                    Vector2::new(-loads.F14.x - bx, -loads.F14.y - by),
+                ];
+            }
+
+            /// Only the torque.
+            #[inline]
+            pub(crate) fn torque_of(&self, loads: &Loads) -> $scalar {
+                let (bx, by) =
+                    self.joint(1.0 / self.determinant, self.coupler_moment(&loads.F13), self.rocker_moment(&loads.F14));
+                self.torque(bx - loads.F13.x, by - loads.F13.y)
+            }
+        }
+    };
+}
+
 pub(crate) mod four_bar {
     use super::{Reactions, Vector2};
     use crate::linkages::four_bar::Loads;
 
-    /// A pose: A0 A, A B, B0 B in mm, and the reciprocal of A B × B0 B.
-    #[derive(Clone, Copy, Debug)]
-    pub(crate) struct Pose {
-        crank: Vector2<f64>,
-        coupler: Vector2<f64>,
-        rocker: Vector2<f64>,
-        determinant: f64,
-    }
+    four_bar!(f64);
+}
 
-    /// The pose at an angle of the crank.
-    #[inline]
-    pub(crate) fn pose(theta: f64) -> Pose {
-        let (sin, cos) = theta.sin_cos();
-        let (ax, ay) = (80.0 * cos, 80.0 * sin);
-        // d from A to B0, |d|², and |A B|² − |B0 B|².
-        let (dx, dy) = (140.0 - ax, -ay);
-        let d2 = dx * dx + dy * dy;
-        let sum = d2 - 4400.0;
-        let root = (40000.0 * d2 - sum * sum).sqrt();
-        let half = 0.5 / d2;
-        let (along, across) = (sum * half, root * half);
-        let (x3, y3) = (along * dx - across * dy, along * dy + across * dx);
-        Pose {
-            crank: Vector2::new(ax, ay),
-            coupler: Vector2::new(x3, y3),
-            rocker: Vector2::new(x3 - dx, y3 - dy),
-            determinant: 0.5 * root,
-        }
-    }
+/// In single precision.
+#[allow(dead_code, clippy::excessive_precision, reason = "the formulas of the other, of which sweeps need two")]
+pub(crate) mod four_bar_single {
+    use super::{Reactions, Vector2};
+    use crate::linkages::four_bar_single::Loads;
 
-    /// The pose by half the angle; none at the dead centre, or if the angle is not finite.
-    #[inline]
-    pub(crate) fn careful_pose(theta: f64) -> Option<Pose> {
-        let (sin, cos) = (0.5 * theta).sin_cos();
-        // False for an angle that is not a number too, and for an infinite one, which has no cosine.
-        let regular = cos.abs() > 2.0 * f64::EPSILON * (1.0 + theta.abs());
-        if !regular {
-            return None;
-        }
-        // d from A to B0, |d|² − 60², and √(pq) with p = 4·80·140 cos².
-        let (sin2, sin_cos) = (sin * sin, sin * cos);
-        let (dx, dy) = (60.0 + 160.0 * sin2, -160.0 * sin_cos);
-        let spread = 44800.0 * sin2;
-        let root = 211.660_104_885_167_25 * cos.abs() * (3200.0 + spread).sqrt();
-        let half = 0.5 / (3600.0 + spread);
-        let (along, across) = ((spread - 800.0) * half, root * half);
-        let (x3, y3) = (along * dx - across * dy, along * dy + across * dx);
-        Some(Pose {
-            crank: Vector2::new(80.0 * (cos - sin) * (cos + sin), 160.0 * sin_cos),
-            coupler: Vector2::new(x3, y3),
-            rocker: Vector2::new(x3 - dx, y3 - dy),
-            determinant: 0.5 * root,
-        })
-    }
-
-    impl Pose {
-        /// The force on the rocker by the coupler, from the moments of the loads on coupler and rocker about A and B0.
-        #[inline]
-        fn joint(&self, inverse: f64, m3: f64, m4: f64) -> (f64, f64) {
-            let (p, q) = (m3 * inverse, m4 * inverse);
-            (p * self.rocker.x + q * self.coupler.x, p * self.rocker.y + q * self.coupler.y)
-        }
-
-        /// The moment of a force on the coupler at C about A.
-        #[inline]
-        fn coupler_moment(&self, force: &Vector2<f64>) -> f64 {
-            let (x, y) = (self.coupler.x, self.coupler.y);
-            0.425 * (x * force.y - y * force.x) - 0.556_214_886_532_174_7 * (x * force.x + y * force.y)
-        }
-
-        /// The moment of a force on the rocker at D about B0.
-        #[inline]
-        fn rocker_moment(&self, force: &Vector2<f64>) -> f64 {
-            0.75 * (self.rocker.x * force.y - self.rocker.y * force.x)
-        }
-
-        /// The torque on the crank that balances a force on the coupler by the crank.
-        #[inline]
-        fn torque(&self, ax: f64, ay: f64) -> f64 {
-            self.crank.x * ay - self.crank.y * ax
-        }
-
-        /// All forces and the torque.
-        #[inline]
-        pub(crate) fn statics(&self, loads: &Loads, out: &mut Reactions<4>) {
-            let (bx, by) =
-                self.joint(1.0 / self.determinant, self.coupler_moment(&loads.F13), self.rocker_moment(&loads.F14));
-            let (ax, ay) = (bx - loads.F13.x, by - loads.F13.y);
-            out.torque = self.torque(ax, ay);
-            out.forces = [
-                Vector2::new(ax, ay),
-                Vector2::new(ax, ay),
-                Vector2::new(bx, by),
-                Vector2::new(-loads.F14.x - bx, -loads.F14.y - by),
-            ];
-        }
-
-        /// The same by each load alone.
-        #[inline]
-        pub(crate) fn parts(&self, loads: &Loads, out: &mut [Reactions<4>; 2]) {
-            let inverse = 1.0 / self.determinant;
-            let p = self.coupler_moment(&loads.F13) * inverse;
-            let (bx, by) = (p * self.rocker.x, p * self.rocker.y);
-            let (ax, ay) = (bx - loads.F13.x, by - loads.F13.y);
-            out[0].torque = self.torque(ax, ay);
-            out[0].forces = [Vector2::new(ax, ay), Vector2::new(ax, ay), Vector2::new(bx, by), Vector2::new(-bx, -by)];
-            let q = self.rocker_moment(&loads.F14) * inverse;
-            let (bx, by) = (q * self.coupler.x, q * self.coupler.y);
-            out[1].torque = self.torque(bx, by);
-            out[1].forces = [
-                Vector2::new(bx, by),
-                Vector2::new(bx, by),
-                Vector2::new(bx, by),
-                Vector2::new(-loads.F14.x - bx, -loads.F14.y - by),
-            ];
-        }
-
-        /// Only the torque.
-        #[inline]
-        pub(crate) fn torque_of(&self, loads: &Loads) -> f64 {
-            let (bx, by) =
-                self.joint(1.0 / self.determinant, self.coupler_moment(&loads.F13), self.rocker_moment(&loads.F14));
-            self.torque(bx - loads.F13.x, by - loads.F13.y)
-        }
-    }
+    four_bar!(f32);
 }
 
 /// The six-bar.

@@ -2,33 +2,43 @@
 
 use linkage_runtime::linkage;
 
-linkage! {
-    /// METU Example 6.3, both loads given at run time.
-    pub(crate) mod four_bar;
-    units { mm, N }
+/// METU Example 6.3, both loads given at run time, in a scalar.
+macro_rules! four_bar {
+    ($name:ident, $scalar:ident) => {
+        linkage! {
+            /// METU Example 6.3, both loads given at run time.
+            pub(crate) mod $name;
+            scalar $scalar;
+            units { mm, N }
 
-    ground       { A0: (0, 0), B0: (140mm, 0) }
-    link crank   { A0 -> A: 80mm }
-    link coupler { A -> B: 100mm, C: left(A -> B, 70mm, 80mm) }
-    link rocker  { B0 -> B: 120mm, D: (90mm, 0) }
+            ground       { A0: (0, 0), B0: (140mm, 0) }
+            link crank   { A0 -> A: 80mm }
+            link coupler { A -> B: 100mm, C: left(A -> B, 70mm, 80mm) }
+            link rocker  { B0 -> B: 120mm, D: (90mm, 0) }
 
-    revolute A0: ground  -> crank;
-    revolute A:  crank   -> coupler;
-    revolute B:  coupler -> rocker;
-    revolute B0: ground  -> rocker;
+            revolute A0: ground  -> crank;
+            revolute A:  crank   -> coupler;
+            revolute B:  coupler -> rocker;
+            revolute B0: ground  -> rocker;
 
-    drive theta: A0;
-    unknown T12: torque(ground -> crank);
-    assemble B: left(A -> B0);
+            drive theta: A0;
+            unknown T12: torque(ground -> crank);
+            assemble B: left(A -> B0);
 
-    load F13: force(coupler.C);
-    load F14: force(rocker.D);
+            load F13: force(coupler.C);
+            load F14: force(rocker.D);
 
-    scene statics: equilibrium;
-    scene parts:   superposition;
-    scene torque:  virtual_work -> (T12);
-    scene torques: sweep(torque);
+            scene statics: equilibrium;
+            scene parts:   superposition;
+            scene torque:  virtual_work -> (T12);
+            scene torques: sweep(torque);
+            scene cycle:   sweep(statics);
+        }
+    };
 }
+
+four_bar!(four_bar, f64);
+four_bar!(four_bar_single, f32);
 
 linkage! {
     /// A six-bar, Watt's chain: a crank-rocker moves a second rocker. Weight on every link, a load on the coupler, one on

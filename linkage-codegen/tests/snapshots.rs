@@ -114,7 +114,7 @@ const OTHERS: [(&str, &str); 13] = [
         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
         drive theta: A0; unknown T12: torque(ground -> crank); assemble B: left(A -> B0);
         load F: force(coupler.C) in coupler; load M: moment(rocker);
-        scene torque: virtual_work -> (T12); scene reaction: equilibrium -> (B);",
+        scene torque: virtual_work -> (T12); scene reaction: equilibrium -> (B); scene turn: sweep(torque);",
     ),
     (
         "sensitive",

@@ -48,6 +48,7 @@ extern crate std;
 mod closure;
 pub mod cycle;
 mod error;
+mod lanes;
 pub mod limits;
 mod linear;
 pub mod math;
@@ -75,6 +76,7 @@ pub mod __private {
 
     pub mod f32 {
         pub use crate::math::f32::*;
+        crate::lanes::lanes!(f32);
         crate::limits::limits!(f32);
         crate::linear::linear!(f32);
         crate::search::search!(f32);
@@ -82,6 +84,7 @@ pub mod __private {
     }
     pub mod f64 {
         pub use crate::math::f64::*;
+        crate::lanes::lanes!(f64);
         crate::limits::limits!(f64);
         crate::linear::linear!(f64);
         crate::search::search!(f64);

@@ -15,11 +15,11 @@ use crate::harness::{Chained, Competitor};
 
 /// A torque, and the forces in the joints.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Reactions<const N: usize> {
+pub(crate) struct Reactions<const N: usize, T = f64> {
     /// On the crank by the ground, N·mm.
-    pub(crate) torque: f64,
+    pub(crate) torque: T,
     /// N, on the second link of each joint.
-    pub(crate) forces: [Vector2<f64>; N],
+    pub(crate) forces: [Vector2<T>; N],
 }
 
 impl<const N: usize> Reactions<N> {

@@ -45,8 +45,18 @@ pub(super) struct Body<'a> {
     names: BTreeMap<ValueId, Ident>,
     /// What is being reported: values that are written out where they stand.
     section: String,
-    /// Whether a check that fails says why.
-    gives_reasons: bool,
+    checks: Checks,
+}
+
+/// What becomes of a check.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Checks {
+    /// Where it fails the function ends, and says why.
+    Reported,
+    /// Where it fails the function ends with nothing.
+    Silent,
+    /// All are computed at the end, and no branch depends on them.
+    Gathered,
 }
 
 /// The calls of which several results may be read: one statement for all of them.
@@ -67,17 +77,11 @@ impl<'a> Body<'a> {
             used.insert(name.clone());
             names.insert(value, ident(&name));
         }
-        let mut body = Self { program, graph, names, section: String::new(), gives_reasons: true };
+        let mut body = Self { program, graph, names, section: String::new(), checks: Checks::Reported };
         let mut uses = program.uses();
         // The results of one call read their arguments together.
         let mut calls = BTreeSet::new();
-        for (kernel, args) in program.steps.iter().filter_map(|step| match step {
-            Step::Let(value) => match program.op(*value) {
-                Some(Op::Kernel { kernel, args, .. }) => Some((*kernel, args.clone())),
-                _ => None,
-            },
-            _ => None,
-        }) {
+        for (kernel, args) in body.kernels() {
             if !calls.insert((kernel, args.clone())) {
                 args.iter().for_each(|arg| uses[arg.index()] -= 1);
             }
@@ -104,8 +108,58 @@ impl<'a> Body<'a> {
 
     /// The same, of a function that gives nothing where a check fails.
     pub(super) fn without_reasons(mut self) -> Self {
-        self.gives_reasons = false;
+        self.checks = Checks::Silent;
         self
+    }
+
+    /// All statements, without a branch, and the conditions under which the results mean something.
+    pub(super) fn straight(mut self) -> (TokenStream, Vec<TokenStream>, Self) {
+        self.checks = Checks::Gathered;
+        let (statements, body) = self.statements();
+        let angles: BTreeSet<(Kernel, Vec<ValueId>)> = body.kernels().collect();
+        let angles = angles.into_iter().filter_map(|(kernel, args)| body.is_short(kernel, &args));
+        let checks = body.program.steps.iter().filter_map(|step| match step {
+            Step::Let(_) => None,
+            Step::Check { guard, .. } => {
+                let condition = body.condition(guard);
+                Some(quote!((#condition)))
+            }
+            Step::FiniteInput(value) => {
+                let value = body.code(*value).within(Binding::Atom);
+                Some(quote!(#value.is_finite()))
+            }
+            Step::FiniteResults(groups) => Some(body.all_finite(groups)),
+        });
+        let conditions = checks.chain(angles).collect();
+        (statements, conditions, body)
+    }
+
+    /// Every call of a kernel, with its arguments.
+    fn kernels(&self) -> impl Iterator<Item = (Kernel, Vec<ValueId>)> + '_ {
+        self.program.steps.iter().filter_map(|step| match step {
+            Step::Let(value) => match self.program.op(*value) {
+                Some(Op::Kernel { kernel, args, .. }) => Some((*kernel, args.clone())),
+                _ => None,
+            },
+            _ => None,
+        })
+    }
+
+    /// The condition under which a sine and cosine need no branch.
+    fn is_short(&self, kernel: Kernel, args: &[ValueId]) -> Option<TokenStream> {
+        let [angle] = args else { return None };
+        match kernel {
+            Kernel::SinCos => {
+                let angle = self.value(*angle);
+                Some(quote!(math::is_short(#angle)))
+            }
+            Kernel::SinCosSum(phase) => {
+                let angle = self.code(*angle).within(Binding::Sum);
+                let (high, _) = split(&self.graph.number(phase), self.graph.scalar());
+                Some(quote!(math::is_short(#angle + #high)))
+            }
+            _ => None,
+        }
     }
 
     /// The label of a value; of an unlabelled one, what it is part of.
@@ -253,10 +307,12 @@ impl<'a> Body<'a> {
     fn call(&self, kernel: Kernel, args: &[ValueId]) -> TokenStream {
         let args = args.iter().map(|arg| self.value(*arg)).collect::<Vec<_>>();
         match kernel {
+            Kernel::SinCos if self.checks == Checks::Gathered => quote!(math::short_sin_cos(#(#args),*)),
             Kernel::SinCos => quote!(math::sin_cos(#(#args),*)),
             Kernel::SinCosSum(phase) => {
-                let (high, low) = split(&self.graph.number(phase), self.graph.scalar());
-                quote!(math::sin_cos_sum(#(#args),*, #high, #low))
+                let function = if self.checks == Checks::Gathered { "short_sin_cos_sum" } else { "sin_cos_sum" };
+                let (function, (high, low)) = (ident(function), split(&self.graph.number(phase), self.graph.scalar()));
+                quote!(math::#function(#(#args),*, #high, #low))
             }
             Kernel::Atan2 => quote!(math::atan2(#(#args),*)),
             Kernel::Unit => quote!(math::unit(#(#args),*)),
@@ -293,6 +349,7 @@ impl<'a> Body<'a> {
         for step in &self.program.steps {
             statements.extend(match step {
                 Step::Let(value) => self.let_statement(*value, &mut calls),
+                _ if self.checks == Checks::Gathered => TokenStream::new(),
                 Step::Check { guard, .. } => self.check(guard),
                 Step::FiniteInput(value) => {
                     let name = self.value(*value);
@@ -354,8 +411,8 @@ impl<'a> Body<'a> {
         docs
     }
 
-    fn check(&self, guard: &Guard<ValueId>) -> TokenStream {
-        let condition = match guard.condition {
+    fn condition(&self, guard: &Guard<ValueId>) -> TokenStream {
+        match guard.condition {
             Condition::Above { value, limit } => {
                 let (value, limit) = (self.code(value).within(Binding::Sum), self.value(limit));
                 quote!(#value > #limit)
@@ -364,7 +421,11 @@ impl<'a> Body<'a> {
                 let (value, limit) = (self.code(value).within(Binding::Sum), self.value(limit));
                 quote!(#value >= #limit)
             }
-        };
+        }
+    }
+
+    fn check(&self, guard: &Guard<ValueId>) -> TokenStream {
+        let condition = self.condition(guard);
         let failure = match &guard.failure {
             Failure::CannotAssemble { group, joint, gap } => {
                 let gap = self.value(*gap);
@@ -382,21 +443,26 @@ impl<'a> Body<'a> {
             Failure::CoincidentEnds { of } => quote!(Error::CoincidentEnds { of: #of }),
             Failure::Parameter { requirement } => quote!(Error::Parameter { requirement: #requirement }),
         };
-        if self.gives_reasons {
-            quote!(if !(#condition) { return Err(#failure); })
-        } else {
+        if self.checks == Checks::Silent {
             quote!(if !(#condition) { return None; })
+        } else {
+            quote!(if !(#condition) { return Err(#failure); })
         }
     }
 
     /// What is added up elsewhere is to be finite as a sum.
-    fn finite_results(&self, groups: &[Vec<ValueId>]) -> TokenStream {
+    fn all_finite(&self, groups: &[Vec<ValueId>]) -> TokenStream {
         let sums = groups.iter().map(|group| {
             let parts = group.iter().map(|value| self.code(*value).within(Binding::Product));
             parts.reduce(|sum, part| quote!(#sum + #part)).unwrap_or_else(|| quote!(0.0))
         });
+        quote!(math::all_finite([#(#sums),*]))
+    }
+
+    fn finite_results(&self, groups: &[Vec<ValueId>]) -> TokenStream {
+        let condition = self.all_finite(groups);
         let what = if self.program.reads_loads() { "a load or a result" } else { "a result" };
-        quote!(if !math::all_finite([#(#sums),*]) { return Err(Error::NotFinite { what: #what }); })
+        quote!(if !#condition { return Err(Error::NotFinite { what: #what }); })
     }
 }
 

@@ -21,7 +21,7 @@ const TAKEN: [&str; 9] =
     ["motion", "loads", "linkage", "params", "closures", "EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"];
 
 /// The name of an input.
-fn input_name(linkage: &Linkage, input: Input) -> String {
+pub(super) fn input_name(linkage: &Linkage, input: Input) -> String {
     let model = &linkage.model;
     match input {
         Input::Symbol(Symbol::Drive(drive)) => model.drive(drive).name.text.clone(),
@@ -64,6 +64,13 @@ enum Drives {
     Pose,
     /// Arguments, and the rest from a pose that is moved.
     Moved,
+    /// Arguments, as are rates and loads.
+    Lane,
+}
+
+/// Statements that take what does not change along a sweep out of where it is kept.
+pub(super) fn lane_bindings(linkage: &Linkage, program: &Program) -> TokenStream {
+    bindings(linkage, program, Drives::Lane)
 }
 
 /// Statements that take a function's inputs out of where they are kept.
@@ -88,7 +95,8 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
             Input::Symbol(Symbol::Side(closure)) => {
                 let scalar = scalar(&linkage.model);
                 let joint = ident(&linkage.model.joint(linkage.model.closure(closure).joint).name.text);
-                let of = if drives == Drives::Arguments { quote!(closures) } else { quote!(self.closures) };
+                let given = matches!(drives, Drives::Arguments | Drives::Lane);
+                let of = if given { quote!(closures) } else { quote!(self.closures) };
                 statements.extend(quote!(let #name = #scalar::from(#of.#joint.sign());));
             }
             Input::Symbol(_) | Input::Known(_) => {}
@@ -99,6 +107,9 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
     }
     if !prepared.is_empty() {
         statements.extend(quote!(let Linkage { #(#prepared,)* .. } = *linkage;));
+    }
+    if drives == Drives::Lane {
+        return statements;
     }
     if !motion.is_empty() {
         statements.extend(quote!(let Motion { #(#motion,)* .. } = *motion;));
@@ -206,7 +217,7 @@ fn verification(comparison: &Comparison, values: &mut dyn Iterator<Item = TokenS
     }
 }
 
-fn outputs(body: &Body<'_>, program: &Program) -> Vec<TokenStream> {
+pub(super) fn outputs(body: &Body<'_>, program: &Program) -> Vec<TokenStream> {
     program.outputs.iter().map(|(_, value): &(String, ValueId)| body.value(*value)).collect()
 }
 

@@ -2,15 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
+use super::functions::{body, input_name, lane_bindings, outputs};
 use super::literals::ident;
 use super::types::{drive_doc, given_motion, has_params, load_doc, run_time_loads, scalar};
 use crate::Linkage;
-use crate::graph::Order;
+use crate::graph::{Kernel, Op, Order, Symbol};
 use crate::model::{Drive, LoadKind, Model, Sweep};
 use crate::plan::{Output, slice_name};
+use crate::program::{Input, Program, Step};
 
 /// What is given at each position. Of a refused declaration, what it says of drives and loads may lead nowhere: it is not told.
 fn inputs(model: &Model, sweep: &Sweep, runtime: &TokenStream, whole: bool) -> TokenStream {
@@ -117,6 +119,128 @@ fn closures_argument(model: &Model) -> Option<TokenStream> {
     model.given_closures().next().map(|_| quote!(closures: Closures,))
 }
 
+/// How positions of a sweep are computed beside each other.
+struct Lanes {
+    /// The type, and what makes it one.
+    items: TokenStream,
+    /// The call that solves all positions.
+    call: TokenStream,
+}
+
+/// Whether many positions can be computed at once, without a branch. A search takes as many steps as it needs, elimination exchanges lines,
+/// and a comparison of methods is made for a single pose.
+fn has_lanes(program: &Program, output: &Output) -> bool {
+    let branches = |step: &Step| match step {
+        Step::Let(value) => matches!(
+            program.op(*value),
+            Some(Op::Kernel { kernel: Kernel::Search { .. } | Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_), .. })
+        ),
+        _ => false,
+    };
+    !program.steps.iter().any(branches) && !matches!(output, Output::Verification(_))
+}
+
+/// What a lane reads: each series with the parts of its values, and the names under which the lane has them.
+fn columns(linkage: &Linkage, program: &Program) -> Vec<(Ident, Vec<(TokenStream, Ident)>)> {
+    let model = &linkage.model;
+    let mut columns: Vec<(Ident, Vec<(TokenStream, Ident)>)> = Vec::new();
+    for (_, input) in program.inputs() {
+        let name = ident(&input_name(linkage, input));
+        let (series, part) = match input {
+            Input::Symbol(Symbol::Drive(_) | Symbol::Driven(..)) => (name.clone(), quote!(value)),
+            Input::Symbol(Symbol::Load(load, part)) => {
+                let load = model.load(load);
+                let part = match load.kind {
+                    LoadKind::Moment { .. } | LoadKind::Thrust { .. } | LoadKind::Inertia => quote!(value),
+                    LoadKind::Force { .. } | LoadKind::Gravity { .. } if part == 0 => quote!(value.x),
+                    LoadKind::Force { .. } | LoadKind::Gravity { .. } => quote!(value.y),
+                    LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
+                        let field = ident(load.kind.value_name(part));
+                        quote!(value.#field)
+                    }
+                };
+                (ident(&load.name.text), part)
+            }
+            _ => continue,
+        };
+        match columns.iter_mut().find(|(other, _)| *other == series) {
+            Some((_, parts)) => parts.push((part, name)),
+            None => columns.push((series, vec![(part, name)])),
+        }
+    }
+    columns
+}
+
+/// The positions of a sweep beside each other, and one by one.
+fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream) -> Lanes {
+    let model = &linkage.model;
+    let scalar = scalar(model);
+    let program = &linkage.functions.scenes[sweep.scene].direct;
+    let [inputs_ty, results_ty] = sweep.types().map(|ty| ident(&ty));
+    let ty = ident(&format!("{}Lanes", sweep.types()[1]));
+    let columns = columns(linkage, program);
+    let given: Vec<&Ident> = columns.iter().flat_map(|(_, parts)| parts.iter().map(|(_, name)| name)).collect();
+    let column = |name: &Ident| ident(&format!("{name}_lanes"));
+    let (given_columns, result_columns) = (given.iter().copied().map(column), fields.iter().map(column));
+    let laid = columns.iter().map(|(series, parts)| {
+        let names = parts.iter().map(|(_, name)| column(name));
+        let parts = parts.iter().map(|(part, _)| part);
+        quote!(math::lay(&self.inputs.#series, first, [#(#names),*], |value| [#(#parts),*]);)
+    });
+    let put = fields.iter().map(|field| {
+        let column = column(field);
+        quote!(math::put(self.results.#field, first, lanes.clone(), #column);)
+    });
+    let (given_count, results_count) =
+        (Literal::usize_unsuffixed(given.len()), Literal::usize_unsuffixed(fields.len()));
+    let (prepared, closures) = (has_params(linkage), model.given_closures().next().is_some());
+    let members = [
+        prepared.then(|| quote!(linkage: &'s Linkage)),
+        closures.then(|| quote!(closures: Closures)),
+        Some(quote!(inputs: &'s #inputs_ty<'a>)),
+        Some(quote!(results: #results_ty<'a>)),
+    ];
+    let names = [
+        prepared.then(|| quote!(linkage)),
+        closures.then(|| quote!(closures)),
+        Some(quote!(inputs)),
+        Some(quote!(results)),
+    ];
+    let (members, names) = (members.into_iter().flatten(), names.into_iter().flatten().collect::<Vec<_>>());
+    let shared = [prepared.then(|| quote!(linkage)), closures.then(|| quote!(closures))];
+    let shared: Vec<TokenStream> = shared.into_iter().flatten().collect();
+    let shared = (!shared.is_empty()).then(|| quote!(let Self { #(#shared,)* .. } = *self;));
+    let bindings = lane_bindings(linkage, program);
+    let (statements, conditions, body) = body(linkage, program).straight();
+    let values = outputs(&body, program);
+    let holds = conditions.into_iter().reduce(|all, one| quote!(#all & #one)).unwrap_or_else(|| quote!(true));
+    let doc = format!(" The positions of the sweep `{}`, of which several are computed at once.", sweep.name);
+    let items = quote! {
+        #[doc = #doc]
+        struct #ty<'s, 'a> { #(#members,)* }
+        impl math::Lanes<#given_count, #results_count> for #ty<'_, '_> {
+            #[inline(always)]
+            fn lane(&self, [#(#given),*]: [#scalar; #given_count]) -> ([#scalar; #results_count], bool) {
+                #shared
+                #bindings
+                #statements
+                ([#(#values),*], #holds)
+            }
+            fn give(&self, first: usize, [#(#given_columns),*]: &mut [math::Column; #given_count]) {
+                #(#laid)*
+            }
+            fn take(&mut self, first: usize, lanes: ::core::ops::Range<usize>, [#(#result_columns),*]: &[math::Column; #results_count]) {
+                #(#put)*
+            }
+            fn point(&mut self, index: usize) -> Result<(), Error> {
+                let Self { #(#names),* } = self;
+                #point
+            }
+        }
+    };
+    Lanes { items, call: quote!(math::sweep(count, &mut #ty { #(#names),* })) }
+}
+
 /// A sweep with its types.
 pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) -> TokenStream {
     let model = &linkage.model;
@@ -130,7 +254,7 @@ pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) 
     let texts: Vec<_> = slices.iter().map(|(name, _)| name).collect();
     let paths = slices.iter().map(|(_, path)| {
         let parts = path.split('.').map(ident);
-        quote!(results #(.#parts)*)
+        quote!(solved #(.#parts)*)
     });
     let (motion, loads) = (model.swept_motion(scene), model.swept_loads(scene));
     let given_names = model.drives.iter().map(|drive| drive.name.text.clone());
@@ -150,26 +274,48 @@ pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) 
     let (prepared, passed) =
         if has_params(linkage) { (Some(quote!(linkage: &Linkage,)), Some(quote!(linkage,))) } else { (None, None) };
     // One choice for the whole sweep.
-    let closed = model.given_closures().next().map(|_| quote!(closures,));
     let closures = closures_argument(model);
     let scene_name = ident(&scene.name.text);
     let direct = ident(&format!("{}_at", scene.name));
-    let (before, solved, branch) = if linkage.functions.near.is_some() {
-        let before = quote!(let mut before: Option<Pose> = None;);
+    let stored = quote!(#(store(results.#fields, index, #paths);)*);
+    let (items, solved, branch) = if linkage.functions.near.is_some() {
+        let closed = closures.is_some().then(|| quote!(closures,));
         let solved = quote! {
-            let pose = match before {
-                Some(before) => before.moved_to(#(#drives),*)?,
-                None => Pose::at(#passed #(#drives,)* #closed)?,
-            };
-            before = Some(pose);
-            let results = pose.#scene_name(#(#arguments),*)?;
+            let mut before: Option<Pose> = None;
+            sweep(count, |index| {
+                #given_values
+                let pose = match before {
+                    Some(before) => before.moved_to(#(#drives),*)?,
+                    None => Pose::at(#passed #(#drives,)* #closed)?,
+                };
+                before = Some(pose);
+                let solved = pose.#scene_name(#(#arguments),*)?;
+                #stored
+                Ok(())
+            })
         };
         let branch = "From the second position on, groups that are placed by Newton's method are searched from the pose before, so that \
                       the sweep stays on their branch: that is [`Pose::moved_to`].";
-        (Some(before), solved, branch.to_owned())
+        (None, solved, branch.to_owned())
     } else {
-        let solved = quote!(let results = #direct(#passed #(#drives,)* #closed #(#arguments),*)?;);
-        (None, solved, format!("Each position has the numbers of [`{}_at`], bit by bit.", scene.name))
+        let branch = format!("Each position has the numbers of [`{}_at`], bit by bit.", scene.name);
+        let point = |closed: TokenStream| {
+            quote! {
+                #given_values
+                let solved = #direct(#passed #(#drives,)* #closed #(#arguments),*)?;
+                #stored
+                Ok(())
+            }
+        };
+        if has_lanes(&linkage.functions.scenes[sweep.scene].direct, output) && !fields.is_empty() {
+            let closed = closures.is_some().then(|| quote!(*closures,));
+            let Lanes { items, call } = lanes(linkage, sweep, &fields, &point(quote!(#closed)));
+            (Some(items), call, branch)
+        } else {
+            let closed = closures.is_some().then(|| quote!(closures,));
+            let point = point(quote!(#closed));
+            (None, quote!(sweep(count, |index| { #point })), branch)
+        }
     };
     let docs = [
         format!(" The scene `{}` at every position, in order.", scene.name),
@@ -182,24 +328,18 @@ pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) 
         " `SweepError::Length` if slices are not all of one length: then nothing is computed. `SweepError::Position` with the first position that".to_owned(),
         " has no answer, and why; those before it have theirs, those behind it are untouched.".to_owned(),
     ];
-    let count = fields.first().map_or_else(|| quote!(0), |first| quote!(#first.len()));
+    let count = fields.first().map_or_else(|| quote!(0), |first| quote!(results.#first.len()));
     quote! {
         #inputs
         #results
         #(#[doc = #docs])*
         pub fn #name(#prepared #closures inputs: &#inputs_ty<'_>, results: #results_ty<'_>) -> Result<(), #runtime::SweepError> {
             use #runtime::__private::{same_length, store, sweep};
-            let #results_ty { #(#fields,)* } = results;
+            #items
             let count = #count;
-            #(same_length(#texts, #fields.len(), count)?;)*
+            #(same_length(#texts, results.#fields.len(), count)?;)*
             #(inputs.#given.check(#given_names, count)?;)*
-            #before
-            sweep(count, |index| {
-                #given_values
-                #solved
-                #(store(#fields, index, #paths);)*
-                Ok(())
-            })
+            #solved
         }
     }
 }

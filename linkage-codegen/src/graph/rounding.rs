@@ -213,8 +213,10 @@ impl<'g> Rounding<'g> {
                 let error = self.error(a);
                 self.keep(of, BoundOf::Value, error)
             }
-            Op::Add(a, b) | Op::Sub(a, b) if let Some(error) = self.error_of_projection(value, [a, b]) => error,
-            Op::Add(a, b) | Op::Sub(a, b) => self.error(a) + self.error(b) + self.rounded(value),
+            Op::Add(a, b) | Op::Sub(a, b) => match self.error_of_projection(value, [a, b]) {
+                Some(error) => error,
+                None => self.error(a) + self.error(b) + self.rounded(value),
+            },
             Op::Mul(a, b) => {
                 let (ea, eb) = (self.error(a), self.error(b));
                 let (a, b) = (graph.expr(a), graph.expr(b));

@@ -7,5 +7,5 @@ mod vector;
 
 pub use super::sqrt::sqrt;
 pub use atan2::atan2;
-pub use sin_cos::{sin_cos, sin_cos_sum};
+pub use sin_cos::{is_short, short_sin_cos, short_sin_cos_sum, sin_cos, sin_cos_sum};
 pub use vector::{polar, unit};

@@ -39,7 +39,7 @@ pub(super) struct Reduced {
 )]
 #[must_use]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    let reduced = if x.abs() <= FAST { reduce(x) } else { reduce_large(x) };
+    let reduced = if is_short(x) { reduce(x) } else { reduce_large(x) };
     reduced.sin_cos()
 }
 
@@ -55,8 +55,36 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
 #[must_use]
 pub fn sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
     let (sum, error) = two_sum(x, hi);
-    let reduced = if sum.abs() <= FAST { reduce(sum).plus(error + lo) } else { reduce_large_sum(sum, error, lo) };
+    let reduced = if is_short(sum) { reduce(sum).plus(error + lo) } else { reduce_large_sum(sum, error, lo) };
     reduced.sin_cos()
+}
+
+/// Whether the short reduction serves for an angle.
+#[doc(hidden)]
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "for loops that are vectorised")]
+#[must_use]
+pub fn is_short(x: f64) -> bool {
+    x.abs() <= FAST
+}
+
+/// [`sin_cos`] without its branch: for angles for which the short reduction serves; elsewhere the numbers mean nothing.
+#[doc(hidden)]
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "for loops that are vectorised")]
+#[must_use]
+pub fn short_sin_cos(x: f64) -> (f64, f64) {
+    reduce(x).sin_cos()
+}
+
+/// [`sin_cos_sum`] without its branch: where the short reduction serves for x + hi.
+#[doc(hidden)]
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "for loops that are vectorised")]
+#[must_use]
+pub fn short_sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
+    let (sum, error) = two_sum(x, hi);
+    reduce(sum).plus(error + lo).sin_cos()
 }
 
 /// a + b as a rounded sum and its error, exactly.
