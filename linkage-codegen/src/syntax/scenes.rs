@@ -90,7 +90,7 @@ fn derivative(input: ParseStream<'_>, slips: &Sink) -> Result<Derivative> {
     };
     if input.peek(Token![->]) {
         let begin = input.fork();
-        take(input);
+        input.parse::<Token![->]>()?;
         result_list(input, slips)?;
         let place = place_of(&between(&begin, input)).unwrap_or(Place::at(begin.span()));
         slips.report(
