@@ -58,7 +58,7 @@ impl At<'_> {
         Ok(paths(program).zip(self.run(program, &HashMap::new())?).collect())
     }
 
-    fn from_pose<T: Number>(&self, scene: &str) -> Result<HashMap<String, T>, Fault> {
+    fn posed<T: Number>(&self, scene: &str) -> Result<HashMap<String, T>, Fault> {
         let kept = self.run(&self.linkage.functions.pose, &HashMap::new())?;
         let pose = self.linkage.plan.pose.iter().map(|kept| kept.node).zip(kept).collect();
         let program = &self.linkage.functions.scenes[index_of(self.linkage, scene)].from_pose;
@@ -194,9 +194,8 @@ fn check(sample: &Sample, classes: &mut BTreeSet<&'static str>) -> usize {
     for (scene, by) in &asked {
         let own = format!("d_{scene}");
         let direct = at.direct::<Extended>(&own).expect("derivatives");
-        let from_pose = at.from_pose::<Extended>(&own).expect("derivatives from a pose");
-        let rounded =
-            [at.direct::<Double>(&own), at.from_pose::<Double>(&own)].map(|found| doubles(found.expect("f64")));
+        let from_pose = at.posed::<Extended>(&own).expect("derivatives from a pose");
+        let rounded = [at.direct::<Double>(&own), at.posed::<Double>(&own)].map(|found| doubles(found.expect("f64")));
         for (path, symbol) in by.iter().flat_map(|index| &variables[*index].numbers) {
             let expected = differences(&linkage, arguments, scene, *symbol);
             let why = format!("{own}\n{}", sample.text);
@@ -227,7 +226,7 @@ fn kind(seed: u64) -> Kind {
         sliders: true,
         joints: seed % 2 == 1,
         unknown_anywhere: seed % 7 == 3,
-        moving: seed % 3 != 0,
+        moving: !seed.is_multiple_of(3),
         params: false,
         scalar: "f64",
     }
@@ -235,7 +234,7 @@ fn kind(seed: u64) -> Kind {
 
 fn drawn(seed: u64) -> Sample {
     let drawn = if seed % 6 == 5 { sample_with_search(seed, kind(seed)) } else { sample(seed, kind(seed)) };
-    if seed % 2 == 0 { drawn } else { with_parameters(drawn, &mut Random(seed)) }
+    if seed.is_multiple_of(2) { drawn } else { with_parameters(drawn, &mut Random(seed)) }
 }
 
 /// The units of literals that may be parameters, none the beginning of one behind it.

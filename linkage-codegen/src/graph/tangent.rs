@@ -85,9 +85,8 @@ impl<'g> Tangent<'g> {
         let zero = graph.zero();
         let value = |id: NodeId| graph.expr(id);
         match of.op() {
-            Op::Constant(_) => zero,
             Op::Symbol(symbol) if symbol == self.by => graph.one(),
-            Op::Symbol(_) => zero,
+            Op::Constant(_) | Op::Symbol(_) => zero,
             Op::Neg(a) => -self.of(value(a)),
             Op::Add(a, b) => match self.sized(value(a), value(b)) {
                 // The size of a vector: u·v̇, since u̇ is across it.

@@ -244,8 +244,7 @@ impl<'m, 'p> Motion<'m, 'p> {
                 }
             }
             // Real motion is driven.
-            (Purpose::Change(_), Input::Unknown(_)) => graph.zero(),
-            (Purpose::Velocity | Purpose::Acceleration(_), Input::Unknown(_)) => graph.zero(),
+            (Purpose::Velocity | Purpose::Acceleration(_) | Purpose::Change(_), Input::Unknown(_)) => graph.zero(),
         }
     }
 
