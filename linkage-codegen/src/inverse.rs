@@ -64,7 +64,7 @@ pub(crate) fn solved(exchanged: Vec<Exchanged<'_>>, model: &Model, sink: &Sink) 
         let system = System::of(&model, &topology);
         let plan = Plan::of(&model, &topology, &system, &BTreeSet::new(), &refusals);
         let linkage = plan.map(|plan| {
-            let functions = Functions::of(&model.graph, &plan);
+            let functions = Functions::of(&model, &plan);
             program::check_range(&model, &functions, &refusals);
             let (limits, inverses) = (Limits { loops: Vec::new(), prepare: None }, Vec::new());
             Linkage { model, topology, system, plan, functions, limits, inverses }

@@ -107,7 +107,7 @@ fn solve(ast: &Ast, model: &Model, sink: &Sink) -> Option<Solved> {
     let exchanged = inverse::exchanged(ast, model, &topology, sink)?;
     let system = System::of(model, &topology);
     let plan = Plan::of(model, &topology, &system, &inverse::closing(&exchanged), sink)?;
-    let functions = Functions::of(&model.graph, &plan);
+    let functions = Functions::of(model, &plan);
     program::check_range(model, &functions, sink);
     program::check_start(model, (&topology, &plan), &functions, sink);
     // Last, as its expressions share the graph: they change no function.

@@ -86,6 +86,8 @@ declared! { RAIL:
     drive theta: A0; drive travel: S; unknown T: torque(crank -> left); unknown P: force(left.C) along 80deg;
     assemble B: left(A -> D); load W: gravity = 9.81m/s^2 @ -90deg;
     scene control: motion -> (M, h, rounding, M_kinetic);
+    scene slopes: derivative(held) by (theta, x, theta.rate, theta.acceleration, K, rod_mass);
+    scene curves: derivative(more) by (theta, x, theta.rate);
 }
 
 /// All numbers of a result, in the order of its fields.
@@ -362,6 +364,18 @@ fn in_motion() {
             &arguments,
             &crusher::accelerations_at(&linkage, theta, x, &motion),
             &pose.and_then(|pose| pose.accelerations(&motion)),
+        );
+        interpreted.check(
+            "slopes",
+            &arguments,
+            &crusher::slopes_at(&linkage, theta, x, &motion, &loads),
+            &pose.and_then(|pose| pose.slopes(&motion, &loads)),
+        );
+        interpreted.check(
+            "curves",
+            &arguments,
+            &crusher::curves_at(&linkage, theta, x, &motion),
+            &pose.and_then(|pose| pose.curves(&motion)),
         );
         interpreted.check(
             "more",

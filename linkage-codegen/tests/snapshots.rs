@@ -94,8 +94,9 @@ fn every_stage_of_every_example() {
 }
 
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
-/// cylinders, slots, welds, gears, inner slides, unknowns elsewhere than at the drives, equations of motion, inverse scenes.
-const OTHERS: [(&str, &str); 18] = [
+/// cylinders, slots, welds, gears, inner slides, unknowns elsewhere than at the drives, equations of motion, inverse scenes,
+/// derivatives.
+const OTHERS: [(&str, &str); 19] = [
     (
         "bounded",
         "/// A slider-crank whose results come with bounds of their rounding errors.
@@ -115,6 +116,20 @@ const OTHERS: [(&str, &str); 18] = [
         drive theta: A0; unknown T12: torque(ground -> crank); assemble B: left(A -> B0);
         load F: force(coupler.C) in coupler; load M: moment(rocker);
         scene torque: virtual_work -> (T12); scene reaction: equilibrium -> (B); scene turn: sweep(torque);",
+    ),
+    (
+        "sensitive",
+        "/// How a crank's torque and a coupler's point change with the angle, the loads and the crank.
+        pub mod sensitive; units { mm, N }
+        param crank_length: length = 80mm;
+        ground { A0: (0, 0), B0: (140mm, 0) } link crank { A0 -> A: crank_length } link coupler { A -> B: 100mm, C: (50mm, 20mm) }
+        link rocker { B0 -> B: 120mm }
+        revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+        drive theta: A0; unknown T12: torque(ground -> crank); assemble B: left(A -> B0);
+        load F: force(coupler.C); load K: spring(ground.B0, coupler.C) { rate: 2N/mm, free: _ };
+        scene torque: virtual_work -> (T12); scene place: position -> (coupler.C); scene speed: velocity -> (coupler.C);
+        scene slopes: derivative(torque) by (theta, F, K, crank_length); scene moved: derivative(place) by (theta, crank_length);
+        scene swift: derivative(speed) by (theta, theta.rate);",
     ),
     (
         "parallelogram",

@@ -109,6 +109,15 @@ pub(super) fn scene_summary(linkage: &Linkage, index: usize, from_pose: bool) ->
         Method::Inverse => {
             "The drives that give the linkage the wanted coordinates, with their rates and accelerations.".to_owned()
         }
+        Method::Derivative => {
+            let Some(derivative) = &scene.derivative else { return String::new() };
+            let by: Vec<String> = derivative.by.iter().map(|by| format!("`{}`", by.written(model))).collect();
+            format!(
+                "Derivatives of the results of `{}` by {}, {from}.",
+                model.scenes[derivative.of].name,
+                by.join(", ")
+            )
+        }
         Method::Verify => {
             format!("Equilibrium, superposition, virtual work and the general solution against each other, {from}.")
         }

@@ -10,7 +10,7 @@ use super::literals::ident;
 use super::types::{closures, forward_signature, given_motion, loads, motion, results, run_time_loads, scalar};
 use crate::graph::NodeId;
 use crate::model::ids::LinkId;
-use crate::model::{Along, Load, Method, Model, OWN_TYPES, Part, Scene, Wanted, type_name};
+use crate::model::{Along, By, Load, Method, Model, OWN_TYPES, Part, Scene, Wanted, type_name};
 use crate::plan::{Field, Meaning, Output, coefficient_names, reaction_type};
 
 /// The names of a module. Where several things would have one name, the first has it.
@@ -236,6 +236,27 @@ fn shape(model: &Model, scene: &Scene) -> Output {
         });
         Output::Record(fields.collect())
     };
+    if let Some(derivative) = &scene.derivative {
+        let of = &Scene { results: scene.results.clone(), ..model.scenes[derivative.of].clone() };
+        let by = derivative.by.iter().map(|variable| {
+            let numbers: Vec<&str> = match variable.by {
+                By::Load(load) => model.load(load).kind.given(model).filter(|value| !value.is_empty()).collect(),
+                _ => Vec::new(),
+            };
+            (variable.name(model), numbers)
+        });
+        let mut seen = BTreeSet::new();
+        let by = by.chain(derivative.refused.iter().cloned()).filter(|(name, _)| seen.insert(name.clone()));
+        let by = by.map(|(name, numbers)| {
+            let value = if numbers.is_empty() {
+                shape(model, of)
+            } else {
+                Output::Record(numbers.into_iter().map(|number| field(number, shape(model, of))).collect())
+            };
+            field(&name, value)
+        });
+        return Output::Record(by.collect());
+    }
     match scene.method {
         Method::Superposition => parts(&|| record(model, scene, zero)),
         _ => record(model, scene, zero),

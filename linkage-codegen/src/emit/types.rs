@@ -372,6 +372,7 @@ pub(super) fn results(model: &Model, scene: usize, output: &Output) -> TokenStre
     let base = type_name(&scene.name.text);
     let doc = match scene.method {
         Method::Superposition => format!(" Every load's own part in the scene `{}`.", scene.name),
+        Method::Derivative => format!(" Derivatives, a record for each variable of the scene `{}`.", scene.name),
         _ => format!(" Results of the scene `{}`.", scene.name),
     };
     let mut types = TokenStream::new();

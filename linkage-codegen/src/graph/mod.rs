@@ -12,6 +12,7 @@ pub mod number;
 pub mod real;
 pub mod rounding;
 mod search;
+pub(crate) mod tangent;
 mod vector;
 
 use core::cell::RefCell;

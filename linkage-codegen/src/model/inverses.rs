@@ -226,6 +226,7 @@ impl Model {
             method: Method::Inverse,
             loads: Vec::new(),
             results,
+            derivative: None,
             refused: Vec::new(),
         });
         model

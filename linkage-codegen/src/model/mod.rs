@@ -573,6 +573,8 @@ pub struct Scene {
     pub loads: Vec<LoadId>,
     /// For which results.
     pub results: Vec<Wanted>,
+    /// Of a scene of derivatives, of what and by what.
+    pub derivative: Option<Derivative>,
     /// Results that were asked for in vain, and what they are like. None in a sound declaration.
     pub refused: Vec<(String, Option<Wanted>)>,
 }
@@ -592,6 +594,39 @@ impl Scene {
             _ => false,
         })
     }
+}
+
+/// What a scene of derivatives differentiates.
+#[derive(Clone, Debug)]
+pub struct Derivative {
+    /// The scene whose results are differentiated, by its place in the list of scenes.
+    pub of: usize,
+    /// By what.
+    pub by: Vec<Variable>,
+    /// By what in vain: what it would be called, and the numbers that it would have. None in a sound declaration.
+    pub refused: Vec<(String, Vec<&'static str>)>,
+}
+
+/// What results are differentiated by.
+#[derive(Clone, Copy, Debug)]
+pub struct Variable {
+    /// What it is.
+    pub by: By,
+    /// Where it is asked for.
+    pub place: Place,
+}
+
+/// A value of run time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum By {
+    /// The coordinate of a drive.
+    Drive(DriveId),
+    /// Its rate or its acceleration.
+    Driven(DriveId, Order),
+    /// All that is given of a load.
+    Load(LoadId),
+    /// A parameter.
+    Parameter(ParamId),
 }
 
 /// How a scene is solved.
@@ -617,13 +652,23 @@ pub enum Method {
     Inverse,
     /// All of these against the general solution.
     Verify,
+    /// How the results of another scene change.
+    Derivative,
 }
 
 impl Method {
-    /// Whether its results depend on loads.
+    /// Whether its results depend on loads. Those of a derivative may, as the results of its scene do.
     #[must_use]
     pub fn has_loads(self) -> bool {
-        !matches!(self, Self::Position | Self::Velocity | Self::Acceleration | Self::Coefficients | Self::Inverse)
+        !matches!(
+            self,
+            Self::Position
+                | Self::Velocity
+                | Self::Acceleration
+                | Self::Coefficients
+                | Self::Inverse
+                | Self::Derivative
+        )
     }
 
     /// Whether there is nothing to it without loads.
@@ -868,18 +913,22 @@ impl Model {
     #[must_use]
     pub fn scene_moves(&self, scene: &Scene) -> bool {
         let load = |load: &LoadId| self.loads.get(load.index()).is_some_and(|load| load.kind.depends_on_motion());
+        let differentiated = scene.derivative.as_ref().and_then(|derivative| self.scenes.get(derivative.of));
         matches!(scene.method, Method::Velocity | Method::Acceleration | Method::Motion)
             || scene.has_power()
             || scene.has_driver_motion(false)
             || scene.loads.iter().any(load)
+            || differentiated.is_some_and(|scene| matches!(scene.method, Method::Velocity | Method::Acceleration))
     }
 
     /// Whether the results of a scene depend on accelerations.
     #[must_use]
     pub fn scene_accelerates(&self, scene: &Scene) -> bool {
         let inertia = |load: &LoadId| self.loads.get(load.index()).map(|load| &load.kind);
+        let differentiated = scene.derivative.as_ref().and_then(|derivative| self.scenes.get(derivative.of));
         scene.method == Method::Acceleration
             || scene.has_driver_motion(true)
+            || differentiated.is_some_and(|scene| scene.method == Method::Acceleration)
             || scene.method != Method::Motion
                 && scene.loads.iter().filter_map(inertia).any(|kind| matches!(kind, LoadKind::Inertia))
     }

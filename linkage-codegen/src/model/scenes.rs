@@ -3,14 +3,15 @@
 use std::collections::BTreeMap;
 
 use super::evaluate::Scope;
-use super::ids::{GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
+use super::ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
-use super::{Along, End, JointKind, Method, Model, Part, Scene, Spot, Wanted};
+use super::{Along, By, Derivative, End, JointKind, LoadKind, Method, Model, Part, Scene, Spot, Variable, Wanted};
 use super::{inverses, sweeps};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
+use crate::graph::Order;
+use crate::syntax::METHODS;
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
-use crate::syntax::{METHODS, PLANNED_METHODS};
 
 /// Scenes with their loads and results.
 pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
@@ -35,7 +36,7 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
                     .help("declare one, as in `load F: force(coupler.C);`; only `position`, `velocity` and `acceleration` scenes need none"),
             );
         }
-        let scene = Scene { name: given.name.clone(), method, loads, results, refused };
+        let scene = Scene { name: given.name.clone(), method, loads, results, derivative: None, refused };
         if method == Method::Motion && sink.is_clean() && model.moved_masses(&scene).is_empty() {
             sink.report(
                 Diagnostic::new(given.method.place(), "no link has mass: nothing resists an acceleration")
@@ -45,10 +46,142 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         model.scenes.push(scene);
     }
     inverses::inverses(model, ast, names, sink);
+    derivatives(model, ast, names, sink);
     sweeps::sweeps(model, ast, sink);
     if sink.is_clean() {
         check_generated_names(model, sink);
     }
+}
+
+/// Of what and by what the scenes of derivatives are, once all scenes are there. Their loads and results are those of the others.
+fn derivatives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
+    for item in &ast.items {
+        let Item::Scene(ast::Scene { name, derivative: Some(given), .. }) = item else { continue };
+        let found = sink.absorb(differentiated(model, given, names)).flatten();
+        let (mut by, mut refused_by): (Vec<Variable>, _) = (Vec::new(), Vec::new());
+        for end in &given.by {
+            let Some(variable) = sink.absorb(variable(model, end, names)).flatten() else {
+                refused_by.push(in_vain(model, end, names));
+                continue;
+            };
+            if by.iter().any(|other| other.by == variable.by) {
+                let problem = format!("`{}` is listed twice", end.written());
+                sink.report(Diagnostic::new(end.place(), problem).help("leave one of them out"));
+            } else {
+                by.push(variable);
+            }
+        }
+        if given.by.is_empty() {
+            let problem = format!("the results of `{}` are differentiated by nothing", given.of);
+            sink.report(
+                Diagnostic::new(given.of.place(), problem)
+                    .help("list drives, loads that are given at run time, or parameters"),
+            );
+        }
+        let own = model.scenes.iter().position(|scene| scene.name.text == name.text);
+        let (Some(own), Some(of)) = (own, found) else { continue };
+        let (loads, mut results, refused) = {
+            let Scene { loads, results, refused, .. } = &model.scenes[of];
+            (loads.clone(), results.clone(), refused.clone())
+        };
+        // How uncertain the other results are is none that varies smoothly.
+        results.retain(|wanted| *wanted != Wanted::ErrorBound);
+        let scene = &mut model.scenes[own];
+        (scene.loads, scene.results, scene.refused) = (loads, results, refused);
+        scene.derivative = Some(Derivative { of, by, refused: refused_by });
+    }
+}
+
+/// The scene that is differentiated.
+fn differentiated(model: &Model, given: &ast::Derivative, names: &Names) -> Result<Option<usize>, Diagnostic> {
+    if names.find(Role::Scene, &given.of)?.is_none() {
+        return Ok(None);
+    }
+    let Some(of) = model.scenes.iter().position(|scene| scene.name.text == given.of.text) else {
+        return Err(Diagnostic::new(
+            given.of.place(),
+            format!("`{}` is a sweep: it has no results of its own", given.of),
+        )
+        .help("differentiate the scene that it sweeps; a scene of derivatives can be swept itself"));
+    };
+    let what = match model.scenes[of].method {
+        Method::Derivative => "a derivative of a derivative is not supported",
+        Method::Verify => "how far methods disagree is nothing to differentiate",
+        Method::Motion => "the derivative of an equation of motion is not supported",
+        Method::Inverse => "the derivative of an inverse scene is not supported",
+        _ => return Ok(Some(of)),
+    };
+    Err(Diagnostic::new(given.of.place(), what)
+        .help("differentiate a scene of positions, velocities, accelerations or forces"))
+}
+
+/// What results are differentiated by: `theta`, `theta.rate`, `F13`, `l2`.
+fn variable(model: &Model, end: &ast::End, names: &Names) -> Result<Option<Variable>, Diagnostic> {
+    let (name, place) = (&end.link, end.place());
+    let found = |by| Ok(Some(Variable { by, place }));
+    let known = names.entry(&name.text).map(|entry| (entry.role, entry.index, entry.sound));
+    if let (Some((role, ..)), Some(part)) = (known, &end.point)
+        && matches!(role, Role::Load | Role::Param)
+    {
+        let problem = format!("`{}` is no variable by itself", end.written());
+        let whole = if role == Role::Load { ": there is a field for each of its numbers" } else { "" };
+        return Err(Diagnostic::new(part.place(), problem).help(format!("write `{name}`{whole}")));
+    }
+    match known {
+        Some((Role::Broken, ..) | (_, _, false)) => Ok(None),
+        Some((Role::Drive, index, _)) => {
+            let (id, Some(drive)) = (DriveId::new(index), model.drives.get(index)) else { return Ok(None) };
+            let order = match end.point.as_ref().map(|part| part.text.as_str()) {
+                None => return found(By::Drive(id)),
+                Some("rate") => Order::Rate,
+                Some("acceleration") => Order::Acceleration,
+                Some(other) => {
+                    let place = end.point.as_ref().map_or(place, Name::place);
+                    let problem = format!("the drive `{name}` has no `{other}`");
+                    return Err(Diagnostic::new(place, problem).suggest(other, ["rate", "acceleration"]));
+                }
+            };
+            if drive.given_motion(&model.graph).any(|given| given == order) {
+                return found(By::Driven(id, order));
+            }
+            Err(Diagnostic::new(place, format!("`{}` is declared, and does not vary", end.written()))
+                .help(format!("leave its value out of the drive `{name}`: then it is given at run time")))
+        }
+        Some((Role::Load, index, _)) => {
+            let (id, Some(load)) = (LoadId::new(index), model.loads.get(index)) else { return Ok(None) };
+            if load.kind.is_given_at_run_time(model) {
+                return found(By::Load(id));
+            }
+            Err(match load.kind {
+                LoadKind::Inertia => {
+                    Diagnostic::new(place, format!("nothing of the inertia `{name}` is given at run time"))
+                        .help("differentiate by the acceleration of a drive, or by a mass that is a parameter")
+                }
+                _ => Diagnostic::new(place, format!("the load `{name}` is a constant, and does not vary"))
+                    .help("leave its value out, or write `_` for a value of a spring: then it is given at run time"),
+            })
+        }
+        Some((Role::Param, index, _)) => found(By::Parameter(ParamId::new(index))),
+        None if [Role::Drive, Role::Load, Role::Param].into_iter().any(|role| names.may_be(role)) => Ok(None),
+        Some((role, ..)) => {
+            let problem = format!("`{name}` is {}, and nothing that varies by itself", role.describe());
+            Err(Diagnostic::new(name.place(), problem)
+                .help("differentiate by a drive, a load that is given at run time, or a parameter"))
+        }
+        None => {
+            let known = names.of(Role::Drive).chain(names.of(Role::Load)).chain(names.of(Role::Param));
+            Err(Diagnostic::new(name.place(), format!("there is no drive, load or parameter `{name}`"))
+                .suggest(&name.text, known))
+        }
+    }
+}
+
+/// What a refused variable would be called, and the numbers that it would have.
+fn in_vain(model: &Model, end: &ast::End, names: &Names) -> (String, Vec<&'static str>) {
+    let known = names.entry(&end.link.text).filter(|entry| entry.role == Role::Load).map(|entry| entry.index);
+    let load = known.and_then(|index| model.loads.get(index));
+    let numbers = load.map(|load| load.kind.values().into_iter().map(|(name, _)| name).filter(|name| !name.is_empty()));
+    (end.written().replace('.', "_"), numbers.into_iter().flatten().collect())
 }
 
 /// The method that a refused one is most like.
@@ -60,6 +193,7 @@ fn likely_method(word: &str) -> Method {
         "position" => Method::Position,
         "verify" => Method::Verify,
         "motion" => Method::Motion,
+        "derivative" => Method::Derivative,
         _ => Method::Equilibrium,
     }
 }
@@ -79,7 +213,7 @@ fn stand_in(model: &Model, broken: &ast::Broken, name: &Name) -> Scene {
         .collect();
     let loads = if named.is_empty() { (0..all).map(LoadId::new).collect() } else { named };
     let results = all_results(model, method, &loads);
-    Scene { name: name.clone(), method, loads, results, refused: Vec::new() }
+    Scene { name: name.clone(), method, loads, results, derivative: None, refused: Vec::new() }
 }
 
 fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
@@ -92,14 +226,11 @@ fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
         "superposition" => Ok(Method::Superposition),
         "virtual_work" => Ok(Method::VirtualWork),
         "motion" => Ok(Method::Motion),
+        "derivative" => Ok(Method::Derivative),
         "verify" if cfg!(feature = "reference") => Ok(Method::Verify),
         "verify" => {
             Err(Diagnostic::new(given.method.place(), "a scene can be verified only with the feature `reference`")
                 .help("in Cargo.toml: linkage-runtime = { …, features = [\"reference\"] }"))
-        }
-        word if PLANNED_METHODS.contains(&word) => {
-            Err(Diagnostic::new(given.method.place(), format!("the method `{word}` is not supported yet"))
-                .help(format!("supported are {}", list(&METHODS))))
         }
         word => {
             Err(Diagnostic::new(given.method.place(), format!("there is no method `{word}`")).suggest(word, METHODS))
@@ -289,7 +420,7 @@ fn all_results(model: &Model, method: Method, loads: &[LoadId]) -> Vec<Wanted> {
         Method::Equilibrium | Method::Superposition => unknowns.chain(joints).collect(),
         Method::VirtualWork => unknowns.chain(loads.iter().copied().map(Wanted::Load)).collect(),
         Method::Motion => [Part::Mass, Part::Bias, Part::Rounding].map(Wanted::Part).into(),
-        Method::Verify | Method::Inverse => Vec::new(),
+        Method::Verify | Method::Inverse | Method::Derivative => Vec::new(),
     }
 }
 
@@ -533,6 +664,7 @@ fn word(method: Method) -> &'static str {
         Method::Motion => "motion",
         Method::Inverse => "inverse",
         Method::Verify => "verify",
+        Method::Derivative => "derivative",
     }
 }
 
@@ -824,7 +956,25 @@ fn check_generated_names(model: &Model, sink: &Sink) {
 
 /// The types that a scene brings.
 fn types_of(model: &Model, scene: &Scene) -> Vec<String> {
-    let base = type_name(&scene.name.text);
+    types_named(model, scene, &type_name(&scene.name.text))
+}
+
+fn types_named(model: &Model, scene: &Scene, base: &str) -> Vec<String> {
+    if let Some(derivative) = &scene.derivative {
+        // A record for each variable, and in it for each number of a load, of the results of the other scene.
+        let records = derivative.by.iter().flat_map(|variable| {
+            let own = format!("{base}{}", type_name(&variable.name(model)));
+            let numbers: Vec<&str> = match variable.by {
+                By::Load(load) => model.load(load).kind.given(model).filter(|value| !value.is_empty()).collect(),
+                _ => Vec::new(),
+            };
+            let inner = numbers.iter().map(|number| format!("{own}{}", type_name(number)));
+            let of = &model.scenes[derivative.of];
+            let inner: Vec<String> = inner.flat_map(|name| types_named(model, of, &name)).collect();
+            if inner.is_empty() { types_named(model, of, &own) } else { [vec![own], inner].concat() }
+        });
+        return core::iter::once(base.to_owned()).chain(records).collect();
+    }
     let per_link = |load: &LoadId| model.load(*load).kind.is_per_link();
     let records = scene.loads.iter().filter(|load| match scene.method {
         Method::VirtualWork => per_link(load) || model.unknowns.len() > 1,
@@ -843,5 +993,5 @@ fn types_of(model: &Model, scene: &Scene) -> Vec<String> {
     let records = records.chain(resolved.map(|name| format!("{base}{}", type_name(&name))));
     let parts = (scene.method == Method::Superposition).then(|| format!("{base}Contribution"));
     let bounds = scene.results.contains(&Wanted::ErrorBound).then(|| format!("{base}ErrorBound"));
-    core::iter::once(base.clone()).chain(parts).chain(bounds).chain(records).collect()
+    core::iter::once(base.to_owned()).chain(parts).chain(bounds).chain(records).collect()
 }

@@ -21,6 +21,7 @@ mod reactions;
 mod resultants;
 pub mod rules;
 pub(crate) mod scenes;
+mod sensitivities;
 pub(crate) mod starts;
 mod sweeps;
 mod velocities;

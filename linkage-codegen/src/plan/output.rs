@@ -117,6 +117,38 @@ impl Output {
         Self::Vector([value.x.id(), value.y.id()], meaning)
     }
 
+    /// The same tree of other nodes, and of other words.
+    #[must_use]
+    pub fn mapped(&self, node: &mut dyn FnMut(NodeId) -> NodeId, doc: &dyn Fn(&str) -> String) -> Self {
+        match self {
+            Self::Scalar(value, meaning) => Self::Scalar(node(*value), *meaning),
+            Self::Vector(parts, meaning) => Self::Vector(parts.map(&mut *node), *meaning),
+            Self::Column(values) => Self::Column(values.iter().map(|value| node(*value)).collect()),
+            Self::Matrix(rows) => {
+                Self::Matrix(rows.iter().map(|row| row.iter().map(|value| node(*value)).collect()).collect())
+            }
+            Self::Resolved(parts) => Self::Resolved(parts.map(&mut *node)),
+            Self::Reaction { ty, force, parts } => Self::Reaction {
+                ty,
+                force: force.map(&mut *node),
+                parts: parts.iter().map(|(part, value)| (*part, node(*value))).collect(),
+            },
+            Self::Term { velocity, work, meaning } => {
+                Self::Term { velocity: node(*velocity), work: node(*work), meaning: *meaning }
+            }
+            // How far methods disagree is nothing that has a derivative; no scene asks for it.
+            Self::Verification(comparison) => Self::Verification(comparison.clone()),
+            Self::Record(fields) => {
+                let fields = fields.iter().map(|field| Field {
+                    name: field.name.clone(),
+                    doc: doc(&field.doc),
+                    value: field.value.mapped(node, doc),
+                });
+                Self::Record(fields.collect())
+            }
+        }
+    }
+
     /// All its numbers, each with its path: `B.x`.
     #[must_use]
     pub fn leaves(&self) -> Vec<(String, NodeId)> {

@@ -5,6 +5,7 @@ use super::inverse::drivers;
 use super::posed::Posed;
 use super::resultants::{Resultant, rate_of, reacted_by_ground};
 use super::rules::{Rule, RuleResult};
+use super::sensitivities::Sensitivities;
 use super::{Assembly, Balance, Comparison, Meaning, Motion, Output, PlacedLink, heading, joint_name};
 use crate::diagnostics::Sink;
 use crate::equations::joints::Component;
@@ -45,7 +46,7 @@ pub(super) fn outputs<'m>(
     });
     let cases = cases.collect();
     let forces = Forces { model, groups: &assembly.topology.forces, rules, motion_rules, assembly, posed, cases, sink };
-    model
+    let mut all: Vec<Output> = model
         .scenes
         .iter()
         .map(|scene| match scene.method {
@@ -59,8 +60,17 @@ pub(super) fn outputs<'m>(
             Method::Coefficients => forces.coefficients(scene),
             Method::Inverse => drivers(assembly, posed, scene),
             Method::Verify => forces.verify(scene, equations),
+            // Of the results of another one, once these are known.
+            Method::Derivative => Output::Record(Vec::new()),
         })
-        .collect()
+        .collect();
+    let mut sensitivities = Sensitivities::new(assembly, motion_rules, sink);
+    for (index, scene) in model.scenes.iter().enumerate() {
+        if let Some(derivative) = &scene.derivative {
+            all[index] = sensitivities.of(derivative, &all[derivative.of]);
+        }
+    }
+    all
 }
 
 fn position(forces: &Forces<'_, '_>, scene: &Scene) -> Output {

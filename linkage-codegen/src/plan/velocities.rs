@@ -1,13 +1,14 @@
-//! Motion: how the links move, found group by group in one way for three purposes.
+//! Motion: how the links move, found group by group in one way for four purposes.
 //!
 //! * **Virtual**: the velocities of the links when the coordinate of one unknown changes at unit rate and the others rest. It is the
 //!   transpose of equilibrium: the groups of forces, in the order from the unknowns outwards.
 //! * **Velocities**: the drives move at their rates; the groups of motion, in their order.
 //! * **Accelerations**: the same groups again. What is found is the acceleration of material places, so that a place of a turning link has
 //!   `a + α r⊥ − ω² r` where velocities have `v + ω r⊥`; where links slide along each other, Coriolis' acceleration stands between them.
+//! * **Change**: the derivative of the pose by a drive's coordinate or by a parameter; of a parameter, places move in their links too.
 //!
 //! A rule first supposes that its links do not turn or slide by themselves, reads what is missing at its inner joint, and divides it by
-//! its pivot: the same for all three.
+//! its pivot: the same for all of them.
 
 use std::collections::BTreeMap;
 
@@ -19,9 +20,10 @@ use super::placement::{Placement, Spot};
 use super::rules::Rule;
 use crate::diagnostics::Sink;
 use crate::equations::loads::Action;
-use crate::graph::{Expr, Graph, Vector};
+use crate::graph::tangent::Tangent;
+use crate::graph::{Expr, Graph, Symbol, Vector};
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId, UnknownId};
-use crate::model::{JointKind, Model, UnknownKind};
+use crate::model::{Gear, JointKind, Model, UnknownKind};
 use crate::topology::{Group, Input};
 
 /// The motion of a link: its rate of rotation, and the velocity of one of its places. Of accelerations the same with one dot more.
@@ -47,6 +49,8 @@ enum Purpose<'m, 'p> {
     /// The drives' accelerations, at these velocities. Of two different ones, what is left of the accelerations at their sum when those at
     /// each of them are taken away, halved: the part that is linear in both.
     Acceleration([&'p Motion<'m, 'p>; 2]),
+    /// The coordinate of this drive, or this parameter, changes at unit rate.
+    Change(Symbol),
 }
 
 /// The velocities or the accelerations of all links.
@@ -58,12 +62,16 @@ pub struct Motion<'m, 'p> {
     pub pivots: &'p Pivots<'m>,
     /// What distinguishes the names of this motion.
     pub prefix: String,
+    /// Of a change, what is behind its names: by what.
+    by: String,
     purpose: Purpose<'m, 'p>,
     /// Of accelerations: whether the drives accelerate, too.
     driven: bool,
     twists: Vec<Twist<'m>>,
     /// Of slides: how fast the second link slides along the first one.
     sliding: BTreeMap<JointId, Expr<'m>>,
+    /// How dimensions change, if a parameter does.
+    dimensions: Option<Tangent<'m>>,
 }
 
 impl<'m, 'p> Motion<'m, 'p> {
@@ -72,7 +80,86 @@ impl<'m, 'p> Motion<'m, 'p> {
         let rest = Framed { components: graph.zero_vector(), axes: placement.direction(GROUND) };
         let still = Twist { rate: graph.zero(), at: graph.zero_vector(), velocity: rest };
         let twists = vec![still; placement.model.links.len()];
-        Self { placement, pivots, prefix, purpose, driven: true, twists, sliding: BTreeMap::new() }
+        let by = String::new();
+        Self {
+            placement,
+            pivots,
+            prefix,
+            by,
+            purpose,
+            driven: true,
+            twists,
+            sliding: BTreeMap::new(),
+            dimensions: None,
+        }
+    }
+
+    /// The change of the pose with a drive's coordinate or with a parameter, before any group is solved.
+    #[must_use]
+    pub(crate) fn change(placement: &'p Placement<'m>, pivots: &'p Pivots<'m>, by: Symbol, name: &str) -> Self {
+        let mut motion = Self::new(placement, pivots, Purpose::Change(by), String::new());
+        motion.by = format!("_by_{name}");
+        if let Symbol::Parameter(_) = by {
+            motion.dimensions = Some(Tangent::by(placement.graph(), by, name).at_rest());
+        }
+        motion
+    }
+
+    /// How a dimension changes: a length, an angle or a part of a vector in a link's own axes.
+    #[must_use]
+    pub fn change_of(&self, dimension: Expr<'m>) -> Expr<'m> {
+        self.dimensions.as_ref().map_or_else(|| self.graph().zero(), |tangent| tangent.of(dimension))
+    }
+
+    /// How fast the direction that a link carries turns in the link's frame: dimensions may tell where it points to.
+    fn turn_in_frame(&self, link: LinkId) -> Expr<'m> {
+        let axis = self.placement.orientation(link).axis;
+        axis.cross(Vector::new(self.change_of(axis.x), self.change_of(axis.y)))
+    }
+
+    /// How a vector of a link, along and across the direction that the link carries, changes in the link's frame: dimensions do.
+    #[must_use]
+    pub fn within(&self, link: LinkId, vector: Vector<'m>) -> Vector<'m> {
+        let own = Vector::new(self.change_of(vector.x), self.change_of(vector.y));
+        own + vector.perp().scaled(self.turn_in_frame(link))
+    }
+
+    /// How fast the direction that a link carries turns.
+    #[must_use]
+    pub fn rate_of_direction(&self, link: LinkId) -> Expr<'m> {
+        self.rate(link) + self.turn_in_frame(link)
+    }
+
+    /// How fast the angle changes by which a slide or a weld turns a link against the other one.
+    #[must_use]
+    pub fn turned_by(&self, joint: JointId, link: LinkId) -> Expr<'m> {
+        let data = self.model().joint(joint);
+        let change =
+            data.kind.turn().map_or_else(|| self.graph().zero(), |(_, angle)| self.change_of(self.graph().expr(angle)));
+        if data.to.link == link { change } else { -change }
+    }
+
+    /// What a parameter does where two wheels roll, along the pitch line: as far as radii and phase change what rolls by.
+    #[must_use]
+    pub fn meshing(&self, joint: JointId, gear: &Gear) -> Expr<'m> {
+        let (model, graph) = (self.model(), self.graph());
+        let [first, second] = gear.radii.map(|radius| graph.expr(radius));
+        let changes = [first, second, graph.expr(gear.phase)].map(|dimension| self.change_of(dimension));
+        if changes.iter().all(|change| change.is_zero()) {
+            return graph.zero();
+        }
+        let [to_first, to_second, phase] = changes;
+        let centres = gear.centres(model);
+        let line = self.placement.angle(gear.arm[0].link) + graph.atan2(centres.y, centres.x);
+        let [a, b] = model.joint(joint).ends().map(|end| self.placement.angle(end.link) - line);
+        (gear.distance(model) / (first + second)) * (to_first * a + to_second * b - phase)
+    }
+
+    /// How fast the travel of a slide or a slot changes: its second point along it, from the first one. A travel that parameters alone
+    /// determine moves its place on the line as a dimension does; what slides beside that is found.
+    #[must_use]
+    pub fn of_travel(&self, joint: JointId) -> Expr<'m> {
+        self.sliding(joint, self.model().joint(joint).to.link) + self.change_of(self.placement.travel(joint))
     }
 
     /// The virtual motion of an unknown, before any group is solved.
@@ -153,6 +240,7 @@ impl<'m, 'p> Motion<'m, 'p> {
         let what = match self.purpose {
             Purpose::Virtual(_) => "virtual velocities",
             Purpose::Unit(_) => "velocities at unit rate",
+            Purpose::Change(_) => "change of the pose",
             Purpose::Velocity => "velocities",
             Purpose::Acceleration(_) if !self.driven => "accelerations by the velocities alone",
             Purpose::Acceleration(_) => "accelerations",
@@ -222,8 +310,18 @@ impl<'m, 'p> Motion<'m, 'p> {
             (Purpose::Acceleration(_), Input::Drive(_)) if !self.driven => graph.zero(),
             (Purpose::Velocity, Input::Drive(drive)) => graph.expr(model.drive(drive).rate),
             (Purpose::Acceleration(_), Input::Drive(drive)) => graph.expr(model.drive(drive).acceleration),
+            (Purpose::Change(by), Input::Drive(drive)) => {
+                if by == Symbol::Drive(drive) {
+                    graph.one()
+                } else {
+                    graph.zero()
+                }
+            }
             // Real motion is driven.
-            (Purpose::Unit(_) | Purpose::Velocity | Purpose::Acceleration(_), Input::Unknown(_)) => graph.zero(),
+            (
+                Purpose::Unit(_) | Purpose::Velocity | Purpose::Acceleration(_) | Purpose::Change(_),
+                Input::Unknown(_),
+            ) => graph.zero(),
         }
     }
 
@@ -255,6 +353,8 @@ impl<'m, 'p> Motion<'m, 'p> {
             Some(squared) => turning - arm.scaled(squared),
             None => turning,
         };
+        // A parameter moves places in their link.
+        let turning = if self.dimensions.is_some() { turning + self.within(link, arm) } else { turning };
         let turning = Framed { components: turning, axes: self.placement.direction(link) };
         turning.plus(&twist.velocity, self.placement.direction(GROUND))
     }
@@ -266,7 +366,7 @@ impl<'m, 'p> Motion<'m, 'p> {
         let guided = self.of_place(far, self.placement.slide_point(slide, far));
         let velocity = guided.plus(&self.coriolis(slide, link), self.placement.direction(GROUND));
         Twist {
-            rate: self.rate(far) + self.driven_rate(slide, far),
+            rate: self.rate(far) + self.driven_rate(slide, far) + self.turned_by(slide, link),
             at: self.placement.slide_point(slide, link),
             velocity,
         }
@@ -389,7 +489,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn lacking(&self, joint: JointId, needed: &Framed<'m>, has: &Framed<'m>) -> Framed<'m> {
         let gap = self.difference(needed, has);
         let (letter, what) = match self.purpose {
-            Purpose::Virtual(_) | Purpose::Unit(_) => return gap,
+            Purpose::Virtual(_) | Purpose::Unit(_) | Purpose::Change(_) => return gap,
             Purpose::Velocity => ('v', "velocity"),
             Purpose::Acceleration(_) => ('a', "acceleration"),
         };
@@ -445,7 +545,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     /// The name of a quantity of this motion.
     #[must_use]
     pub fn name(&self, name: &str) -> String {
-        format!("{}{name}", self.prefix)
+        format!("{}{name}{}", self.prefix, self.by)
     }
 
     /// A link's rate of rotation, or its angular acceleration, as a named quantity; how it comes about is said with `{velocity}` for
@@ -454,6 +554,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn named_rate(&self, rate: Expr<'m>, of: &str, how: &str) -> Expr<'m> {
         let (name, what) = match self.purpose {
             Purpose::Virtual(_) | Purpose::Unit(_) => ("rate", "rate of rotation"),
+            Purpose::Change(_) => ("turn", "change of the angle"),
             Purpose::Velocity => ("omega", "angular velocity"),
             Purpose::Acceleration(_) => ("alpha", "angular acceleration"),
         };
@@ -466,6 +567,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn named_sliding(&self, sliding: Expr<'m>, slide: JointId, of: &str, how: &str) -> Expr<'m> {
         let what = match self.purpose {
             Purpose::Virtual(_) | Purpose::Unit(_) | Purpose::Velocity => "speed",
+            Purpose::Change(_) => "shift",
             Purpose::Acceleration(_) => "acceleration",
         };
         let (how, slide) = (self.in_words(how), &self.model().joint(slide).name);
@@ -475,6 +577,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     fn in_words(&self, how: &str) -> String {
         let word = match self.purpose {
             Purpose::Virtual(_) | Purpose::Unit(_) | Purpose::Velocity => "velocity",
+            Purpose::Change(_) => "change",
             Purpose::Acceleration(_) => "acceleration",
         };
         how.replace("{velocity}", word)

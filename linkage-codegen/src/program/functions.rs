@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::{Extract, Form, Input, Program, passes};
-use crate::graph::{Graph, NodeId};
+use crate::graph::NodeId;
+use crate::model::{Method, Model};
 use crate::plan::Plan;
 
 /// The programs of a linkage.
@@ -46,7 +47,8 @@ pub struct SceneFunctions {
 impl Functions {
     /// Takes all functions of a plan out of its graph.
     #[must_use]
-    pub fn of(graph: &Graph, plan: &Plan) -> Self {
+    pub fn of(model: &Model, plan: &Plan) -> Self {
+        let graph = &model.graph;
         let program = |form, results: &[(String, NodeId)], sums: &[Vec<NodeId>]| {
             passes::optimised(Extract { graph, form }.program(results, sums), graph)
         };
@@ -74,11 +76,14 @@ impl Functions {
         let scenes: Vec<SceneFunctions> = plan
             .scenes
             .iter()
-            .map(|output| {
+            .zip(&model.scenes)
+            .map(|(output, scene)| {
                 let results = output.leaves();
+                // Derivatives by several variables are no parts of a sum.
+                let sums = if scene.method == Method::Derivative { single(&results) } else { output.sums() };
                 SceneFunctions {
-                    from_pose: program(Form::FromPose, &results, &output.sums()),
-                    direct: program(Form::Direct, &results, &output.sums()),
+                    from_pose: program(Form::FromPose, &results, &sums),
+                    direct: program(Form::Direct, &results, &sums),
                 }
             })
             .collect();

@@ -540,6 +540,17 @@ pub struct Scene {
     pub wanted: Vec<End>,
     /// Its results; all if left out.
     pub results: Option<Vec<ResultItem>>,
+    /// `(statics) by (theta, F13)` of a derivative.
+    pub derivative: Option<Derivative>,
+}
+
+/// What is differentiated, and by what.
+#[derive(Clone, Debug)]
+pub struct Derivative {
+    /// The scene.
+    pub of: Name,
+    /// `theta`, `theta.rate`, `F13`, `l2`.
+    pub by: Vec<End>,
 }
 
 /// A wanted result.

@@ -17,7 +17,7 @@ use syn::parse::discouraged::Speculative;
 use syn::parse::{ParseStream, Parser};
 
 pub(crate) use loads::is_given_at_run_time;
-pub(crate) use scenes::{METHODS, PLANNED as PLANNED_METHODS};
+pub(crate) use scenes::METHODS;
 
 use ast::{Ast, Item};
 use recovery::{at_item, pass_over, unread};

@@ -4,13 +4,13 @@ use syn::parse::ParseStream;
 use syn::token::Paren;
 use syn::{Result, Token};
 
-use super::ast::{Item, ResultItem, Scene};
+use super::ast::{Derivative, Item, ResultItem, Scene};
 use super::items::{end, rest};
 use super::tokens::{between, comma_list, eat_word, name, place_of, take};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
 /// The methods that are carried out.
-pub(crate) const METHODS: [&str; 11] = [
+pub(crate) const METHODS: [&str; 12] = [
     "position",
     "velocity",
     "acceleration",
@@ -22,16 +22,14 @@ pub(crate) const METHODS: [&str; 11] = [
     "inverse",
     "verify",
     "sweep",
+    "derivative",
 ];
-/// The methods that are not carried out yet.
-pub(crate) const PLANNED: [&str; 1] = ["derivative"];
 
 pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let name_ = name(input)?;
     input.parse::<Token![:]>()?;
     let mut method = name(input)?;
     if !METHODS.contains(&method.text.as_str())
-        && !PLANNED.contains(&method.text.as_str())
         && let Some(meant) = closest(&method.text, METHODS)
     {
         let problem = format!("there is no method `{method}`");
@@ -39,9 +37,14 @@ pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         meant.clone_into(&mut method.text);
     }
     if !METHODS.contains(&method.text.as_str()) {
-        // Whether planned or unknown, the model says what is wrong with it.
+        // The model says what is wrong with it.
         rest(input);
-        return Ok(Item::Scene(Scene { name: name_, method, loads: None, wanted: Vec::new(), results: None }));
+        let (loads, results, derivative) = (None, None, None);
+        return Ok(Item::Scene(Scene { name: name_, method, loads, wanted: Vec::new(), results, derivative }));
+    }
+    if method.text == "derivative" {
+        let (wanted, derivative) = (Vec::new(), Some(derivative(input, slips)?));
+        return Ok(Item::Scene(Scene { name: name_, method, loads: None, wanted, results: None, derivative }));
     }
     let (mut loads, mut wanted) = (None, Vec::new());
     if input.peek(Paren) {
@@ -57,7 +60,49 @@ pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         input.parse::<Token![->]>()?;
         results = Some(result_list(input, slips)?);
     }
-    Ok(Item::Scene(Scene { name: name_, method, loads, wanted, results }))
+    Ok(Item::Scene(Scene { name: name_, method, loads, wanted, results, derivative: None }))
+}
+
+/// `(statics) by (theta, F13)`
+fn derivative(input: ParseStream<'_>, slips: &Sink) -> Result<Derivative> {
+    let form = |of: &str| format!("as in `derivative({of}) by (theta)`");
+    let begin = input.fork();
+    let scenes = if input.peek(Paren) {
+        let content;
+        let _ = syn::parenthesized!(content in input);
+        comma_list(&content, name)?
+    } else {
+        vec![name(input)?]
+    };
+    let Some(of) = scenes.first().cloned() else {
+        return Err(begin.error(format!("a derivative is that of a scene\nhelp: {}", form("statics"))));
+    };
+    if let Some(other) = scenes.get(1) {
+        slips.report(
+            Diagnostic::new(other.place(), "one scene is differentiated at a time").help("declare a scene for each"),
+        );
+    }
+    if !eat_word(input, "by") {
+        return Err(input.error(format!("expected what varies\nhelp: {}", form(&of.text))));
+    }
+    let by = if input.peek(Paren) {
+        let content;
+        let _ = syn::parenthesized!(content in input);
+        comma_list(&content, end)?
+    } else {
+        vec![end(input)?]
+    };
+    if input.peek(Token![->]) {
+        let begin = input.fork();
+        input.parse::<Token![->]>()?;
+        result_list(input, slips)?;
+        let place = place_of(&between(&begin, input)).unwrap_or(Place::at(begin.span()));
+        slips.report(
+            Diagnostic::new(place, "a derivative has the results of its scene")
+                .help(format!("leave the list out, or list them in the scene `{of}`")),
+        );
+    }
+    Ok(Derivative { of, by })
 }
 
 /// `( … )`; without parentheses it is clear what is meant, too.

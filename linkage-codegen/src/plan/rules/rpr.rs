@@ -133,7 +133,7 @@ impl Rule for Rpr {
     }
 }
 
-/// Supposes that the carrier of the slide does not turn, nor the other link against it but for a drive. Gives what their first links must
+/// Supposes that the carrier of the slide does not turn, nor the other link against it but for a drive or a parameter. Gives what their first links must
 /// turn back for that.
 fn turns_within<'m>(dyad: &Dyad<'m>, motion: &mut Motion<'m, '_>) -> Result<[Expr<'m>; 2], Diagnostic> {
     let mut own = [motion.graph().zero(); 2];
@@ -142,7 +142,11 @@ fn turns_within<'m>(dyad: &Dyad<'m>, motion: &mut Motion<'m, '_>) -> Result<[Exp
         // In a slot the drive turns the other link against its carrier.
         let link = leg.tip.end.link;
         let carrier = dyad.model.joint(dyad.inner).kind.line().map_or(link, |(carrier, _)| carrier);
-        let wanted = if carrier == link { motion.graph().zero() } else { motion.driven_rate(dyad.inner, carrier) };
+        let wanted = if carrier == link {
+            motion.graph().zero()
+        } else {
+            motion.driven_rate(dyad.inner, carrier) + motion.turned_by(dyad.inner, link)
+        };
         *own = motion.rate(link) - wanted;
         if !own.is_zero() {
             dyad.turn(motion, leg, -*own)?;
