@@ -30,7 +30,8 @@ fn side(model: &Model, group: &Group, closure: ClosureId) -> Option<Side> {
     if !of.iter().all(|of| group.outer.contains(of)) {
         return None;
     }
-    if !group.inner.contains(&joint) && !(group.outer.contains(&joint) && freedom == Freedom::TurnAndSlide) {
+    let slot = group.outer.contains(&joint) && freedom == Freedom::TurnAndSlide;
+    if !slot && !group.inner.contains(&joint) {
         return None;
     }
     let [named] = of.as_slice() else { return Some(Side { closure, along: None }) };

@@ -46,7 +46,7 @@ linkage! {
     scene parts:   superposition;
     scene work:    virtual_work;
     scene place:   position;
-    scene crank:   inverse(D);
+    scene crank_of: inverse(D);
 }
 
 outputs! {
@@ -54,7 +54,7 @@ outputs! {
     linkage::Parts { P, M, W }
     linkage::PartsContribution { T, A0, A, B, B0, B5, E, D }
     linkage::PartsW { coupler, ram }
-    linkage::Crank { theta, theta_rate, theta_acceleration }
+    linkage::CrankOf { theta, theta_rate, theta_acceleration }
     linkage::Work { T, P, M, W }
     linkage::WorkW { coupler, ram }
     linkage::Place { A0, A, B, B0, B5, E, D, coupler_C, ram_G, crank_angle, coupler_angle, rocker_angle, rod_angle, ram_angle }
@@ -82,8 +82,8 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     digest.result(linkage::parts_at(linkage, theta, &loads));
     digest.result(linkage::work_at(linkage, theta, &loads));
     digest.result(linkage::place_at(linkage, theta));
-    let motion = linkage::CrankMotion { D_travel_rate: 100.0 * c, D_travel_acceleration: 1000.0 * d };
-    digest.result(linkage::crank_at(linkage, 120.0 + 90.0 * a, &motion));
+    let motion = linkage::CrankOfMotion { D_travel_rate: 100.0 * c, D_travel_acceleration: 1000.0 * d };
+    digest.result(linkage::crank_of_at(linkage, 120.0 + 90.0 * a, &motion));
     let pose = match linkage::Pose::at(linkage, theta) {
         Ok(pose) => pose,
         Err(error) => return digest.refusal(error),
