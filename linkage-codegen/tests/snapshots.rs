@@ -127,9 +127,8 @@ const OTHERS: [(&str, &str); 19] = [
         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
         drive theta: A0; unknown T12: torque(ground -> crank); assemble B: left(A -> B0);
         load F: force(coupler.C); load K: spring(ground.B0, coupler.C) { rate: 2N/mm, free: _ };
-        scene torque: virtual_work -> (T12); scene place: position -> (coupler.C); scene speed: velocity -> (coupler.C);
-        scene slopes: derivative(torque) by (theta, F, K, crank_length); scene moved: derivative(place) by (theta, crank_length);
-        scene swift: derivative(speed) by (theta, theta.rate);",
+        scene torque: virtual_work -> (T12); scene place: position -> (coupler.C);
+        scene slopes: derivative(torque) by (theta, F, K, crank_length); scene moved: derivative(place) by (theta, crank_length);",
     ),
     (
         "parallelogram",
