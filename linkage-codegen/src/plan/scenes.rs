@@ -43,10 +43,9 @@ pub(super) fn outputs<'m>(
     });
     let cases = cases.collect();
     let forces = Forces { model, groups: &assembly.topology.forces, rules, assembly, posed, cases, sink };
-    model
-        .scenes
-        .iter()
-        .map(|scene| match scene.method {
+    let output = |(index, scene): (usize, &Scene)| {
+        model.graph.begin_scene(index);
+        match scene.method {
             Method::Position => position(&forces, scene),
             Method::Velocity => motion(&forces, scene, posed.velocities, Order::Rate),
             Method::Acceleration => motion(&forces, scene, posed.accelerations, Order::Acceleration),
@@ -54,8 +53,11 @@ pub(super) fn outputs<'m>(
             Method::Superposition => forces.superposition(scene),
             Method::VirtualWork => forces.virtual_work(scene),
             Method::Verify => forces.verify(scene, equations),
-        })
-        .collect()
+        }
+    };
+    let outputs = model.scenes.iter().enumerate().map(output).collect();
+    model.graph.end_scenes();
+    outputs
 }
 
 fn position(forces: &Forces<'_, '_>, scene: &Scene) -> Output {

@@ -74,12 +74,12 @@ impl Functions {
         let scenes: Vec<SceneFunctions> = plan
             .scenes
             .iter()
-            .map(|output| {
-                let results = output.leaves();
-                SceneFunctions {
-                    from_pose: program(Form::FromPose, &results, &output.sums()),
-                    direct: program(Form::Direct, &results, &output.sums()),
-                }
+            .enumerate()
+            .map(|(index, output)| {
+                let (results, sums) = (output.leaves(), output.sums());
+                let program =
+                    |form| passes::optimised(Extract { graph, form }.program_of(Some(index), &results, &sums), graph);
+                SceneFunctions { from_pose: program(Form::FromPose), direct: program(Form::Direct) }
             })
             .collect();
         let both = scenes.iter().flat_map(|scene| [&scene.from_pose, &scene.direct]);
