@@ -92,6 +92,8 @@ fn solve(model: &Model, sink: &Sink) -> Option<(Topology, System, Plan, Function
     program::check_start(model, (&topology, &plan), &functions, sink);
     // Last, as its expressions share the graph: they change no function.
     let limits = Limits::of(model, &topology);
+    // Lengths that never meet are found there, too.
+    plan::check_possible(model, sink);
     Some((topology, system, plan, functions, limits))
 }
 
