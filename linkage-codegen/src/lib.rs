@@ -112,6 +112,8 @@ fn solve(ast: &Ast, model: &Model, sink: &Sink) -> Option<Solved> {
     program::check_start(model, (&topology, &plan), &functions, sink);
     // Last, as its expressions share the graph: they change no function.
     let limits = Limits::of(model, &topology);
+    // Lengths that never meet are found there, too.
+    plan::check_possible(model, sink);
     let inverses = inverse::solved(exchanged, model, sink)?;
     Some(Solved { topology, system, plan, functions, limits, inverses })
 }

@@ -87,7 +87,7 @@ impl<'g> Expr<'g> {
         }
         let quantity = self.graph.intern(Op::Quantity(self.id));
         let label = Label { name: name.into(), equation: equation.into() };
-        self.graph.arena.borrow_mut().labels.entry(quantity.id).or_insert(label);
+        self.graph.set_label(quantity.id, label);
         quantity
     }
 

@@ -435,6 +435,11 @@ struct Arena {
     guards: Vec<Guard>,
     guard_index: HashMap<Guard, GuardId>,
     labels: BTreeMap<NodeId, Label>,
+    /// The scene whose results are being worked out, and in which scene a label was given.
+    scene: Option<usize>,
+    labelled_in: BTreeMap<NodeId, usize>,
+    /// What another scene calls a value that an earlier one has named, and under which heading.
+    labels_of_scenes: BTreeMap<(usize, NodeId), (Label, SectionId)>,
     positive: BTreeSet<NodeId>,
     sections: Vec<String>,
     searches: Vec<Search>,
@@ -517,6 +522,45 @@ impl Graph {
     #[must_use]
     pub fn label(&self, id: NodeId) -> Option<Label> {
         self.arena.borrow().labels.get(&id).cloned()
+    }
+
+    /// A node's name in the functions of a scene, and its heading if that is the scene's own.
+    #[must_use]
+    pub fn label_in(&self, scene: Option<usize>, id: NodeId) -> (Option<Label>, Option<String>) {
+        let arena = self.arena.borrow();
+        let own = scene.and_then(|scene| arena.labels_of_scenes.get(&(scene, id)));
+        match own {
+            Some((label, section)) => (Some(label.clone()), Some(arena.sections[section.0 as usize].clone())),
+            None => (arena.labels.get(&id).cloned(), None),
+        }
+    }
+
+    /// From here on, results of this scene are worked out: what another one has named, it may call by another name.
+    pub fn begin_scene(&self, scene: usize) {
+        self.arena.borrow_mut().scene = Some(scene);
+    }
+
+    /// The results of all scenes are worked out.
+    pub fn end_scenes(&self) {
+        self.arena.borrow_mut().scene = None;
+    }
+
+    fn set_label(&self, id: NodeId, label: Label) {
+        let arena = &mut *self.arena.borrow_mut();
+        let section = SectionId(index(arena.sections.len() - 1));
+        match (arena.labels.get(&id), arena.scene) {
+            (None, scene) => {
+                arena.labels.insert(id, label);
+                arena.labelled_in.extend(scene.map(|scene| (id, scene)));
+            }
+            // A name that the pose gave is that of all.
+            (Some(first), Some(scene)) if first.name != label.name => {
+                if arena.labelled_in.get(&id).is_some_and(|own| *own != scene) {
+                    arena.labels_of_scenes.entry((scene, id)).or_insert((label, section));
+                }
+            }
+            _ => {}
+        }
     }
 
     /// Names a value that a pose keeps.

@@ -377,7 +377,7 @@ fn accessors(assembly: &Assembly<'_>) -> Vec<Accessor> {
 }
 
 /// A check that fails whatever is given stands for a linkage that works at no pose.
-fn check_possible(model: &Model, sink: &Sink) {
+pub(crate) fn check_possible(model: &Model, sink: &Sink) {
     let mut told = BTreeSet::new();
     for guard in model.graph.impossible_guards() {
         use crate::graph::Failure;

@@ -46,10 +46,9 @@ pub(super) fn outputs<'m>(
     });
     let cases = cases.collect();
     let forces = Forces { model, groups: &assembly.topology.forces, rules, motion_rules, assembly, posed, cases, sink };
-    let mut all: Vec<Output> = model
-        .scenes
-        .iter()
-        .map(|scene| match scene.method {
+    let output = |(index, scene): (usize, &Scene)| {
+        model.graph.begin_scene(index);
+        match scene.method {
             Method::Position => position(&forces, scene),
             Method::Velocity => motion(&forces, scene, posed.velocities, Order::Rate),
             Method::Acceleration => motion(&forces, scene, posed.accelerations, Order::Acceleration),
@@ -62,14 +61,17 @@ pub(super) fn outputs<'m>(
             Method::Verify => forces.verify(scene, equations),
             // Of the results of another one, once these are known.
             Method::Derivative => Output::Record(Vec::new()),
-        })
-        .collect();
+        }
+    };
+    let mut all: Vec<Output> = model.scenes.iter().enumerate().map(output).collect();
     let mut sensitivities = Sensitivities::new(assembly, motion_rules, sink);
     for (index, scene) in model.scenes.iter().enumerate() {
         if let Some(derivative) = &scene.derivative {
+            model.graph.begin_scene(index);
             all[index] = sensitivities.of(derivative, &all[derivative.of]);
         }
     }
+    model.graph.end_scenes();
     all
 }
 

@@ -77,14 +77,14 @@ impl Functions {
             .scenes
             .iter()
             .zip(&model.scenes)
-            .map(|(output, scene)| {
+            .enumerate()
+            .map(|(index, (output, scene))| {
                 let results = output.leaves();
                 // Derivatives by several variables are no parts of a sum.
                 let sums = if scene.method == Method::Derivative { single(&results) } else { output.sums() };
-                SceneFunctions {
-                    from_pose: program(Form::FromPose, &results, &sums),
-                    direct: program(Form::Direct, &results, &sums),
-                }
+                let program =
+                    |form| passes::optimised(Extract { graph, form }.program_of(Some(index), &results, &sums), graph);
+                SceneFunctions { from_pose: program(Form::FromPose), direct: program(Form::Direct) }
             })
             .collect();
         let both = scenes.iter().flat_map(|scene| [&scene.from_pose, &scene.direct]);

@@ -30,6 +30,9 @@ const DEPTH: usize = 128;
 /// Characters of a number. A double written out has up to 1,075 digits.
 const LENGTH: usize = 4096;
 
+/// The words of joints.
+pub(crate) const JOINTS: [&str; 5] = ["revolute", "prismatic", "slot", "weld", "gear"];
+
 /// The words that begin an item.
 const ITEMS: [&str; 20] = [
     "units",
