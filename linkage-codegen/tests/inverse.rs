@@ -184,9 +184,9 @@ fn check(sample: &Sample, joint: &str, turns: bool, is_slot: bool, tally: &mut T
             Err(Fault::Failed(failure)) => {
                 let name = format!("{failure:?}");
                 if name.starts_with("OtherSide") {
-                    tally.other_side += 1
+                    tally.other_side += 1;
                 } else {
-                    tally.unreached += 1
+                    tally.unreached += 1;
                 }
                 continue;
             }
