@@ -547,10 +547,10 @@ impl Graph {
                 arena.labelled_in.extend(scene.map(|scene| (id, scene)));
             }
             // A name that the pose gave is that of all.
-            (Some(first), Some(scene)) if first.name != label.name => {
-                if arena.labelled_in.get(&id).is_some_and(|own| *own != scene) {
-                    arena.labels_of_scenes.entry((scene, id)).or_insert((label, section));
-                }
+            (Some(first), Some(scene))
+                if first.name != label.name && arena.labelled_in.get(&id).is_some_and(|own| *own != scene) =>
+            {
+                arena.labels_of_scenes.entry((scene, id)).or_insert((label, section));
             }
             _ => {}
         }
