@@ -4,6 +4,7 @@
 //! `README.md` beside the manifest says how to run it and how to read what it prints.
 
 mod exact;
+mod expansion;
 mod expert;
 mod harness;
 mod instructions;
@@ -22,6 +23,7 @@ const USAGE: &str = "\
 linkage-bench [--quick] [--chained] [--shuffled] [ITEM …]
 linkage-bench --sweeps [--quick]
 linkage-bench --instructions [ITEM …]
+linkage-bench --expansion [--quick]
 linkage-bench --once ITEM METHOD SWEEPS [independent | chained | empty]";
 
 fn main() -> ExitCode {
@@ -48,10 +50,9 @@ fn run(arguments: &[String]) -> Result<(), String> {
         return instructions::once(id, method, sweeps.parse().map_err(|_| USAGE)?, mode);
     }
     let (options, ids): (Vec<&str>, Vec<&str>) = arguments.into_iter().partition(|argument| argument.starts_with("--"));
-    if options
-        .iter()
-        .any(|option| !["--quick", "--chained", "--shuffled", "--instructions", "--sweeps"].contains(option))
-    {
+    if options.iter().any(|option| {
+        !["--quick", "--chained", "--shuffled", "--instructions", "--sweeps", "--expansion"].contains(option)
+    }) {
         return Err(USAGE.into());
     }
     let has = |option| options.contains(&option);
@@ -60,6 +61,10 @@ fn run(arguments: &[String]) -> Result<(), String> {
         return instructions::print(chosen);
     }
     let quick = has("--quick");
+    if has("--expansion") {
+        println!("{}", processor());
+        return expansion::print(if quick { 3 } else { 21 });
+    }
     if has("--sweeps") {
         println!("{}", processor());
         return sweeps::print(if quick { 51 } else { 501 });

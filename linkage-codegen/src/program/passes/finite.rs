@@ -21,7 +21,7 @@ pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
     for step in &mut steps {
         let Step::FiniteResults(groups) = step else { continue };
         groups.retain(|group| unknown(group));
-        let shown: BTreeSet<ValueId> = groups.iter().flat_map(|group| shown_by(&program, group)).collect();
+        let shown = shown_by(&program, groups);
         groups.retain(|group| !matches!(group[..], [value] if shown.contains(&value)));
     }
     steps.retain(|step| !matches!(step, Step::FiniteResults(groups) if groups.is_empty()));
@@ -29,20 +29,21 @@ pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
     program
 }
 
-/// The values that are finite if the sum of a group is: those from which it is formed.
-fn shown_by(program: &Program, group: &[ValueId]) -> BTreeSet<ValueId> {
+/// The values that are finite if the sums of all groups are: those from which they are formed.
+fn shown_by(program: &Program, groups: &[Vec<ValueId>]) -> BTreeSet<ValueId> {
     let inherited = |value: &ValueId| match program.op(*value) {
         Some(Op::Neg(a) | Op::Abs(a) | Op::Sqrt(a) | Op::Div(a, _)) => vec![*a],
         Some(Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b)) => vec![*a, *b],
         Some(Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_) | Kernel::Atan2, args, .. }) => args.clone(),
         _ => Vec::new(),
     };
-    let mut shown = BTreeSet::new();
-    let mut open: Vec<ValueId> = match group {
+    let formed_from = |group: &Vec<ValueId>| match group.as_slice() {
         // By itself it is what is checked.
         [value] => inherited(value),
         terms => terms.to_vec(),
     };
+    let mut shown = BTreeSet::new();
+    let mut open: Vec<ValueId> = groups.iter().flat_map(formed_from).collect();
     while let Some(value) = open.pop() {
         if shown.insert(value) {
             open.extend(inherited(&value));
