@@ -239,6 +239,34 @@ pub enum Op<T = NodeId> {
 }
 
 impl<T: Copy> Op<T> {
+    /// What it makes of numbers, checks passed over; `of` gives those that it reads. What reads none, or calls a kernel, is known elsewhere:
+    /// zero here.
+    pub(crate) fn arithmetic<R: real::Real>(&self, of: &mut dyn FnMut(T) -> R) -> R {
+        let zero = || R::from_number(&number::Number::zero());
+        match *self {
+            Self::Constant(_) | Self::Symbol(_) | Self::Kernel { .. } => zero(),
+            Self::Neg(a) => of(a).neg(),
+            Self::Abs(a) => of(a).abs(),
+            Self::NonNegative(a) => {
+                let a = of(a);
+                if a.above(&zero()) { a } else { zero() }
+            }
+            Self::Sqrt(a) => of(a).sqrt(),
+            Self::Add(a, b) => of(a).add(&of(b)),
+            Self::Sub(a, b) => of(a).sub(&of(b)),
+            Self::Mul(a, b) => of(a).mul(&of(b)),
+            Self::Div(a, b) => of(a).div(&of(b)),
+            Self::Where { value, limit, then } => {
+                if of(value).above(&of(limit)) {
+                    of(then)
+                } else {
+                    zero()
+                }
+            }
+            Self::Quantity(a) | Self::Held(a) | Self::Checked { value: a, .. } => of(a),
+        }
+    }
+
     /// What it reads, checks aside.
     #[must_use]
     pub fn operands(&self) -> Vec<T> {

@@ -104,6 +104,14 @@ pub struct Field {
     pub value: Output,
 }
 
+impl Field {
+    /// A result with its name and what it is.
+    #[must_use]
+    pub fn new(name: &str, doc: String, value: Output) -> Self {
+        Self { name: name.to_owned(), doc, value }
+    }
+}
+
 impl Output {
     /// A number.
     #[must_use]

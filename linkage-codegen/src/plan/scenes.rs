@@ -9,7 +9,7 @@ use super::sensitivities::Sensitivities;
 use super::{Assembly, Balance, Comparison, Meaning, Motion, Output, PlacedLink, heading, joint_name};
 use crate::diagnostics::Sink;
 use crate::equations::joints::Component;
-use crate::equations::loads::{Action, Case, Line, cases_of};
+use crate::equations::loads::{Action, Case, Line, by_dalembert, cases_of};
 use crate::equations::{Exerted, Source, System};
 use crate::graph::{Expr, Failure, Order, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, LoadId, UnknownId};
@@ -185,10 +185,9 @@ impl<'m> Moved<'_, 'm> {
         let (of, _) = self.of(spot);
         let resolved = of_spot(self.motion, spot).along(self.motion.placement.frame(link));
         let name = &self.model.link(link).name;
-        let field = |part: &str, how: &str, value| Field {
-            name: part.to_owned(),
-            doc: format!("Along the x axis of the frame of `{name}`{how}, {unit}."),
-            value: Output::scalar(value, meaning),
+        let field = |part: &str, how: &str, value| {
+            let doc = format!("Along the x axis of the frame of `{name}`{how}, {unit}.");
+            Field::new(part, doc, Output::scalar(value, meaning))
         };
         let fields = vec![field("axial", "", resolved.x), field("transverse", " turned by +90°", resolved.y)];
         (format!("{what} of {of}, along and across `{name}`."), Output::Record(fields))
@@ -211,10 +210,8 @@ impl<'m> Moved<'_, 'm> {
         let (speed, rounding) = (direction.dot(velocity), rounding_of(velocity));
         let checked = |value: Expr<'m>| value.require_above(speed, rounding, failure.clone());
         let acceleration = of_spot(self.motion, spot).ground().resolved_along(direction);
-        let field = |part: &str, doc: &str, value| Field {
-            name: part.to_owned(),
-            doc: format!("{doc}, {unit}."),
-            value: Output::scalar(checked(value), meaning),
+        let field = |part: &str, doc: &str, value| {
+            Field::new(part, format!("{doc}, {unit}."), Output::scalar(checked(value), meaning))
         };
         let fields = vec![
             field("tangential", "Along its velocity", acceleration.x),
@@ -364,16 +361,15 @@ impl<'m> Forces<'_, 'm> {
         let name = &model.link(link).name;
         let (acceleration, force, couple) = self.inertia_of(link);
         let (force_unit, moment_unit) = (Kind::Force.unit(&model.units), Kind::Moment.unit(&model.units));
-        let field = |name: &str, doc: String, value| Field { name: name.to_owned(), doc, value };
         let unit = Kind::Acceleration.unit(&model.units);
         let fields = vec![
-            field(
+            Field::new(
                 "acceleration",
                 format!("Acceleration of the centre of mass, {unit}, ground axes."),
                 Output::vector(acceleration, Meaning::Acceleration),
             ),
-            field("force", format!("−m a, {force_unit}, ground axes."), Output::vector(force, Meaning::Force)),
-            field(
+            Field::new("force", format!("−m a, {force_unit}, ground axes."), Output::vector(force, Meaning::Force)),
+            Field::new(
                 "couple",
                 format!("−I α, {moment_unit}, counter-clockwise."),
                 Output::scalar(couple, Meaning::Moment),
@@ -390,13 +386,11 @@ impl<'m> Forces<'_, 'm> {
             return (graph.zero_vector(), graph.zero_vector(), zero);
         };
         let name = &model.link(link).name;
-        let conversion = graph.constant(&model.units.force_per_mass_acceleration());
         let at = self.posed.placement.carried(link, mass.centroid.vector(graph));
         let acceleration = motion.of_place(link, at).ground();
         let meaning = format!("acceleration of the centre of mass of {name}");
         let acceleration = acceleration.named(&format!("a_G_{name}"), &meaning);
-        let force = -acceleration.scaled(conversion * graph.expr(mass.mass));
-        let couple = -(conversion * graph.expr(mass.inertia) * motion.rate(link));
+        let (force, couple) = by_dalembert(model, mass, acceleration, motion.rate(link));
         (acceleration, force, couple)
     }
 
@@ -446,14 +440,13 @@ impl<'m> Forces<'_, 'm> {
         let distance = radius * motion.rate(link) / size;
         let distance = distance.named(format!("h_{name}"), format!("I α/(m |a|) of {name}"));
         let vector = -direction.perp().scaled(distance);
-        let field = |name: &str, doc: String, value| Field { name: name.to_owned(), doc, value };
         let fields = vec![
-            field(
+            Field::new(
                 "distance",
                 format!("I α/(m |a|), {unit}: positive to the right of the acceleration."),
                 Output::scalar(distance, Meaning::Length),
             ),
-            field(
+            Field::new(
                 "vector",
                 format!("From the centre of mass to the line of the force, {unit}, ground axes."),
                 Output::vector(vector, Meaning::Length),

@@ -13,6 +13,8 @@ mod torsion;
 pub use line::Line;
 pub use posture::{Posture, Symbolic};
 
+pub(crate) use inertia::by_dalembert;
+
 use super::{Body, Exerted};
 use crate::graph::{NodeId, Order, Vector};
 use crate::model::ids::{LinkId, LoadId};
