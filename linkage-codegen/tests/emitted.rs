@@ -62,6 +62,8 @@ declared! { CRUSHER:
     scene more: acceleration -> (B along jaw, jaw.T along path, S, inertia(ram), offset(jaw), offset(rod));
     scene control: motion(I, W, K) -> (M, h, rounding, M_kinetic); scene light: motion(Ij) -> (M);
     scene gains: coefficients;
+    scene slopes: derivative(held) by (theta, x, theta.rate, theta.acceleration, K, rod_mass);
+    scene curves: derivative(more) by (theta, x, theta.rate);
 }
 
 declared! { ROCKER:
@@ -86,8 +88,6 @@ declared! { RAIL:
     drive theta: A0; drive travel: S; unknown T: torque(crank -> left); unknown P: force(left.C) along 80deg;
     assemble B: left(A -> D); load W: gravity = 9.81m/s^2 @ -90deg;
     scene control: motion -> (M, h, rounding, M_kinetic);
-    scene slopes: derivative(held) by (theta, x, theta.rate, theta.acceleration, K, rod_mass);
-    scene curves: derivative(more) by (theta, x, theta.rate);
 }
 
 /// All numbers of a result, in the order of its fields.
