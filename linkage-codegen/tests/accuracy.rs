@@ -99,6 +99,30 @@ fn a_hundred_thousand_scotch_yokes() {
     assert!(check(scotch_yokes(12, (2600, 40)), "Scotch yokes") > 100_000);
 }
 
+/// The same linkages with products that are added without being rounded.
+fn fused(families: impl Iterator<Item = Family>) -> impl Iterator<Item = Family> {
+    families.map(|family| {
+        let text = family.text.replacen("pub mod sample;", "pub mod sample; arithmetic fused;", 1);
+        assert!(text.contains("arithmetic fused;"));
+        Family { text, ..family }
+    })
+}
+
+#[test]
+fn fused_arithmetic() {
+    assert!(check(fused(random_four_bars(9, 100, 20)), "fused four-bars") > 1000);
+    assert!(check(fused(random_slider_cranks(10, 60, 20)), "fused slider-cranks") > 600);
+    assert!(check(fused(oscillating_blocks(11, (60, 20))), "fused oscillating blocks") > 600);
+    assert!(check(fused(tangent_mechanisms(12, (60, 20))), "fused tangent mechanisms") > 600);
+    assert!(check(fused(scotch_yokes(13, (60, 20))), "fused Scotch yokes") > 1000);
+}
+
+#[test]
+#[ignore = "long"]
+fn a_hundred_thousand_fused_four_bars() {
+    assert!(check(fused(random_four_bars(14, 5_000, 40)), "fused four-bars") > 100_000);
+}
+
 #[test]
 fn four_bars() {
     assert!(check(random_four_bars(1, 100, 20), "four-bars") > 1000);
