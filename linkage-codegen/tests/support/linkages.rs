@@ -124,6 +124,8 @@ struct Builder {
     sides: Vec<f64>,
     /// Radii, if dimensions are parameters.
     radii: Option<Vec<f64>>,
+    /// Whether the frames of links have their origins at joints.
+    framed: bool,
 }
 
 /// A random linkage.
@@ -147,6 +149,7 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
         either: kind.joints,
         sides: Vec::new(),
         radii: kind.params.then(Vec::new),
+        framed: false,
     };
     let drive = builder.driven_link(kind.sliders);
     builder.drives.push(drive);
@@ -181,25 +184,7 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
 /// The same with a group that has no closed form at its end, its start somewhat off: a triad, of which a leg may be a slider, or a
 /// group of class IV.
 pub fn sample_with_search(seed: u64, kind: Kind) -> Sample {
-    let mut random = Random(seed);
-    let base = [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
-    let ground =
-        Body { name: "ground".into(), origin: [0.0; 2], angle: 0.0, points: Vec::new(), framed: false, mass: None };
-    let mut builder = Builder {
-        random,
-        base,
-        bodies: vec![ground],
-        items: String::new(),
-        places: Vec::new(),
-        names: 0,
-        sines: 0.2,
-        pins: Vec::new(),
-        drives: Vec::new(),
-        driven_slots: false,
-        either: false,
-        sides: Vec::new(),
-        radii: None,
-    };
+    let mut builder = Builder::near(seed);
     let drive = builder.driven_link(kind.sliders);
     builder.drives.push(drive);
     for _ in 0..kind.dyads {
@@ -213,12 +198,74 @@ pub fn sample_with_search(seed: u64, kind: Kind) -> Sample {
     builder.masses();
     let mut loads = builder.loads(kind.unknown_anywhere);
     let motion = if kind.moving { builder.motion(&mut loads) } else { Vec::new() };
-    let (joint, at) = &builder.drives[0];
-    let unit = if builder.items.contains(&format!("prismatic {joint}:")) { "m" } else { "rad" };
-    let start = format!("start q0: {at:?}{unit};\n");
-    let mut sample = builder.finish(loads, motion, kind);
-    sample.text.push_str(&start);
+    builder.finish_search(loads, motion, kind)
+}
+
+/// Groups without a closed form.
+#[derive(Clone, Copy, Debug)]
+pub enum Class {
+    /// A triad.
+    Three,
+    /// A triad, one leg of which may be a slider.
+    ThreeWithSlider,
+    /// A ring of four links.
+    Four,
+}
+
+/// A crank and a group of this class, with forces on two of its links that are given at run time. All lengths are numbers that single
+/// precision holds too. Frames have their origins at joints, about which moments are then taken.
+pub fn sample_with_forces(seed: u64, class: Class) -> Sample {
+    let mut builder = Builder::near(seed);
+    builder.framed = true;
+    let drive = builder.driven_link(false);
+    builder.drives.push(drive);
+    match class {
+        Class::Three => builder.triad(false),
+        Class::ThreeWithSlider => builder.triad(true),
+        Class::Four => builder.ring(),
+    }
+    let loads = builder.forces();
+    let kind = Kind {
+        dyads: 0,
+        sliders: false,
+        joints: false,
+        unknown_anywhere: false,
+        moving: false,
+        params: false,
+        scalar: "f64",
+    };
+    let mut sample = builder.finish_search(loads, Vec::new(), kind);
+    sample.text = in_single_precision(&sample.text.replace("scalar f64;\n", ""));
     sample
+}
+
+/// A declaration with all its decimals rounded to single precision.
+#[allow(clippy::cast_possible_truncation, reason = "that is the point")]
+fn in_single_precision(text: &str) -> String {
+    let mut rounded = String::new();
+    let mut rest = text;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_alphanumeric()) {
+        let (before, word) = rest.split_at(start);
+        rounded.push_str(before);
+        let decimal = |c: char| c.is_ascii_digit() || c == '.';
+        let end = if word.starts_with(decimal) {
+            let digits = word.find(|c: char| !decimal(c)).unwrap_or(word.len());
+            // Small numbers have an exponent.
+            let power = word[digits..].strip_prefix("e-");
+            power.map_or(digits, |power| digits + 2 + power.find(|c: char| !decimal(c)).unwrap_or(power.len()))
+        } else {
+            word.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(word.len())
+        };
+        let (word, after) = word.split_at(end);
+        match word.parse::<f64>() {
+            Ok(value) if word.contains('.') => {
+                let _ = write!(rounded, "{:?}", f64::from(value as f32));
+            }
+            _ => rounded.push_str(word),
+        }
+        rest = after;
+    }
+    rounded + rest
 }
 
 /// How far a force along a line through `at` is from one that the first two lines hold: the determinant of three unit forces.
@@ -232,6 +279,55 @@ fn independence(lines: [(Place, Place); 3]) -> f64 {
 }
 
 impl Builder {
+    /// Nothing but the ground, not far from the origin.
+    fn near(seed: u64) -> Self {
+        let mut random = Random(seed);
+        let base = [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
+        let ground =
+            Body { name: "ground".into(), origin: [0.0; 2], angle: 0.0, points: Vec::new(), framed: false, mass: None };
+        Self {
+            random,
+            base,
+            bodies: vec![ground],
+            items: String::new(),
+            places: Vec::new(),
+            names: 0,
+            sines: 0.2,
+            pins: Vec::new(),
+            drives: Vec::new(),
+            driven_slots: false,
+            either: false,
+            sides: Vec::new(),
+            radii: None,
+            framed: false,
+        }
+    }
+
+    /// Two forces on two links, anywhere.
+    fn forces(&mut self) -> Vec<[f64; 2]> {
+        let moving = self.bodies.len() - 1;
+        let first = 1 + self.random.below(moving);
+        let second = 1 + (first + self.random.below(moving - 1)) % moving;
+        [first, second]
+            .map(|link| {
+                let (point, at) = (self.fresh('p'), self.place());
+                let _ = writeln!(self.items, "load L{point}: force({}.{point});", self.bodies[link].name);
+                self.bodies[link].points.push((point, at));
+                [self.random.range(-50.0, 50.0), self.random.range(-50.0, 50.0)]
+            })
+            .to_vec()
+    }
+
+    /// The linkage, with the drive's coordinate at the start.
+    fn finish_search(self, loads: Vec<[f64; 2]>, motion: Vec<[f64; 2]>, kind: Kind) -> Sample {
+        let (joint, at) = &self.drives[0];
+        let unit = if self.items.contains(&format!("prismatic {joint}:")) { "m" } else { "rad" };
+        let start = format!("start q0: {at:?}{unit};\n");
+        let mut sample = self.finish(loads, motion, kind);
+        sample.text.push_str(&start);
+        sample
+    }
+
     /// A link with points of its own.
     fn plate(&mut self, points: &[(&str, Place)]) -> usize {
         let link = self.link(points[0], points[1]);
@@ -349,7 +445,7 @@ impl Builder {
 
     fn link(&mut self, first: (&str, Place), second: (&str, Place)) -> usize {
         let name = self.fresh('l');
-        let framed = self.random.chance(0.5);
+        let framed = self.framed || self.random.chance(0.5);
         let arm = minus(second.1, first.1);
         let (origin, angle) =
             if framed { (first.1, arm[1].atan2(arm[0])) } else { (self.place(), self.random.range(-3.0, 3.0)) };
