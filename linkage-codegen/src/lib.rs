@@ -10,6 +10,7 @@ pub mod diagnostics;
 pub mod emit;
 pub mod equations;
 pub mod graph;
+mod inverse;
 pub mod limits;
 pub mod model;
 pub mod plan;
@@ -25,6 +26,7 @@ use limits::Limits;
 use model::Model;
 use plan::Plan;
 use program::Functions;
+use syntax::ast::Ast;
 use topology::Topology;
 
 /// A linkage at the end of the road: every stage that it went through.
@@ -42,6 +44,8 @@ pub struct Linkage {
     pub functions: Functions,
     /// What is known of its four-bars and slider-cranks.
     pub limits: Limits,
+    /// The same linkage, driven where inverse scenes want a motion: one for each of them, which is its only scene.
+    pub inverses: Vec<Linkage>,
 }
 
 /// A declaration that is wrong.
@@ -73,26 +77,45 @@ pub struct Refusal {
 /// All that was found to be wrong, each with its place.
 pub fn analyse(declaration: TokenStream) -> Result<Linkage, Refusal> {
     let sink = Sink::default();
-    let mut model = syntax::parse(declaration, &sink).map(|ast| model::resolve(&ast, &sink));
-    let solved = model.as_ref().filter(|_| sink.is_clean()).and_then(|model| solve(model, &sink));
-    match (solved, model.take()) {
-        (Some((topology, system, plan, functions, limits)), Some(model)) if sink.is_clean() => {
-            Ok(Linkage { model, topology, system, plan, functions, limits })
-        }
-        (_, model) => Err(Refusal { errors: sink.into_errors(), model: model.map(Box::new) }),
+    let ast = syntax::parse(declaration, &sink);
+    let model = ast.as_ref().map(|ast| model::resolve(ast, &sink));
+    let (Some(ast), Some(model)) = (ast, model) else {
+        return Err(Refusal { errors: sink.into_errors(), model: None });
+    };
+    if sink.is_clean()
+        && let Some(solved) = solve(&ast, &model, &sink)
+        && sink.is_clean()
+    {
+        let Solved { topology, system, plan, functions, limits, inverses } = solved;
+        return Ok(Linkage { model, topology, system, plan, functions, limits, inverses });
     }
+    Err(Refusal { errors: sink.into_errors(), model: Some(Box::new(model)) })
 }
 
-fn solve(model: &Model, sink: &Sink) -> Option<(Topology, System, Plan, Functions, Limits)> {
+/// What comes of a model.
+struct Solved {
+    topology: Topology,
+    system: System,
+    plan: Plan,
+    functions: Functions,
+    limits: Limits,
+    inverses: Vec<Linkage>,
+}
+
+fn solve(ast: &Ast, model: &Model, sink: &Sink) -> Option<Solved> {
     let topology = Topology::of(model, sink)?;
+    let exchanged = inverse::exchanged(ast, model, &topology, sink)?;
     let system = System::of(model, &topology);
-    let plan = Plan::of(model, &topology, &system, sink)?;
-    let functions = Functions::of(&model.graph, &plan);
+    let plan = Plan::of(model, &topology, &system, &inverse::closing(&exchanged), sink)?;
+    let functions = Functions::of(model, &plan);
     program::check_range(model, &functions, sink);
-    program::check_start(model, &functions, sink);
+    program::check_start(model, (&topology, &plan), &functions, sink);
     // Last, as its expressions share the graph: they change no function.
     let limits = Limits::of(model, &topology);
-    Some((topology, system, plan, functions, limits))
+    // Lengths that never meet are found there, too.
+    plan::check_possible(model, sink);
+    let inverses = inverse::solved(exchanged, model, sink)?;
+    Some(Solved { topology, system, plan, functions, limits, inverses })
 }
 
 /// The module of a declaration; of a wrong one its errors, and a module with the same names, so that one mistake is one error.

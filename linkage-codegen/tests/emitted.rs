@@ -6,7 +6,7 @@ use std::fmt::Debug;
 
 use linkage_codegen::Linkage;
 use linkage_codegen::program::Fault;
-use linkage_runtime::{Error, Vector2, polar};
+use linkage_runtime::{Error, Side, Vector2, polar};
 use support::examples::declaration;
 use support::measures::values_from_kept;
 use support::numbers::Double;
@@ -60,6 +60,34 @@ declared! { CRUSHER:
     scene held: equilibrium; scene parts: superposition(I, K); scene work: virtual_work(Ij, D, W);
     scene speeds: velocity; scene accelerations: acceleration;
     scene more: acceleration -> (B along jaw, jaw.T along path, S, inertia(ram), offset(jaw), offset(rod));
+    scene control: motion(I, W, K) -> (M, h, rounding, M_kinetic); scene light: motion(Ij) -> (M);
+    scene gains: coefficients;
+    scene slopes: derivative(held) by (theta, x, theta.rate, theta.acceleration, K, rod_mass);
+    scene curves: derivative(more) by (theta, x, theta.rate);
+}
+
+declared! { ROCKER:
+    mod rocker;
+    units { mm, N }
+    param reach: length;
+    ground { A0: (0, 0), B0: (140mm, 0) } link crank { A0 -> A: 40mm } link coupler { A -> B: 120mm }
+    link rocker { B0 -> B: reach } link guide { P: (0, 0), E: (0, 15mm) } link rod { B -> E: 200mm }
+    revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+    revolute B2: rocker.B -> rod.B; revolute E: rod -> guide; prismatic S: ground.B0 -> guide.P along 10deg, angle 10deg;
+    drive theta: A0; assemble B: left(A -> B0); assemble E: ahead(B2); assemble A: either(A0 -> B); assemble B2: right(E -> B0);
+    scene places: position; scene crank_of: inverse(S);
+}
+
+declared! { RAIL:
+    mod rail;
+    ground { A0: (0, 0), S: (1.5m, -0.2m) } link crank { A0 -> A: 0.5m } link left { A -> B: 1m, C: (0.4m, 0.1m) }
+    link right { D -> B: 1.1m } link slide { S: (0, 0), D: (0, 0.1m) }
+    mass crank: 1.3kg at (0.2m, 0), inertia 0.02kg*m^2; mass left: 0.9kg at C, inertia 0.07kg*m^2; mass slide: 2.1kg at D;
+    revolute A0: ground -> crank; revolute A: crank -> left; revolute B: left -> right; revolute D: slide -> right;
+    prismatic S: ground -> slide along 30deg;
+    drive theta: A0; drive travel: S; unknown T: torque(crank -> left); unknown P: force(left.C) along 80deg;
+    assemble B: left(A -> D); load W: gravity = 9.81m/s^2 @ -90deg;
+    scene control: motion -> (M, h, rounding, M_kinetic);
 }
 
 /// All numbers of a result, in the order of its fields.
@@ -338,10 +366,95 @@ fn in_motion() {
             &pose.and_then(|pose| pose.accelerations(&motion)),
         );
         interpreted.check(
+            "slopes",
+            &arguments,
+            &crusher::slopes_at(&linkage, theta, x, &motion, &loads),
+            &pose.and_then(|pose| pose.slopes(&motion, &loads)),
+        );
+        interpreted.check(
+            "curves",
+            &arguments,
+            &crusher::curves_at(&linkage, theta, x, &motion),
+            &pose.and_then(|pose| pose.curves(&motion)),
+        );
+        interpreted.check(
             "more",
             &arguments,
             &crusher::more_at(&linkage, theta, x, &motion),
             &pose.and_then(|pose| pose.more(&motion)),
         );
+        interpreted.check(
+            "control",
+            &arguments,
+            &crusher::control_at(&linkage, theta, x, &motion, &loads),
+            &pose.and_then(|pose| pose.control(&motion, &loads)),
+        );
+        interpreted.check(
+            "gains",
+            &arguments,
+            &crusher::gains_at(&linkage, theta, x),
+            &pose.and_then(|pose| pose.gains()),
+        );
+        interpreted.check(
+            "light",
+            &arguments,
+            &crusher::light_at(&linkage, theta, x),
+            &pose.and_then(|pose| pose.light()),
+        );
     }
+}
+
+/// Inverse scenes, with what is prepared for them.
+#[test]
+fn inverse() {
+    let interpreted = Interpreted::of_text(ROCKER);
+    let exchanged = &interpreted.linkage.inverses[0];
+    let program = &exchanged.functions.scenes[0].direct;
+    let linkage = rocker::Linkage::new(&rocker::Params { reach: 80.0 }).expect("a length");
+    let motion = rocker::CrankOfMotion { S_travel_rate: 230.0, S_travel_acceleration: -1700.0 };
+    let mut found = 0;
+    for travel in (0..=400).map(|step| 100.0 + 0.5 * f64::from(step)) {
+        for side in [Side::Left, Side::Right] {
+            let arguments = Arguments {
+                drives: vec![travel],
+                params: vec![80.0],
+                motion: vec![[230.0, -1700.0]],
+                sides: vec![1.0, 1.0, f64::from(side.sign()), 1.0],
+                ..Arguments::default()
+            };
+            let own = rocker::crank_of_at(&linkage, travel, rocker::Closures { A: side }, &motion);
+            let expected = Interpreted::bits(direct::<Double>(exchanged, program, &arguments));
+            assert_eq!(numbers(&own), expected, "{side:?} at {travel}");
+            found += usize::from(own.is_ok());
+        }
+    }
+    assert!(found > 100, "{found}");
+}
+
+/// Where the unknowns act elsewhere, the mass is not symmetric: rows and columns are in their places.
+#[test]
+fn masses_of_efforts_elsewhere() {
+    let interpreted = Interpreted::of_text(RAIL);
+    let motion = rail::Motion { theta_rate: 3.1, travel_rate: -0.8 };
+    let mut skew = 0;
+    for theta in angles() {
+        let arguments = Arguments {
+            drives: vec![theta, 0.1],
+            loads: vec![[0.0; 2]],
+            motion: vec![[3.1, f64::NAN], [-0.8, f64::NAN]],
+            ..Arguments::default()
+        };
+        let straight = rail::control_at(theta, 0.1, &motion);
+        let pose = rail::Pose::at(theta, 0.1);
+        interpreted.check("control", &arguments, &straight, &pose.and_then(|pose| pose.control(&motion)));
+        let Ok(control) = straight else { continue };
+        // A row of M is what one effort gives to both accelerations.
+        let index = interpreted.linkage.functions.scenes[0].direct.outputs.iter().position(|(path, _)| path == "M.1.2");
+        let values =
+            direct::<Double>(&interpreted.linkage, &interpreted.linkage.functions.scenes[0].direct, &arguments);
+        let entry = values.expect("results")[index.expect("an entry")].0;
+        assert_eq!(control.M[(0, 1)].to_bits(), entry.to_bits());
+        skew += usize::from(control.M[(0, 1)].to_bits() != control.M[(1, 0)].to_bits());
+    }
+    assert!(skew > 100, "{skew}");
 }

@@ -17,7 +17,9 @@ use support::measures::values_from_kept;
 use support::numbers::{Double, Single};
 use support::{Arguments, Number, direct, pose};
 
-const SCENES: [&str; 6] = ["all", "parts", "work", "whole", "speeds", "accelerations"];
+const SCENES: [&str; 8] = ["all", "parts", "work", "whole", "speeds", "accelerations", "gains", "control"];
+/// Of linkages that have mass.
+const CONTROL: &str = "scene control: motion -> (M, h, rounding, M_kinetic);";
 
 struct Case {
     name: String,
@@ -40,7 +42,11 @@ fn cases() -> Vec<Case> {
             params: seed % 5 == 4,
             scalar,
         };
-        let sample = sample(seed, kind);
+        let mut sample = sample(seed, kind);
+        sample.text.push_str("scene gains: coefficients;");
+        if sample.text.contains("load I: inertia;") {
+            sample.text.push_str(CONTROL);
+        }
         // With its unknown anywhere a linkage may be one that is refused.
         let linkage = linkage_codegen::analyse(sample.text.parse().expect("tokens")).ok()?;
         Some(Case {
@@ -103,7 +109,7 @@ fn module(case: &Case) -> String {
     let drives: Vec<String> = arguments.drives.iter().map(|value| number(*value)).collect();
     let drives = drives.join(", ");
     let _ = writeln!(text, "let pose = sample::Pose::at({first}{drives});");
-    for scene in SCENES {
+    for scene in scenes(linkage) {
         let functions = &linkage.functions.scenes[index_of(linkage, scene)];
         let given = |program: &Program| {
             let all = [(program.reads_motion(), "&motion"), (program.reads_loads(), "&loads")];
@@ -123,6 +129,10 @@ fn module(case: &Case) -> String {
     }
     text.push_str("Ok(())\n}\n}\n");
     text
+}
+
+fn scenes(linkage: &Linkage) -> impl Iterator<Item = &'static str> {
+    SCENES.into_iter().filter(|scene| linkage.model.scenes.iter().any(|own| own.name.text == *scene))
 }
 
 fn index_of(linkage: &Linkage, scene: &str) -> usize {
@@ -186,15 +196,15 @@ fn random_linkages_compile_to_what_the_interpreter_computes() {
     let cases = cases();
     assert!(cases.len() > 40, "{} linkages", cases.len());
     let printed = run(&write_crate(&cases));
-    let (mut results, mut failures) = (0, 0);
+    let (mut results, mut controlled, mut failures) = (0, 0, 0);
     for case in &cases {
         let lines = printed.lines().filter_map(|line| line.strip_prefix(case.name.as_str())?.strip_prefix(' '));
-        let mut scenes = 0;
+        let (mut seen, all) = (0, 2 * scenes(&case.linkage).count());
         for line in lines {
             let Some((scene, rest)) = line.split_once(' ') else { panic!("{line}") };
             if scene == "fails" {
                 assert!(pose::<Double>(&case.linkage, &case.arguments).is_err(), "{line}\n{}", case.declaration);
-                scenes = SCENES.len() * 2;
+                seen = all;
                 failures += 1;
                 continue;
             }
@@ -205,11 +215,15 @@ fn random_linkages_compile_to_what_the_interpreter_computes() {
                 (bits::<Double>(printed), interpreted::<Double>(case, scene, form))
             };
             assert_eq!(own, expected, "{scene} {form}: {printed}\n{}", case.declaration);
-            scenes += 1;
+            seen += 1;
+            controlled += usize::from(scene == "control" && own.is_some());
             results += usize::from(own.is_some());
         }
-        assert_eq!(scenes, SCENES.len() * 2, "{}", case.declaration);
+        assert_eq!(seen, all, "{}", case.declaration);
     }
-    println!("{} linkages, {results} equal results, {failures} with parameters out of range", cases.len());
-    assert!(results > 300, "{results} results");
+    println!(
+        "{} linkages, {results} equal results, {controlled} of them equations of motion, {failures} with parameters out of range",
+        cases.len()
+    );
+    assert!(results > 300 && controlled > 40, "{results} results, {controlled} equations of motion");
 }

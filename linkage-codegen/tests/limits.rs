@@ -906,3 +906,37 @@ mod emitted {
         }
     }
 }
+
+/// Constant lengths that never meet are refused, whatever the bounds of the expressions say.
+#[test]
+fn loops_that_never_close_are_refused() {
+    let refused = |declaration: &str| {
+        let refusal = linkage_codegen::analyse(declaration.parse().expect("tokens")).expect_err(declaration);
+        let messages: Vec<&str> =
+            refusal.errors.iter().map(linkage_codegen::diagnostics::Diagnostic::message).collect();
+        let [message] = messages[..] else { panic!("{}", messages.join("\n\n")) };
+        assert!(message.contains("cannot be assembled at `B`, at any pose"), "{message}");
+    };
+    let four_bar = |a: &str, h: &str, b: &str| {
+        format!(
+            "mod four_bar; ground {{ O: (0, 0), C: (3m, 1m) }} link crank {{ O -> A: {a} }} link coupler {{ A -> B: {h} }}
+             link rocker {{ C -> B: {b} }} revolute O: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker;
+             revolute C: ground -> rocker; drive q: O; assemble B: left(A -> C); load M: moment(rocker); scene held: equilibrium;"
+        )
+    };
+    refused(&four_bar("1m", "0.5m", "0.4m"));
+    refused(&four_bar("0.5m", "9m", "1m"));
+    refused(
+        "mod crank; ground { O: (0, 0), G: (0, 3m) } link crank { O -> A: 1m } link rod { A -> B: 1.5m } link piston { B }
+         revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> piston; prismatic G: ground.G -> piston.B along 0deg;
+         drive q: O; assemble B: ahead(A); load F: force(piston.B); scene held: equilibrium;",
+    );
+    // Behind another loop.
+    refused(
+        "mod chain; ground { P: (0, 0), Q: (4m, 0), V: (9m, 0) } link first { P -> R: 1m } link second { Q -> S: 2m, T: (1m, 0.2m) }
+         link middle { R -> S: 4m } link rod { T -> B: 0.2m } link arm { V -> B: 0.3m }
+         revolute P: ground -> first; revolute R: first -> middle; revolute S: middle -> second; revolute Q: ground -> second;
+         revolute T: second -> rod; revolute V: ground -> arm; revolute B: rod -> arm;
+         drive q: P; assemble S: left(R -> Q); assemble B: left(T -> V); load M: moment(arm); scene held: equilibrium;",
+    );
+}

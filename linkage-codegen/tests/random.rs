@@ -131,100 +131,55 @@ fn check_in_doubles(sample: &Sample, linkage: &Linkage) -> f64 {
     condition
 }
 
-fn kind(seed: u64, unknown_anywhere: bool) -> Kind {
-    let dyads = 1 + usize::try_from(seed % 6).expect("small");
-    Kind { dyads, sliders: true, joints: false, unknown_anywhere, moving: false, params: seed % 5 == 4, scalar: "f64" }
+/// A linkage of what there is: dyads of pins and slides; welds, slots, wheels, driven cylinders; groups without a closed form, triads, of
+/// class IV and others, with joints of all kinds in them; springs and thrusts, and where it moves dampers and inertia; unknowns anywhere.
+fn drawn(seed: u64) -> Sample {
+    let dyads = usize::try_from(seed % 7).expect("small");
+    let kind = Kind {
+        dyads,
+        sliders: true,
+        joints: !seed.is_multiple_of(3),
+        unknown_anywhere: seed % 2 == 1,
+        moving: seed % 11 == 3,
+        params: seed % 5 == 4,
+        scalar: "f64",
+    };
+    if seed % 8 < 3 { sample_with_search(seed, Kind { dyads: dyads % 3, ..kind }) } else { sample(seed, kind) }
 }
 
-#[test]
-fn random_linkages_agree_with_the_general_solution() {
-    for seed in 0..200 {
-        let sample = sample(seed, kind(seed, false));
-        let linkage = compile(&sample.text);
+/// How many of the linkages were solved; the others are rightly refused. All that disagree are told, not only the first.
+fn check(seeds: core::ops::Range<u64>, exactly: u64) -> usize {
+    let solves = |seed: u64| {
+        let sample = drawn(seed);
+        let Some(linkage) = supported(&sample) else { return false };
         check_in_doubles(&sample, &linkage);
-        if seed % 5 == 0 {
+        if seed.is_multiple_of(exactly) {
             check_exactly(&sample, &linkage);
         }
-    }
-}
-
-#[test]
-fn unknowns_anywhere_agree_with_the_general_solution() {
-    let mut solved = 0;
-    for seed in 1000..1200 {
-        let sample = sample(seed, kind(seed, true));
-        if let Some(linkage) = supported(&sample) {
-            solved += 1;
-            check_in_doubles(&sample, &linkage);
-            if seed % 5 == 0 {
-                check_exactly(&sample, &linkage);
-            }
-        }
-    }
-    assert!(solved > 100, "{solved}");
-    println!("{solved} of 200");
-}
-
-/// Groups without a closed form, placed by iteration from a start that is somewhat off.
-fn check_searches(seeds: core::ops::Range<u64>) -> usize {
-    let mut solved = 0;
+        true
+    };
+    let (mut solved, mut wrong) = (0, Vec::new());
     for seed in seeds {
-        let kind = Kind { dyads: usize::try_from(seed % 3).expect("small"), ..kind(seed, seed % 2 == 1) };
-        let sample = sample_with_search(seed, kind);
-        if let Some(linkage) = supported(&sample) {
-            solved += 1;
-            check_in_doubles(&sample, &linkage);
-            if seed % 5 == 0 {
-                check_exactly(&sample, &linkage);
-            }
+        match std::panic::catch_unwind(|| solves(seed)) {
+            Ok(one) => solved += usize::from(one),
+            Err(_) => wrong.push(seed),
         }
     }
+    assert!(wrong.is_empty(), "wrong: {wrong:?}");
     solved
 }
 
 #[test]
-fn groups_without_a_closed_form_agree_with_the_general_solution() {
-    let solved = check_searches(2000..2100);
-    assert!(solved > 85, "{solved}");
-    println!("{solved} of 100");
+fn random_linkages_agree_with_the_general_solution() {
+    let solved = check(0..400, 4);
+    println!("{solved} of 400");
+    assert!(solved > 320, "{solved}");
 }
 
 #[test]
 #[ignore = "long"]
-fn a_thousand_groups_without_a_closed_form_agree_with_the_general_solution() {
-    println!("{} of 1000", check_searches(20_000..21_000));
-}
-
-#[test]
-fn welds_slots_and_gears_agree_with_the_general_solution() {
-    let mut solved = 0;
-    for seed in 2000..2200 {
-        let kind = Kind { joints: true, ..kind(seed, seed % 3 == 0) };
-        let sample = sample(seed, kind);
-        if let Some(linkage) = supported(&sample) {
-            solved += 1;
-            check_in_doubles(&sample, &linkage);
-            if seed % 5 == 0 {
-                check_exactly(&sample, &linkage);
-            }
-        }
-    }
-    assert!(solved > 150, "{solved}");
-    println!("{solved} of 200");
-}
-
-#[test]
-#[ignore = "long"]
-fn two_thousand_linkages_agree_with_the_general_solution() {
-    let mut verified = 0;
-    for seed in 10_000..12_600 {
-        let kind = Kind { joints: seed % 3 == 0, ..kind(seed, seed % 2 == 1) };
-        let sample = sample(seed, kind);
-        if let Some(linkage) = supported(&sample) {
-            check_in_doubles(&sample, &linkage);
-            check_exactly(&sample, &linkage);
-            verified += 1;
-        }
-    }
-    assert!(verified >= 2000, "{verified}");
+fn five_thousand_linkages_agree_with_the_general_solution() {
+    let solved = check(10_000..16_000, 1);
+    println!("{solved} of 6000");
+    assert!(solved >= 5000, "{solved}");
 }

@@ -2,7 +2,7 @@
 
 mod support;
 
-use linkage_codegen::graph::{Order, Symbol};
+use linkage_codegen::graph::{Op, Order, Symbol};
 use linkage_codegen::program::{Counts, Definition, Input, Program, Step};
 use support::compile;
 
@@ -149,6 +149,41 @@ fn a_declared_constant_speed_drops_what_it_makes_zero() {
     for scene in ["turning", "speeds"] {
         assert!(program(&resting, scene).steps.iter().all(|step| !matches!(step, Step::Let(_))), "{scene}");
     }
+}
+
+#[test]
+fn derivatives_cost_nothing_elsewhere_and_share_what_they_have_in_common() {
+    let plain = compile(FOUR_BAR);
+    let with = compile(&format!(
+        "{FOUR_BAR} scene both: derivative(torque) by (theta, F13); scene slope: derivative(torque) by (theta);
+         scene linear: derivative(torque) by (F13); scene far: derivative(statics) by (F12);"
+    ));
+    // A scene stays as it was, and so does the pose.
+    for scene in &plain.model.scenes {
+        let [before, behind] = [&plain, &with].map(|linkage| program(linkage, &scene.name.text).counts());
+        assert_eq!(before, behind, "{}", scene.name);
+    }
+    assert_eq!(plain.functions.pose.counts(), with.functions.pose.counts());
+    assert_eq!(plain.plan.pose.len(), with.plan.pose.len());
+    // What a load changes does not depend on how large it is, nor on how the pose changes.
+    let reads_load = |program: &Program| program.inputs().any(|(_, i)| matches!(i, Input::Symbol(Symbol::Load(..))));
+    assert!(reads_load(program(&with, "torque")) && !reads_load(program(&with, "linear")));
+    // The pose is solved once for all: the same sine, the same roots and divisions as for the torque itself.
+    let [torque, both, slope, linear] =
+        ["torque", "both", "slope", "linear"].map(|scene| program(&with, scene).counts());
+    assert_eq!([torque.sin_cos, torque.sqrt, torque.div], [both.sin_cos, both.sqrt, both.div]);
+    // Together they take less than one by one, and all three less than the torque at the ends of two differences.
+    let work = |counts: Counts| counts.add + counts.mul;
+    assert!(work(both) < work(slope) + work(linear), "{both}, {slope}, {linear}");
+    assert!(work(both) < 2 * work(torque), "{both}, {torque}");
+    // A load on the crank alone reaches no pin of the dyad.
+    let far = program(&with, "far").outputs.iter().map(|(path, _)| path.clone());
+    assert!(far.clone().any(|path| path == "F12.x.T12") && far.clone().any(|path| path == "F12.y.B.x"));
+    let value = |path: &str| {
+        let (_, id) = program(&with, "far").outputs.iter().find(|(other, _)| other == path).expect("a result");
+        program(&with, "far").value(*id)
+    };
+    assert!(matches!(value("F12.x.B.x").definition, Definition::Computed(Op::Constant(_))));
 }
 
 /// Every value of every program is read by a later step, or is a result.

@@ -94,8 +94,9 @@ fn every_stage_of_every_example() {
 }
 
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
-/// cylinders, slots, welds, gears, inner slides.
-const OTHERS: [(&str, &str); 12] = [
+/// cylinders, slots, welds, gears, inner slides, unknowns elsewhere than at the drives, equations of motion, inverse scenes,
+/// derivatives.
+const OTHERS: [(&str, &str); 19] = [
     (
         "bounded",
         "/// A slider-crank whose results come with bounds of their rounding errors.
@@ -115,6 +116,19 @@ const OTHERS: [(&str, &str); 12] = [
         drive theta: A0; unknown T12: torque(ground -> crank); assemble B: left(A -> B0);
         load F: force(coupler.C) in coupler; load M: moment(rocker);
         scene torque: virtual_work -> (T12); scene reaction: equilibrium -> (B); scene turn: sweep(torque);",
+    ),
+    (
+        "sensitive",
+        "/// How a crank's torque and a coupler's point change with the angle, the loads and the crank.
+        pub mod sensitive; units { mm, N }
+        param crank_length: length = 80mm;
+        ground { A0: (0, 0), B0: (140mm, 0) } link crank { A0 -> A: crank_length } link coupler { A -> B: 100mm, C: (50mm, 20mm) }
+        link rocker { B0 -> B: 120mm }
+        revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+        drive theta: A0; unknown T12: torque(ground -> crank); assemble B: left(A -> B0);
+        load F: force(coupler.C); load K: spring(ground.B0, coupler.C) { rate: 2N/mm, free: _ };
+        scene torque: virtual_work -> (T12); scene place: position -> (coupler.C);
+        scene slopes: derivative(torque) by (theta, F, K, crank_length); scene moved: derivative(place) by (theta, crank_length);",
     ),
     (
         "parallelogram",
@@ -225,6 +239,28 @@ const OTHERS: [(&str, &str); 12] = [
         scene speeds: velocity; scene accelerations: acceleration -> (B, rod.C, rod.C along path, rod.angle, inertia(rod), offset(rod));",
     ),
     (
+        "robot",
+        "/// A five-bar robot under computed torque: its equation of motion, and that of its links alone.
+        pub mod robot;
+        ground { O1: (0, 0), O2: (0.5m, 0) } link left { O1 -> P: 0.3m } link right { O2 -> Q: 0.3m }
+        link upper { P -> R: 0.45m } link lower { Q -> R: 0.4m }
+        mass left: 1.2kg at (0.12m, 0), inertia 0.01kg*m^2; mass right: 1.2kg at (0.12m, 0), inertia 0.01kg*m^2;
+        mass upper: 0.8kg at (0.2m, 0), inertia 0.012kg*m^2; mass lower: 0.7kg at (0.15m, 0.01m);
+        revolute O1: ground -> left; revolute O2: ground -> right; revolute P: left -> upper; revolute Q: right -> lower;
+        revolute R: upper -> lower;
+        drive a: O1; drive b: O2; assemble R: left(P -> Q);
+        load tool: force(upper.R); scene control: motion; scene mass: motion() -> (M); scene cycle: sweep(control);",
+    ),
+    (
+        "swing",
+        "/// The crank of a crank-rocker for a wanted motion of the rocker.
+        pub mod swing; units { mm, N } param reach: length = 120mm;
+        ground { A0: (0, 0), B0: (140mm, 0) } link crank { A0 -> A: 40mm } link coupler { A -> B: 120mm } link rocker { B0 -> B: reach }
+        revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+        drive theta: A0; assemble B: left(A -> B0); assemble A: right(A0 -> B);
+        scene place: position -> (rocker.angle); scene gains: coefficients -> (rocker.angle, B); scene crank_of: inverse(B0); scene angle_of: inverse(B0) -> (theta);",
+    ),
+    (
         "scotch_yoke",
         "/// A Scotch yoke with an arm welded to it.
         pub mod scotch_yoke; units { mm, N }
@@ -243,6 +279,58 @@ const OTHERS: [(&str, &str); 12] = [
         gear Gs: sun.O -> planet.C, radii (250mm, 125mm); gear Gr: ground.O -> planet.C, radii (500mm, 125mm), internal;
         drive theta: P; load M: moment(carrier); scene held: equilibrium; scene torque: virtual_work;
         scene angles: position -> (sun.angle, carrier.angle, planet.angle, Gs);",
+    ),
+    (
+        "five_bar",
+        "/// A five-bar: a point in the plane, placed by two motors on the ground.
+        pub mod five_bar; units { mm, N }
+        ground { O1: (-250mm, 0), O2: (300mm, 50mm) } link left { O1 -> A: 650mm } link right { O2 -> B: 680mm }
+        link upper { A -> C: 955mm } link lower { B -> C: 850mm, tool: (1100mm, -105mm) }
+        mass left: 1kg at (320mm, 0), inertia 40000kg*mm^2; mass lower: 0.9kg at (460mm, -35mm), inertia 70000kg*mm^2;
+        revolute O1: ground -> left; revolute O2: ground -> right; revolute A: left -> upper; revolute B: right -> lower;
+        revolute C: upper -> lower;
+        drive a: O1; drive b: O2; assemble C: left(A -> B);
+        load W: gravity = 9.81m/s^2 @ -90deg; load I: inertia; load tip: force(lower.tool);
+        scene held: equilibrium(W, tip) -> (effort_a, effort_b); scene torques: virtual_work(W, tip) -> (effort_a, effort_b);
+        scene dynamics: equilibrium -> (effort_a, effort_b, C); scene place: position -> (lower.tool);",
+    ),
+    (
+        "geared_five_bar",
+        "/// Two cranks in mesh, and a coupler on each: a pin on a path that one crank cannot give.
+        pub mod geared_five_bar; units { mm, N }
+        ground { O1: (0, 0), O2: (562.5mm, 0) } link driver { O1 -> A: 225mm } link driven { O2 -> B: 380mm }
+        link left { A -> C: 765mm } link right { B -> C: 745mm, tip: (1060mm, -20mm) }
+        revolute O1: ground -> driver; revolute O2: ground -> driven;
+        gear G: driver.O1 -> driven.O2, radii (312.5mm, 250mm), phase 860mm, pressure_angle 20deg, flank left;
+        revolute A: driver -> left; revolute B: driven -> right; revolute C: left -> right;
+        drive theta: O1; unknown T: torque(ground -> driver); assemble C: right(A -> B);
+        load F: force(right.tip); scene held: equilibrium; scene torque: virtual_work -> (T); scene place: position -> (C, G);",
+    ),
+    (
+        "toggle_clamp",
+        "/// A toggle clamp: the hand on the lever against the work under the arm, nearly at its toggle.
+        pub mod toggle_clamp; units { mm, N }
+        ground { O1: (0, 0), O2: (60mm, 10mm) } link lever { O1 -> A: 35mm, H: (85mm, 160mm) } link mid { A -> B: 55mm }
+        link arm { O2 -> B: 98mm, tip: (-38mm, -71mm) }
+        revolute O1: ground -> lever; revolute A: lever -> mid; revolute B: mid -> arm; revolute O2: ground -> arm;
+        drive theta: O1; unknown hand: force(lever.H) along (3, -4) of lever; assemble B: left(A -> O2);
+        load work: force(arm.tip); scene closed: equilibrium; scene hold: virtual_work -> (hand);",
+    ),
+    (
+        "scissor_lift",
+        "/// A scissor lift of two stages on pins and rollers, raised by a cylinder within its lower one.
+        pub mod scissor_lift; units { m, N }
+        ground { L: (0, 0), R: (0, 0) }
+        link rising1 { L -> R: 1m, M: (0.5m, 0), N: (0.8m, 0) } link falling1 { R -> L: 1m, M: (0.5m, 0), K: (0.35m, 0.05m) }
+        link rising2 { L -> R: 1m, M: (0.5m, 0) } link falling2 { R -> L: 1m, M: (0.5m, 0) } link deck { L: (0, 0), Q: (0.3m, 0.1m) }
+        mass deck: 20kg at (0.5m, 0);
+        revolute L1: ground.L -> rising1.L; slot roller: ground.R -> falling1.R along 0deg; revolute M1: rising1.M -> falling1.M;
+        revolute L2: falling1.L -> rising2.L; revolute R2: rising1.R -> falling2.R; revolute M2: rising2.M -> falling2.M;
+        revolute L3: falling2.L -> deck.L; slot top: deck.L -> rising2.R along 0deg of deck;
+        drive x: roller.travel; unknown cylinder: thrust(falling1.K, rising1.N);
+        assemble M1: left(L1 -> roller); assemble M2: right(L2 -> R2); assemble top: ahead(L3);
+        load W: gravity = 9.81m/s^2 @ -90deg; load goods: force(deck.Q);
+        scene held: equilibrium; scene thrust: virtual_work -> (cylinder); scene height: position -> (deck.L, deck.angle);",
     ),
 ];
 

@@ -77,6 +77,18 @@ pub enum Error {
         /// The vector.
         of: &'static str,
     },
+    /// The wanted coordinates of an inverse scene are reached, with the sides that are chosen for it, only where a group that the drives move
+    /// would be assembled on its other side: no coordinates of the drives lead there.
+    OtherSide {
+        /// The joint at which that group is assembled.
+        joint: &'static str,
+    },
+    /// The mass of an equation of motion is singular: no mass resists some acceleration of the drives, as at the dead centre of a crank
+    /// that moves nothing but a slider. The efforts say nothing of that acceleration.
+    NoInertia {
+        /// The scene.
+        scene: &'static str,
+    },
     /// A parameter is out of its range.
     Parameter {
         /// What is required.
@@ -104,6 +116,8 @@ impl fmt::Display for Error {
             Self::DeadCentre { group, pivot } => write!(f, "{group} is at a dead centre: {pivot} vanishes"),
             Self::CoincidentEnds { of } => write!(f, "the ends of {of} coincide: it has no direction"),
             Self::NoDirection { of } => write!(f, "{of} vanishes: it has no direction"),
+            Self::OtherSide { joint } => write!(f, "only with {joint} on its other side are these coordinates reached"),
+            Self::NoInertia { scene } => write!(f, "no mass resists the acceleration: M of {scene} is singular"),
             Self::Parameter { requirement } => f.write_str(requirement),
             Self::NotFinite { what } => write!(f, "{what} is not finite"),
         }

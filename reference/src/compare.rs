@@ -7,11 +7,11 @@
 use std::collections::BTreeMap;
 
 use crate::declaration::{
-    ACCELERATIONS, ALL, CENTROID, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, POWERS, SHAKING, SPEEDS, WEIGHT,
-    WORK,
+    ACCELERATIONS, ALL, CENTROID, CONTROL, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, POWERS, SHAKING,
+    SPEEDS, WEIGHT, WORK,
 };
 use crate::exact::{difference, difference_of_angles, nearest};
-use crate::file::{Answers, File, Limits, LinkMotion, Ordered, Reaction};
+use crate::file::{Answers, File, Limits, LinkMotion, Ordered, Reaction, Reduced};
 use crate::number::Number;
 use crate::printed::Value;
 
@@ -78,6 +78,9 @@ pub(crate) fn compare(
     }
     if let Some(shaking) = &answers.shaking {
         comparison.shaking(scene(SHAKING)?, shaking, worst)?;
+    }
+    if let Some(reduced) = &answers.reduced {
+        comparison.equation_of_motion(scene(CONTROL)?, reduced, worst)?;
     }
     comparison.equilibrium(scene(ALL)?, worst)?;
     comparison.work(scene(WORK)?, worst)?;
@@ -270,6 +273,33 @@ impl Comparison<'_> {
         let off = difference(x, &answer.force[0])?.hypot(difference(y, &answer.force[1])?);
         worst.see(off, limits, || "shaking force".into());
         worst.see(difference(moment, &answer.moment)?.abs() / distance, limits, || "shaking moment".into());
+        Ok(())
+    }
+
+    /// Masses are measured by the largest one of their row; `h` also by the effort that it is a part of.
+    fn equation_of_motion(&self, own: &Value, answer: &Reduced, worst: &mut Worst) -> Result<(), String> {
+        let part = |name: &str, place: &[usize]| {
+            let found = own.field(name).and_then(|value| value.entry(place));
+            found.ok_or_else(|| format!("the equation of motion has no `{name}`"))
+        };
+        let limits = |row: usize, scale: f64| {
+            let limit = |limits: &Limits| limits.effort.get(row).map_or(0.0, |effort| effort.max(limits.reaction));
+            self.scales.limits.each_ref().map(|limits| scale * limit(limits))
+        };
+        for (name, rows) in [("M", &answer.mass), ("M_kinetic", &answer.kinetic)] {
+            for (row, known) in rows.iter().enumerate() {
+                let mut sizes = known.iter().map(|value| nearest(value).map(f64::abs));
+                let scale = sizes.try_fold(0.0, |most: f64, size| Ok::<f64, String>(most.max(size?)))?;
+                for (column, value) in known.iter().enumerate() {
+                    let off = difference(part(name, &[row, column])?, value)?.abs();
+                    worst.see(off, limits(row, scale), || format!("{name} {row} {column}"));
+                }
+            }
+        }
+        for (row, value) in answer.bias.iter().enumerate() {
+            let scale = self.scales.effort.get(row).copied().unwrap_or(0.0).max(nearest(value)?.abs());
+            worst.see(difference(part("h", &[row])?, value)?.abs(), limits(row, scale), || format!("h {row}"));
+        }
         Ok(())
     }
 

@@ -23,6 +23,8 @@ pub(crate) const ALL: &str = "all";
 pub(crate) const PARTS: &str = "parts";
 /// The efforts by virtual work.
 pub(crate) const WORK: &str = "work";
+/// The scene of the reduced equation of motion.
+pub(crate) const CONTROL: &str = "control";
 /// Where the links are.
 pub(crate) const PLACES: &str = "places";
 /// How the links move, of a file that moves.
@@ -203,6 +205,10 @@ impl<'a> Writer<'a> {
         }
         items.push(format!("scene {ALL}: equilibrium;"));
         items.push(format!("scene {PARTS}: superposition;"));
+        if moves(self.file) && self.file.include_inertia && self.file.links.iter().any(|(_, body)| body.mass.is_some())
+        {
+            items.push(format!("scene {CONTROL}: motion -> (M, h, rounding, M_kinetic);"));
+        }
         items.push(format!("scene {WORK}: virtual_work;"));
         // Points last: those that are given by coordinates where they are used are known only now.
         let mut all = self.bodies()?;

@@ -235,6 +235,7 @@ pub(crate) struct Answers {
     pub(crate) virtual_work: Option<VirtualWork>,
     pub(crate) power: Option<Power>,
     pub(crate) shaking: Option<Shaking>,
+    pub(crate) reduced: Option<Reduced>,
     pub(crate) f64_floor: Option<Floor>,
     pub(crate) accept: Option<Accept>,
 }
@@ -307,6 +308,39 @@ pub(crate) struct Shaking {
 #[derive(Debug, Deserialize)]
 pub(crate) struct VirtualWork {
     pub(crate) efforts: Vec<String>,
+}
+
+/// The reduced equation of motion: of one input numbers, of several a row for each effort.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Reduced {
+    #[serde(rename = "M", deserialize_with = "matrix")]
+    pub(crate) mass: Vec<Vec<String>>,
+    #[serde(rename = "h", deserialize_with = "column")]
+    pub(crate) bias: Vec<String>,
+    #[serde(rename = "M_kinetic", default, deserialize_with = "matrix")]
+    pub(crate) kinetic: Vec<Vec<String>>,
+}
+
+/// A number, or a list of what is in it.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum OneOr<T> {
+    One(String),
+    Several(Vec<T>),
+}
+
+fn matrix<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Vec<String>>, D::Error> {
+    Ok(match OneOr::deserialize(deserializer)? {
+        OneOr::One(number) => vec![vec![number]],
+        OneOr::Several(rows) => rows,
+    })
+}
+
+fn column<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<String>, D::Error> {
+    Ok(match OneOr::deserialize(deserializer)? {
+        OneOr::One(number) => vec![number],
+        OneOr::Several(numbers) => numbers,
+    })
 }
 
 /// How far answers move when the data move by half a unit in the last place.

@@ -36,6 +36,14 @@ impl Value {
         if let Self::Number(number) = self { Some(*number) } else { None }
     }
 
+    /// A number by its place: row, or row and column. Lists are printed column by column; a number alone is at the first place.
+    pub(crate) fn entry(&self, place: &[usize]) -> Option<f64> {
+        let Self::List(columns) = self else { return self.number().filter(|_| place.iter().all(|index| *index == 0)) };
+        let column = place.get(1).copied().unwrap_or(0);
+        let Self::List(rows) = columns.get(column)? else { return None };
+        rows.get(*place.first()?)?.number()
+    }
+
     /// A vector's components.
     pub(crate) fn vector(&self) -> Option<[f64; 2]> {
         match self {

@@ -440,6 +440,7 @@ impl<'a> Body<'a> {
             }
             Failure::DeadCentre { group, pivot } => quote!(Error::DeadCentre { group: #group, pivot: #pivot }),
             Failure::NoDirection { of } => quote!(Error::NoDirection { of: #of }),
+            Failure::OtherSide { joint } => quote!(Error::OtherSide { joint: #joint }),
             Failure::CoincidentEnds { of } => quote!(Error::CoincidentEnds { of: #of }),
             Failure::Parameter { requirement } => quote!(Error::Parameter { requirement: #requirement }),
         };

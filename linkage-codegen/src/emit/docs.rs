@@ -44,16 +44,18 @@ pub(super) fn module(linkage: &Linkage) -> TokenStream {
 
 /// The groups of motion and of forces, a line each.
 pub(super) fn blocks(linkage: &Linkage) -> String {
-    let mut text = String::new();
-    let motion = linkage.topology.motion.iter().zip(&linkage.plan.motion_rules);
-    for (index, (group, class)) in motion.enumerate() {
-        text.push_str(&block(linkage, "motion", index, group, class));
-    }
+    let mut text = motion_blocks(linkage);
     let forces = linkage.topology.forces.iter().zip(&linkage.plan.force_rules);
     for (index, (group, class)) in forces.enumerate().rev() {
         text.push_str(&block(linkage, "forces", index, group, class));
     }
     text
+}
+
+/// The groups of motion, a line each.
+pub(super) fn motion_blocks(linkage: &Linkage) -> String {
+    let motion = linkage.topology.motion.iter().zip(&linkage.plan.motion_rules);
+    motion.enumerate().map(|(index, (group, class))| block(linkage, "motion", index, group, class)).collect()
 }
 
 fn block(linkage: &Linkage, what: &str, index: usize, group: &Group, class: &str) -> String {
@@ -96,9 +98,26 @@ pub(super) fn scene_summary(linkage: &Linkage, index: usize, from_pose: bool) ->
         Method::Position => format!("Where everything is, {from}."),
         Method::Velocity => format!("How fast everything moves, {from}."),
         Method::Acceleration => format!("The accelerations, {from}."),
+        Method::Coefficients => format!("Kinematic coefficients: how everything changes with the drives, {from}."),
         Method::Equilibrium => format!("Equilibrium under {loads}, {from}."),
         Method::Superposition => format!("Equilibrium under each of {loads} by itself, {from}."),
         Method::VirtualWork => format!("Virtual work of {loads}, {from}."),
+        Method::Motion => {
+            let with = if scene.loads.is_empty() { String::new() } else { format!(" with {loads}") };
+            format!("The reduced equation of motion `τ = M q̈ + h`{with}, {from}.")
+        }
+        Method::Inverse => {
+            "The drives that give the linkage the wanted coordinates, with their rates and accelerations.".to_owned()
+        }
+        Method::Derivative => {
+            let Some(derivative) = &scene.derivative else { return String::new() };
+            let by: Vec<String> = derivative.by.iter().map(|by| format!("`{}`", by.written(model))).collect();
+            format!(
+                "Derivatives of the results of `{}` by {}, {from}.",
+                model.scenes[derivative.of].name,
+                by.join(", ")
+            )
+        }
         Method::Verify => {
             format!("Equilibrium, superposition, virtual work and the general solution against each other, {from}.")
         }
@@ -169,6 +188,9 @@ fn errors(program: &Program) -> Vec<String> {
                 Failure::DeadCentre { group, pivot } => {
                     add(format!("* [`Error::DeadCentre`]: {group} is at a dead centre, `{pivot}` vanishes."));
                 }
+                Failure::OtherSide { joint } => add(format!(
+                    "* [`Error::OtherSide`]: only with `{joint}` on the other side than is chosen does it have these coordinates."
+                )),
                 Failure::NoDirection { of } => add(format!("* [`Error::NoDirection`]: {of} vanishes.")),
                 Failure::CoincidentEnds { of } => {
                     add(format!("* [`Error::CoincidentEnds`]: the points between which `{of}` acts coincide."));

@@ -246,5 +246,13 @@ fn closed_forms(linkage: &Linkage) -> String {
             add(format!("scene {}, from a pose", scene.name), program, &body(linkage, program));
         }
     }
+    for inverse in &linkage.inverses {
+        let Some((scene, program)) = super::inverses::scene(inverse) else { continue };
+        let body = body(inverse, program);
+        text.push_str(&format!("\nscene {}, from what is wanted: {}\n", scene.name, program.counts()));
+        let groups = super::docs::motion_blocks(inverse);
+        let lines = groups.lines().map(str::to_owned).chain(body.equations(&inverse.model));
+        lines.for_each(|line| text.push_str(&format!("  {line}\n")));
+    }
     text
 }

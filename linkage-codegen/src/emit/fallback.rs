@@ -7,11 +7,11 @@ use quote::quote;
 use syn::ext::IdentExt;
 
 use super::literals::ident;
-use super::types::{closures, given_motion, loads, motion, results, run_time_loads, scalar};
+use super::types::{closures, forward_signature, given_motion, loads, motion, results, run_time_loads, scalar};
 use crate::graph::NodeId;
 use crate::model::ids::LinkId;
-use crate::model::{Along, Load, Method, Model, OWN_TYPES, Scene, Wanted, type_name};
-use crate::plan::{Field, Meaning, Output, reaction_type};
+use crate::model::{Along, By, Load, Method, Model, OWN_TYPES, Part, Scene, Wanted, type_name};
+use crate::plan::{Field, Meaning, Output, coefficient_names, reaction_type};
 
 /// The names of a module. Where several things would have one name, the first has it.
 #[must_use]
@@ -34,6 +34,7 @@ pub fn module(mut model: Model) -> TokenStream {
     let accessors = accessors(model);
     let wrench = super::uses_wrench(&runtime, wrenches(model));
     let sweeps: TokenStream = sweeps(model, &runtime);
+    let inverses = super::inverses::stand_ins(model);
     let from_pose = names
         .iter()
         .zip(&types)
@@ -44,6 +45,12 @@ pub fn module(mut model: Model) -> TokenStream {
         quote!(pub fn #name(#arguments) -> Result<#ty, Error> { loop {} })
     });
     let limits = super::limits::fallback(model, &runtime);
+    let forward = (0..model.scenes.len()).filter_map(|index| {
+        let (ty, signature) = (types.get(index)?, forward_signature(model, index)?);
+        Some(quote!(impl #ty { #signature { loop {} } }))
+    });
+    let forward: TokenStream = forward.collect();
+    let matrices = model.has_matrices().then(|| quote!(use #runtime::nalgebra::{SMatrix, SVector};));
     let (motion, loads) = (motion(model), loads(model, false));
     let closures = closures(model, false);
     let sides = (!closures.is_empty()).then(|| quote!(use #runtime::{Along, Side};));
@@ -60,6 +67,7 @@ pub fn module(mut model: Model) -> TokenStream {
         Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
     };
                 #wrench
+                #matrices
                 pub const EQUATIONS: &str = "";
                 pub const OPERATIONS: &str = "";
                 pub const SOURCE: &str = "";
@@ -76,7 +84,9 @@ pub fn module(mut model: Model) -> TokenStream {
                     #methods
                 }
                 #records
+                #forward
                 #(#direct)*
+                #inverses
                 #sweeps
             }
         }
@@ -226,6 +236,27 @@ fn shape(model: &Model, scene: &Scene) -> Output {
         });
         Output::Record(fields.collect())
     };
+    if let Some(derivative) = &scene.derivative {
+        let of = &Scene { results: scene.results.clone(), ..model.scenes[derivative.of].clone() };
+        let by = derivative.by.iter().map(|variable| {
+            let numbers: Vec<&str> = match variable.by {
+                By::Load(load) => model.load(load).kind.given(model).filter(|value| !value.is_empty()).collect(),
+                _ => Vec::new(),
+            };
+            (variable.name(model), numbers)
+        });
+        let mut seen = BTreeSet::new();
+        let by = by.chain(derivative.refused.iter().cloned()).filter(|(name, _)| seen.insert(name.clone()));
+        let by = by.map(|(name, numbers)| {
+            let value = if numbers.is_empty() {
+                shape(model, of)
+            } else {
+                Output::Record(numbers.into_iter().map(|number| field(number, shape(model, of))).collect())
+            };
+            field(&name, value)
+        });
+        return Output::Record(by.collect());
+    }
     match scene.method {
         Method::Superposition => parts(&|| record(model, scene, zero)),
         _ => record(model, scene, zero),
@@ -264,7 +295,15 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
         }
         Output::Record(model.unknowns.iter().map(|unknown| field(&unknown.name, term())).collect())
     };
+    if let (Method::Coefficients, Some(Wanted::Joint(_) | Wanted::Point(_) | Wanted::Angle(_))) = (scene.method, wanted)
+    {
+        let one = if matches!(wanted, Some(Wanted::Angle(_))) { number } else { vector };
+        return Output::Record(coefficient_names(model).iter().map(|name| field(name, one.clone())).collect());
+    }
     match wanted {
+        Some(Wanted::Advantage(_)) if model.unknowns.len() > 1 => {
+            Output::Record(model.unknowns.iter().map(|unknown| field(&unknown.name, number.clone())).collect())
+        }
         Some(Wanted::Joint(joint)) => {
             let ty = model.joints.get(joint.index()).and_then(|joint| reaction_type(&joint.kind));
             match ty.filter(|_| scene.method.has_loads()) {
@@ -296,8 +335,21 @@ fn value(model: &Model, scene: &Scene, wanted: Option<Wanted>, zero: NodeId) -> 
             Output::Reaction { ty: "Wrench", force: [zero, zero], parts: vec![("moment", zero)] }
         }
         Some(Wanted::Offset(_)) => Output::Record(vec![field("distance", number), field("vector", vector)]),
+        Some(Wanted::Part(part)) => match (model.unknowns.len(), part) {
+            (0 | 1, _) => number,
+            (unknowns, Part::Bias) => Output::Column(vec![zero; unknowns]),
+            (unknowns, _) => Output::Matrix(vec![vec![zero; unknowns]; unknowns]),
+        },
         Some(Wanted::Along(..)) => Output::Resolved([zero, zero]),
-        Some(Wanted::Unknown(_) | Wanted::Angle(_) | Wanted::About(..) | Wanted::Power(_)) | None => number,
+        Some(
+            Wanted::Unknown(_)
+            | Wanted::Angle(_)
+            | Wanted::About(..)
+            | Wanted::Power(_)
+            | Wanted::Driver(..)
+            | Wanted::Advantage(_),
+        )
+        | None => number,
     }
 }
 

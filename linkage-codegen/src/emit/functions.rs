@@ -7,12 +7,12 @@ use quote::quote;
 
 use super::body::Body;
 use super::literals::ident;
-use super::types::{drive_doc, has_params, output_type, record_name, scalar};
+use super::types::{drive_doc, has_params, linkage_type, motion_type, output_type, record_name, scalar};
 use super::{docs, prepared_names};
 use crate::Linkage;
 use crate::graph::Symbol;
 use crate::model::ids::{DriveId, LoadId};
-use crate::model::{LoadKind, Method, type_name};
+use crate::model::{LoadKind, Method, Model, type_name};
 use crate::plan::{Comparison, Output};
 use crate::program::{Input, Program, ValueId};
 
@@ -106,13 +106,18 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
         statements.extend(quote!(let Self { #(#kept,)* .. } = *self;));
     }
     if !prepared.is_empty() {
-        statements.extend(quote!(let Linkage { #(#prepared,)* .. } = *linkage;));
+        let ty = linkage_type(&linkage.model);
+        // What is prepared for an inverse scene is a part of the linkage.
+        let of = linkage.model.exchanged.as_ref().map(|_| super::inverses::prepared_name(linkage));
+        let whole = of.map_or_else(|| quote!(*linkage), |part| quote!(linkage.#part));
+        statements.extend(quote!(let #ty { #(#prepared,)* .. } = #whole;));
     }
     if drives == Drives::Lane {
         return statements;
     }
     if !motion.is_empty() {
-        statements.extend(quote!(let Motion { #(#motion,)* .. } = *motion;));
+        let ty = motion_type(&linkage.model);
+        statements.extend(quote!(let #ty { #(#motion,)* .. } = *motion;));
     }
     for (load, read) in loads {
         let data = linkage.model.load(load);
@@ -161,6 +166,20 @@ fn result(
         Output::Vector(..) => {
             let (x, y) = (next(), next());
             quote!(Vector2::new(#x, #y))
+        }
+        Output::Column(values) => {
+            let values = values.iter().map(|_| next()).collect::<Vec<_>>();
+            quote!(SVector::from([#(#values),*]))
+        }
+        Output::Matrix(rows) => {
+            // Column by column, as they come.
+            let columns: Vec<TokenStream> = (0..rows.len())
+                .map(|_| {
+                    let values = rows.iter().map(|_| next()).collect::<Vec<_>>();
+                    quote!([#(#values),*])
+                })
+                .collect();
+            quote!(SMatrix::from([#(#columns),*]))
         }
         Output::Resolved(_) => {
             let (axial, transverse) = (next(), next());
@@ -281,17 +300,25 @@ pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
     let (statements, body) = body(linkage, &program).statements();
     let fields = program.outputs.iter().map(|(name, value)| member(name, &body.value(*value)));
     let given = given_params(linkage);
+    let inverses = linkage.inverses.iter().map(|inverse| {
+        let (name, ty) = (super::inverses::prepared_name(inverse), linkage_type(&inverse.model));
+        quote!(#name: #ty::new(params)?)
+    });
+    let (ty, visibility) = match linkage.model.exchanged {
+        Some(_) => (linkage_type(&linkage.model), None),
+        None => (ident("Linkage"), Some(quote!(pub))),
+    };
     quote! {
-        impl Linkage {
+        impl #ty {
             /// Prepares the linkage of some dimensions.
             ///
             /// # Errors
             ///
             /// [`Error::Parameter`] if a dimension is out of its range, [`Error::NotFinite`] if one is not a finite number.
-            pub fn new(params: &Params) -> Result<Self, Error> {
+            #visibility fn new(params: &Params) -> Result<Self, Error> {
                 #given
                 #statements
-                Ok(Self { #(#fields),* })
+                Ok(Self { #(#fields,)* #(#inverses),* })
             }
         }
     }
@@ -410,7 +437,7 @@ pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
     let program = without_input_checks(&linkage.functions.scenes[index].from_pose);
     let name = ident(&scene.name.text);
     let ty = output_type(&linkage.model, &linkage.plan.scenes[index], &type_name(&scene.name.text));
-    let given = given_arguments(&program);
+    let given = given_arguments(linkage, &program);
     let prepared = prepared_of_pose(linkage, &program);
     let bindings = bindings(linkage, &program, Drives::Pose);
     let (statements, body) = body(linkage, &program).statements();
@@ -439,10 +466,88 @@ fn without_input_checks(program: &Program) -> Program {
 }
 
 /// The arguments behind the drives.
-fn given_arguments(program: &Program) -> TokenStream {
-    let motion = program.reads_motion().then(|| quote!(, motion: &Motion));
+fn given_arguments(linkage: &Linkage, program: &Program) -> TokenStream {
+    let ty = motion_type(&linkage.model);
+    let motion = program.reads_motion().then(|| quote!(, motion: &#ty));
     let loads = program.reads_loads().then(|| quote!(, loads: &Loads));
     quote!(#motion #loads)
+}
+
+/// Of an equation of motion, the accelerations that follow from efforts; none if a part of it is missing.
+pub(super) fn forward(model: &Model, index: usize) -> TokenStream {
+    let name = &model.scenes[index].name.text;
+    let Some(signature) = super::types::forward_signature(model, index) else { return TokenStream::new() };
+    let ty = ident(&type_name(name));
+    let unknowns = model.unknowns.len();
+    let body = if unknowns == 1 {
+        quote! {
+            let Self { M, h, rounding, .. } = *self;
+            if !(M.abs() > rounding) {
+                return Err(Error::NoInertia { scene: #name });
+            }
+            let acceleration = (effort - h) / M;
+            if !math::all_finite([acceleration]) {
+                return Err(Error::NotFinite { what: "an effort or an acceleration" });
+            }
+            Ok(acceleration)
+        }
+    } else {
+        // A pivot counts against the rounding that the same elimination makes of that of the masses.
+        let number = |name: &str, row: usize, column: usize| ident(&format!("{name}_{}_{}", row + 1, column + 1));
+        let list = |one: &dyn Fn(usize) -> TokenStream| {
+            let all = (0..unknowns).map(one).collect::<Vec<_>>();
+            quote!([#(#all),*])
+        };
+        // Matrices of nalgebra are stored by columns.
+        let [by_rows, by_columns] = [false, true].map(|by_columns| {
+            move |name: &'static str| {
+                list(&|outer| {
+                    list(&|inner| {
+                        let (row, column) = if by_columns { (inner, outer) } else { (outer, inner) };
+                        let name = number(name, row, column);
+                        quote!(#name)
+                    })
+                })
+            }
+        });
+        let part = |name: &str, row: usize| ident(&format!("{name}_{}", row + 1));
+        let [efforts, biases] = ["effort", "h"].map(|name| {
+            list(&|row| {
+                let name = part(name, row);
+                quote!(#name)
+            })
+        });
+        let open = list(&|row| {
+            let (effort, bias) = (part("effort", row), part("h", row));
+            quote!(#effort - #bias)
+        });
+        let [masses, roundings] = ["M", "rounding"].map(by_columns);
+        let [matrix, sizes] = ["M", "rounding"].map(by_rows);
+        quote! {
+            let (#masses, #roundings) = (self.M.data.0, self.rounding.data.0);
+            let ([#biases], [#efforts]) = (self.h.data.0, effort.data.0);
+            let (accelerations, distance) = math::solve(#matrix, #sizes, #open);
+            if !(distance.abs() > 1.0) {
+                return Err(Error::NoInertia { scene: #name });
+            }
+            if !math::all_finite(accelerations) {
+                return Err(Error::NotFinite { what: "an effort or an acceleration" });
+            }
+            Ok(SVector::from(accelerations))
+        }
+    };
+    quote! {
+        impl #ty {
+            /// Forward dynamics: the accelerations of the drives under given efforts, `q̈ = M⁻¹ (τ − h)`.
+            ///
+            /// # Errors
+            ///
+            /// * [`Error::NoInertia`]: `M` is singular: no mass resists some acceleration, or none that is more than rounding.
+            /// * [`Error::NotFinite`]: an effort is not a finite number, or an acceleration is too large for one.
+            #[inline]
+            #signature { #body }
+        }
+    }
 }
 
 /// A scene straight from the drives.
@@ -451,7 +556,7 @@ pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
     let program = &linkage.functions.scenes[index].direct;
     let name = ident(&format!("{}_at", scene.name));
     let ty = output_type(&linkage.model, &linkage.plan.scenes[index], &type_name(&scene.name.text));
-    let given = given_arguments(program);
+    let given = given_arguments(linkage, program);
     let prepared = linkage_argument(linkage, &TokenStream::new());
     let arguments = drive_arguments(linkage);
     let bindings = bindings(linkage, program, Drives::Arguments);
@@ -459,11 +564,15 @@ pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
     let base = type_name(&scene.name.text);
     let value =
         result(scene.method, &base, &base, &linkage.plan.scenes[index], &mut outputs(&body, program).into_iter());
-    let point = format!(
-        "The equations are those of [`Pose::at`] and [`Pose::{}`], as far as the results need them.",
-        ident(&scene.name.text)
-    );
-    let lines = docs::function(&docs::scene_summary(linkage, index, false), &[point], program, &[]);
+    let points = match scene.method {
+        Method::Inverse => super::inverses::points(linkage),
+        _ => vec![format!(
+            "The equations are those of [`Pose::at`] and [`Pose::{}`], as far as the results need them.",
+            ident(&scene.name.text)
+        )],
+    };
+    let equations = if scene.method == Method::Inverse { body.equations(&linkage.model) } else { Vec::new() };
+    let lines = docs::function(&docs::scene_summary(linkage, index, false), &points, program, &equations);
     quote! {
         #lines
         #[inline]

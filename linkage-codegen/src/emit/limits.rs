@@ -155,27 +155,11 @@ impl Literals {
         match shape {
             Shape::FourBar(_) => {
                 let class = ident(known.class.map_or("ChangePoint", crate::limits::Grashof::name));
-                quote! {
-                    limits::FourBar {
-                        class: limits::Grashof::#class,
-                        range: #range,
-                        dead_centres: [#first, #second],
-                        swing: #stroke,
-                        transmission: #transmission,
-                    }
-                }
+                four_bar(&quote!(limits::Grashof::#class), &range, &[first, second], &stroke, transmission.as_ref())
             }
-            Shape::SliderCrank(slider_crank) => {
-                let (inversion, transmission) = (inversion(slider_crank), optional(transmission));
-                quote! {
-                    limits::SliderCrank {
-                        inversion: #inversion,
-                        range: #range,
-                        dead_centres: [#first, #second],
-                        stroke: #stroke,
-                        transmission: #transmission,
-                    }
-                }
+            Shape::SliderCrank(shape) => {
+                let (inversion, transmission) = (inversion(shape), optional(transmission));
+                slider_crank(&inversion, &range, &[first, second], &stroke, &transmission)
             }
             Shape::DrivenSlide(_) => quote!(limits::DrivenSlide { range: #range }),
         }
@@ -205,6 +189,44 @@ impl Literals {
                 let (first, second) = (interval(first), interval(second));
                 quote!(limits::DriverRange::Two([#first, #second]))
             }
+        }
+    }
+}
+
+/// What is known of a four-bar.
+fn four_bar(
+    class: &TokenStream,
+    range: &TokenStream,
+    [first, second]: &[TokenStream; 2],
+    swing: &TokenStream,
+    transmission: Option<&TokenStream>,
+) -> TokenStream {
+    quote! {
+        limits::FourBar {
+            class: #class,
+            range: #range,
+            dead_centres: [#first, #second],
+            swing: #swing,
+            transmission: #transmission,
+        }
+    }
+}
+
+/// What is known of a slider-crank.
+fn slider_crank(
+    inversion: &TokenStream,
+    range: &TokenStream,
+    [first, second]: &[TokenStream; 2],
+    stroke: &TokenStream,
+    transmission: &TokenStream,
+) -> TokenStream {
+    quote! {
+        limits::SliderCrank {
+            inversion: #inversion,
+            range: #range,
+            dead_centres: [#first, #second],
+            stroke: #stroke,
+            transmission: #transmission,
         }
     }
 }
@@ -268,35 +290,19 @@ impl Values {
         match shape {
             Shape::FourBar(FourBar { balances, range, dead_centres, swing, transmission, .. }) => {
                 let (balances, range, swing) = (self.all(balances), self.turning(range), self.stroke(swing));
-                let [first, second] = dead_centres.each_ref().map(|dead| self.possible(dead));
+                let dead_centres = dead_centres.each_ref().map(|dead| self.possible(dead));
                 let transmission = self.extremes(transmission);
-                quote! {
-                    limits::FourBar {
-                        class: math::grashof(#balances),
-                        range: #range,
-                        dead_centres: [#first, #second],
-                        swing: #swing,
-                        transmission: #transmission,
-                    }
-                }
+                four_bar(&quote!(math::grashof(#balances)), &range, &dead_centres, &swing, Some(&transmission))
             }
-            Shape::SliderCrank(slider_crank) => {
-                let (inversion, range) = (inversion(slider_crank), self.turning(&slider_crank.range));
+            Shape::SliderCrank(shape) => {
+                let (inversion, range) = (inversion(shape), self.turning(&shape.range));
                 let dead = |index: usize| {
-                    slider_crank.dead_centres.get(index).map_or_else(|| quote!(None), |dead| self.possible(dead))
+                    shape.dead_centres.get(index).map_or_else(|| quote!(None), |dead| self.possible(dead))
                 };
                 let (first, second) = (dead(0), dead(1));
-                let stroke = slider_crank.stroke.as_ref().map_or_else(|| quote!(None), |stroke| self.stroke(stroke));
-                let transmission = optional(slider_crank.transmission.as_ref().map(|both| self.extremes(both)));
-                quote! {
-                    limits::SliderCrank {
-                        inversion: #inversion,
-                        range: #range,
-                        dead_centres: [#first, #second],
-                        stroke: #stroke,
-                        transmission: #transmission,
-                    }
-                }
+                let stroke = shape.stroke.as_ref().map_or_else(|| quote!(None), |stroke| self.stroke(stroke));
+                let transmission = optional(shape.transmission.as_ref().map(|both| self.extremes(both)));
+                slider_crank(&inversion, &range, &[first, second], &stroke, &transmission)
             }
             Shape::DrivenSlide(DrivenSlide { centre, near: [margin, near], far, joint }) => {
                 let [centre, margin, near, far] = [centre, margin, near, far].map(|node| self.value(*node));

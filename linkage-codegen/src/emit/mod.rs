@@ -6,6 +6,7 @@ mod equations;
 mod fallback;
 mod formula;
 mod functions;
+mod inverses;
 mod limits;
 mod literals;
 mod search;
@@ -77,10 +78,13 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     let sweeps: TokenStream = model.sweeps.iter().map(|sweep| sweeps::function(linkage, sweep, &runtime)).collect();
     let closures = types::closures(model, true);
     let sides = (!closures.is_empty()).then(|| quote!(use #runtime::{Along, Side};));
+    let matrices = model.has_matrices().then(|| quote!(use #runtime::nalgebra::{SMatrix, SVector};));
     let scenes = 0..model.scenes.len();
     let results: TokenStream = scenes.clone().map(|s| types::results(model, s, &linkage.plan.scenes[s])).collect();
+    let forward: TokenStream = scenes.clone().map(|s| functions::forward(model, s)).collect();
     let from_pose: TokenStream = scenes.clone().map(|s| functions::from_pose(linkage, s)).collect();
     let direct: TokenStream = scenes.map(|s| functions::direct(linkage, s)).collect();
+    let inverses: TokenStream = linkage.inverses.iter().map(inverses::function).collect();
     let (generics, elided) = if types::has_params(linkage) {
         (quote!(<'l>), quote!(<'l>))
     } else {
@@ -102,6 +106,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     };
                 #reference
                 #wrench
+                #matrices
                 #sides
 
                 /// The derivation: free bodies, equilibrium equations, reduction, closed forms.
@@ -123,7 +128,9 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
                     #from_pose
                 }
                 #results
+                #forward
                 #direct
+                #inverses
                 #sweeps
                 #searches
             }
@@ -149,6 +156,9 @@ pub fn operations(linkage: &Linkage) -> String {
     for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
         text.push_str(&format!("{:<28} {}\n", format!("Pose::{}", scene.name), functions.from_pose.counts()));
         text.push_str(&format!("{:<28} {}\n", format!("{}_at", scene.name), functions.direct.counts()));
+    }
+    for (scene, program) in linkage.inverses.iter().filter_map(inverses::scene) {
+        text.push_str(&format!("{:<28} {}\n", format!("{}_at", scene.name), program.counts()));
     }
     text
 }

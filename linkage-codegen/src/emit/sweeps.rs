@@ -64,6 +64,22 @@ fn slices(output: &Output) -> Vec<(String, String)> {
     all.filter(|(name, _)| seen.insert(name.clone())).collect()
 }
 
+/// The number of a result that has this path. Entries of columns and matrices are counted from 1; nalgebra keeps them column by column.
+fn number_of(path: &str) -> TokenStream {
+    let (names, places): (Vec<&str>, Vec<&str>) = path.split('.').partition(|part| part.parse::<usize>().is_err());
+    let names = names.into_iter().map(ident);
+    let places: Vec<_> = places.iter().filter_map(|part| part.parse::<usize>().ok()).map(|place| place - 1).collect();
+    let entry = match places.as_slice() {
+        [] => None,
+        [row, columns @ ..] => {
+            let column = Literal::usize_unsuffixed(columns.first().copied().unwrap_or(0));
+            let row = Literal::usize_unsuffixed(*row);
+            Some(quote!(.data.0[#column][#row]))
+        }
+    };
+    quote!(solved #(.#names)* #entry)
+}
+
 /// Where the results go.
 fn results(model: &Model, sweep: &Sweep, output: &Output) -> TokenStream {
     let scalar = scalar(model);
@@ -252,10 +268,7 @@ pub(super) fn function(linkage: &Linkage, sweep: &Sweep, runtime: &TokenStream) 
     let slices = slices(output);
     let fields: Vec<_> = slices.iter().map(|(name, _)| ident(name)).collect();
     let texts: Vec<_> = slices.iter().map(|(name, _)| name).collect();
-    let paths = slices.iter().map(|(_, path)| {
-        let parts = path.split('.').map(ident);
-        quote!(solved #(.#parts)*)
-    });
+    let paths = slices.iter().map(|(_, path)| number_of(path));
     let (motion, loads) = (model.swept_motion(scene), model.swept_loads(scene));
     let given_names = model.drives.iter().map(|drive| drive.name.text.clone());
     let given_names = given_names.chain(motion.iter().map(|(drive, order)| drive.motion_name(*order)));

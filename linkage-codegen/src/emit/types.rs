@@ -1,6 +1,6 @@
 //! The types of a module: loads, parameters, pose, results.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::literals::{ident, signed_literal};
@@ -8,7 +8,7 @@ use crate::Linkage;
 use crate::graph::Order;
 use crate::model::ids::{GROUND, JointId, LoadId};
 use crate::model::units::Kind;
-use crate::model::{Drive, Load, LoadKind, Method, Model, type_name};
+use crate::model::{Drive, Load, LoadKind, Method, Model, Part, Wanted, type_name};
 use crate::plan::Output;
 
 /// The scalar type.
@@ -72,30 +72,46 @@ pub fn given_motion(model: &Model) -> Vec<(&Drive, Order)> {
     model.drives.iter().flat_map(of).collect()
 }
 
+/// The type of what is given of the drives' motion: of an inverse scene, what is wanted.
+pub(super) fn motion_type(model: &Model) -> Ident {
+    of_inverse(model, "Motion")
+}
+
+/// The type of the prepared linkage: of an inverse scene, of what is prepared for it.
+pub(super) fn linkage_type(model: &Model) -> Ident {
+    of_inverse(model, "Linkage")
+}
+
+fn of_inverse(model: &Model, name: &str) -> Ident {
+    match (&model.exchanged, model.scenes.first()) {
+        (Some(_), Some(scene)) => ident(&format!("{}{name}", type_name(&scene.name.text))),
+        _ => ident(name),
+    }
+}
+
 /// `Motion`: rates and accelerations of the drives that do not declare them; none if nothing moves.
 pub(super) fn motion(model: &Model) -> TokenStream {
-    let scalar = scalar(model);
+    let (scalar, ty) = (scalar(model), motion_type(model));
     let fields = given_motion(model).into_iter().map(|(drive, order)| {
         let name = ident(&drive.motion_name(order));
         let what = match order {
             Order::Rate => "Rate",
             Order::Acceleration => "Acceleration",
         };
-        let doc = format!(
-            " {what} of the drive `{}`, {}.",
-            drive.name,
-            Drive::kind_of(order, drive.turns).unit(&model.units)
-        );
+        let of = if model.exchanged.is_some() { "of" } else { "of the drive" };
+        let unit = Drive::kind_of(order, drive.turns).unit(&model.units);
+        let doc = format!(" {what} {of} `{}`, {unit}.", drive.name);
         quote!(#[doc = #doc] pub #name: #scalar)
     });
     let fields: Vec<TokenStream> = fields.collect();
     if fields.is_empty() {
         return TokenStream::new();
     }
+    let doc = if model.exchanged.is_some() { " The motion that is wanted." } else { " The motion of the drives." };
     quote! {
-        /// The motion of the drives.
+        #[doc = #doc]
         #[derive(Clone, Copy, Debug, Default, PartialEq)]
-        pub struct Motion { #(#fields),* }
+        pub struct #ty { #(#fields),* }
     }
 }
 
@@ -219,10 +235,10 @@ pub(super) fn params(linkage: &Linkage, new: &TokenStream) -> TokenStream {
             }
         }
     });
-    let prepared = super::prepared_names(linkage).into_iter().map(|(name, doc)| {
-        let name = ident(&name);
-        let doc = format!(" {doc}");
-        quote!(#[doc = #doc] #name: #scalar)
+    let prepared = prepared_fields(linkage);
+    let inverses = linkage.inverses.iter().map(|inverse| {
+        let (name, ty) = (super::inverses::prepared_name(inverse), linkage_type(&inverse.model));
+        quote!(#name: #ty)
     });
     quote! {
         /// The dimensions that are given at run time.
@@ -232,9 +248,20 @@ pub(super) fn params(linkage: &Linkage, new: &TokenStream) -> TokenStream {
 
         /// The linkage with its dimensions: validated, and all that depends on them alone computed.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct Linkage { #(#prepared),* }
+        pub struct Linkage { #(#prepared,)* #(#inverses),* }
         #new
     }
+}
+
+/// What is computed of the parameters alone.
+pub(super) fn prepared_fields(linkage: &Linkage) -> Vec<TokenStream> {
+    let scalar = scalar(&linkage.model);
+    let fields = super::prepared_names(linkage).into_iter().map(|(name, doc)| {
+        let name = ident(&name);
+        let doc = format!(" {doc}");
+        quote!(#[doc = #doc] #name: #scalar)
+    });
+    fields.collect()
 }
 
 fn capitalised(text: &str) -> String {
@@ -289,6 +316,14 @@ pub(super) fn output_type(model: &Model, output: &Output, record: &str) -> Token
     match output {
         Output::Scalar(..) => quote!(#scalar),
         Output::Vector(..) => quote!(Vector2<#scalar>),
+        Output::Column(values) => {
+            let size = Literal::usize_unsuffixed(values.len());
+            quote!(SVector<#scalar, #size>)
+        }
+        Output::Matrix(rows) => {
+            let size = Literal::usize_unsuffixed(rows.len());
+            quote!(SMatrix<#scalar, #size, #size>)
+        }
         Output::Resolved(_) => quote!(ResolvedForce<#scalar>),
         Output::Reaction { ty, .. } => {
             let ty = ident(ty);
@@ -301,6 +336,23 @@ pub(super) fn output_type(model: &Model, output: &Output, record: &str) -> Token
             quote!(#name)
         }
     }
+}
+
+/// The head of the function that gives accelerations, where a scene has what it needs.
+pub(super) fn forward_signature(model: &Model, index: usize) -> Option<TokenStream> {
+    let scene = &model.scenes[index];
+    let has = |part| scene.results.contains(&Wanted::Part(part));
+    if scene.method != Method::Motion || ![Part::Mass, Part::Bias, Part::Rounding].into_iter().all(has) {
+        return None;
+    }
+    let scalar = scalar(model);
+    let ty = if model.unknowns.len() == 1 {
+        quote!(#scalar)
+    } else {
+        let size = Literal::usize_unsuffixed(model.unknowns.len());
+        quote!(SVector<#scalar, #size>)
+    };
+    Some(quote!(pub fn acceleration(&self, effort: #ty) -> Result<#ty, Error>))
 }
 
 /// The name of the type of a record in a record.
@@ -320,6 +372,7 @@ pub(super) fn results(model: &Model, scene: usize, output: &Output) -> TokenStre
     let base = type_name(&scene.name.text);
     let doc = match scene.method {
         Method::Superposition => format!(" Every load's own part in the scene `{}`.", scene.name),
+        Method::Derivative => format!(" Derivatives, a record for each variable of the scene `{}`.", scene.name),
         _ => format!(" Results of the scene `{}`.", scene.name),
     };
     let mut types = TokenStream::new();

@@ -7,6 +7,7 @@
 mod bodies;
 pub mod joints;
 pub mod loads;
+pub(crate) mod poses;
 
 pub use bodies::Body;
 use joints::{Component, Ends, Shape, Teeth};
@@ -38,7 +39,7 @@ pub enum Source {
 }
 
 /// A scalar unknown of the equilibrium equations, and, of a joint, the constraint that it upholds.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Row {
     /// Where it comes from.
     pub source: Source,

@@ -155,38 +155,16 @@ impl Graph {
             return value.clone();
         }
         let mut of = |id: NodeId| self.evaluate(id, known, done);
-        let zero = || T::from_number(&super::number::Number::zero());
         let value = match self.op(id) {
             Op::Constant(n) => T::from_number(&self.number(n)),
             // A search starts where it is declared to.
             Op::Symbol(Symbol::Start(search, number)) => of(self.start_of(search, number)),
             Op::Symbol(symbol) => known(symbol),
-            Op::Neg(a) => of(a).neg(),
-            Op::Abs(a) => {
-                let a = of(a);
-                if zero().above(&a) { a.neg() } else { a }
-            }
-            Op::NonNegative(a) => {
-                let a = of(a);
-                if a.above(&zero()) { a } else { zero() }
-            }
-            Op::Sqrt(a) => of(a).sqrt(),
-            Op::Add(a, b) => of(a).add(&of(b)),
-            Op::Sub(a, b) => of(a).sub(&of(b)),
-            Op::Mul(a, b) => of(a).mul(&of(b)),
-            Op::Div(a, b) => of(a).div(&of(b)),
-            Op::Where { value, limit, then } => {
-                if of(value).above(&of(limit)) {
-                    of(then)
-                } else {
-                    zero()
-                }
-            }
-            Op::Checked { value, .. } | Op::Quantity(value) | Op::Held(value) => of(value),
             Op::Kernel { kernel, args, part } => {
                 let args: Vec<T> = args.iter().map(|a| of(*a)).collect();
                 self.apply(kernel, &args).swap_remove(usize::from(part))
             }
+            op => op.arithmetic(&mut of),
         };
         done.insert(id, value.clone());
         value

@@ -87,7 +87,7 @@ impl<'g> Expr<'g> {
         }
         let quantity = self.graph.intern(Op::Quantity(self.id));
         let label = Label { name: name.into(), equation: equation.into() };
-        self.graph.arena.borrow_mut().labels.entry(quantity.id).or_insert(label);
+        self.graph.set_label(quantity.id, label);
         quantity
     }
 
@@ -120,6 +120,12 @@ impl<'g> Expr<'g> {
     #[must_use]
     pub fn magnitude(self) -> Self {
         self.magnitude_with(&mut BTreeMap::new())
+    }
+
+    /// The same, where the sizes of some values are known. What is gone into is added to them.
+    #[must_use]
+    pub fn magnitude_given(self, known: &mut BTreeMap<NodeId, Self>) -> Self {
+        self.magnitude_with(known)
     }
 
     /// Values may use each other often: each is gone into once.

@@ -12,6 +12,7 @@ pub mod number;
 pub mod real;
 pub mod rounding;
 mod search;
+pub(crate) mod tangent;
 mod vector;
 
 use core::cell::RefCell;
@@ -238,6 +239,34 @@ pub enum Op<T = NodeId> {
 }
 
 impl<T: Copy> Op<T> {
+    /// What it makes of numbers, checks passed over; `of` gives those that it reads. What reads none, or calls a kernel, is known elsewhere:
+    /// zero here.
+    pub(crate) fn arithmetic<R: real::Real>(&self, of: &mut dyn FnMut(T) -> R) -> R {
+        let zero = || R::from_number(&number::Number::zero());
+        match *self {
+            Self::Constant(_) | Self::Symbol(_) | Self::Kernel { .. } => zero(),
+            Self::Neg(a) => of(a).neg(),
+            Self::Abs(a) => of(a).abs(),
+            Self::NonNegative(a) => {
+                let a = of(a);
+                if a.above(&zero()) { a } else { zero() }
+            }
+            Self::Sqrt(a) => of(a).sqrt(),
+            Self::Add(a, b) => of(a).add(&of(b)),
+            Self::Sub(a, b) => of(a).sub(&of(b)),
+            Self::Mul(a, b) => of(a).mul(&of(b)),
+            Self::Div(a, b) => of(a).div(&of(b)),
+            Self::Where { value, limit, then } => {
+                if of(value).above(&of(limit)) {
+                    of(then)
+                } else {
+                    zero()
+                }
+            }
+            Self::Quantity(a) | Self::Held(a) | Self::Checked { value: a, .. } => of(a),
+        }
+    }
+
     /// What it reads, checks aside.
     #[must_use]
     pub fn operands(&self) -> Vec<T> {
@@ -363,6 +392,11 @@ pub enum Failure<T = NodeId> {
         /// Which one, as `the velocity of C`.
         of: String,
     },
+    /// A joint lies on the other side than is chosen for its group.
+    OtherSide {
+        /// The joint.
+        joint: String,
+    },
     /// A parameter is out of its range.
     Parameter {
         /// What is wrong with it, as `crank: |A0 A| must be positive`.
@@ -394,6 +428,7 @@ impl<T: Copy> Failure<T> {
             Self::DeadCentre { group, pivot } => Failure::DeadCentre { group: group.clone(), pivot: pivot.clone() },
             Self::CoincidentEnds { of } => Failure::CoincidentEnds { of: of.clone() },
             Self::NoDirection { of } => Failure::NoDirection { of: of.clone() },
+            Self::OtherSide { joint } => Failure::OtherSide { joint: joint.clone() },
             Self::Parameter { requirement } => Failure::Parameter { requirement: requirement.clone() },
         }
     }
@@ -428,6 +463,11 @@ struct Arena {
     guards: Vec<Guard>,
     guard_index: HashMap<Guard, GuardId>,
     labels: BTreeMap<NodeId, Label>,
+    /// The scene whose results are being worked out, and in which scene a label was given.
+    scene: Option<usize>,
+    labelled_in: BTreeMap<NodeId, usize>,
+    /// What another scene calls a value that an earlier one has named, and under which heading.
+    labels_of_scenes: BTreeMap<(usize, NodeId), (Label, SectionId)>,
     positive: BTreeSet<NodeId>,
     sections: Vec<String>,
     searches: Vec<Search>,
@@ -510,6 +550,45 @@ impl Graph {
     #[must_use]
     pub fn label(&self, id: NodeId) -> Option<Label> {
         self.arena.borrow().labels.get(&id).cloned()
+    }
+
+    /// A node's name in the functions of a scene, and its heading if that is the scene's own.
+    #[must_use]
+    pub fn label_in(&self, scene: Option<usize>, id: NodeId) -> (Option<Label>, Option<String>) {
+        let arena = self.arena.borrow();
+        let own = scene.and_then(|scene| arena.labels_of_scenes.get(&(scene, id)));
+        match own {
+            Some((label, section)) => (Some(label.clone()), Some(arena.sections[section.0 as usize].clone())),
+            None => (arena.labels.get(&id).cloned(), None),
+        }
+    }
+
+    /// From here on, results of this scene are worked out: what another one has named, it may call by another name.
+    pub fn begin_scene(&self, scene: usize) {
+        self.arena.borrow_mut().scene = Some(scene);
+    }
+
+    /// The results of all scenes are worked out.
+    pub fn end_scenes(&self) {
+        self.arena.borrow_mut().scene = None;
+    }
+
+    fn set_label(&self, id: NodeId, label: Label) {
+        let arena = &mut *self.arena.borrow_mut();
+        let section = SectionId(index(arena.sections.len() - 1));
+        match (arena.labels.get(&id), arena.scene) {
+            (None, scene) => {
+                arena.labels.insert(id, label);
+                arena.labelled_in.extend(scene.map(|scene| (id, scene)));
+            }
+            // A name that the pose gave is that of all.
+            (Some(first), Some(scene))
+                if first.name != label.name && arena.labelled_in.get(&id).is_some_and(|own| *own != scene) =>
+            {
+                arena.labels_of_scenes.entry((scene, id)).or_insert((label, section));
+            }
+            _ => {}
+        }
     }
 
     /// Names a value that a pose keeps.

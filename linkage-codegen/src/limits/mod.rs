@@ -401,8 +401,9 @@ impl<'m> Writing<'m> {
             gap: gap.id(),
         };
         let each = margins.iter().map(|margin| {
-            let fails = margin.sign() == Some(-1);
-            (!fails).then(|| margin.require_at_least(*margin, self.graph.zero(), failure(-*margin)))
+            // A check that always fails says that the linkage has no pose.
+            let checked = margin.require_at_least(*margin, self.graph.zero(), failure(-*margin));
+            (margin.sign() != Some(-1)).then_some(checked)
         });
         each.collect()
     }

@@ -9,6 +9,7 @@ use super::units::Kind;
 use super::{End, Joint, JointKind, Model, Pair};
 use crate::diagnostics::{Diagnostic, Sink, closest, list};
 use crate::graph::NodeId;
+use crate::syntax::JOINTS;
 use crate::syntax::ast::{self, Ast, Item, Name};
 
 pub(super) const NOWHERE: End = End { link: GROUND, point: PointId::FIRST };
@@ -17,7 +18,7 @@ pub(super) const NOWHERE: End = End { link: GROUND, point: PointId::FIRST };
 pub(super) fn joints(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
     for item in &ast.items {
         if let Some((broken, name)) = unread(item, Role::Joint) {
-            let word = ["prismatic", "weld", "slot", "gear"].into_iter().find(|word| broken.is(word));
+            let word = JOINTS.into_iter().find(|word| broken.is(word));
             let kind = stand_in(model, word.unwrap_or_default());
             model.joints.push(Joint { name: name.clone(), from: NOWHERE, to: NOWHERE, kind });
         }

@@ -3,6 +3,7 @@
 
 mod evaluate;
 pub mod ids;
+pub(crate) mod inverses;
 mod joints;
 mod links;
 mod loads;
@@ -22,6 +23,7 @@ use crate::diagnostics::{Diagnostic, Place, Sink};
 use crate::graph::{Expr, Graph, NodeId, Order, Scalar, Symbol, Vector};
 use crate::syntax::ast::{Ast, Name};
 use ids::{ClosureId, DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
+pub use inverses::{Coordinate, Exchanged, Inverse};
 pub use sweeps::Sweep;
 use units::{Kind, Units};
 
@@ -85,6 +87,10 @@ pub struct Model {
     pub scenes: Vec<Scene>,
     /// Which scenes are solved at many positions.
     pub sweeps: Vec<Sweep>,
+    /// Which scenes give the drives for a wanted motion.
+    pub inverses: Vec<Inverse>,
+    /// Of a linkage whose wanted coordinates are its drives: what its drives were.
+    pub exchanged: Option<Exchanged>,
 }
 
 /// A run-time dimension.
@@ -567,6 +573,8 @@ pub struct Scene {
     pub loads: Vec<LoadId>,
     /// For which results.
     pub results: Vec<Wanted>,
+    /// Of a scene of derivatives, of what and by what.
+    pub derivative: Option<Derivative>,
     /// Results that were asked for in vain, and what they are like. None in a sound declaration.
     pub refused: Vec<(String, Option<Wanted>)>,
 }
@@ -577,6 +585,48 @@ impl Scene {
     pub fn has_power(&self) -> bool {
         self.results.iter().any(|wanted| matches!(wanted, Wanted::Power(_)))
     }
+
+    /// Whether the motion of what were drives is among its results; their accelerations, or these or rates.
+    #[must_use]
+    pub fn has_driver_motion(&self, accelerations: bool) -> bool {
+        self.results.iter().any(|wanted| match wanted {
+            Wanted::Driver(_, Some(order)) => !accelerations || *order == Order::Acceleration,
+            _ => false,
+        })
+    }
+}
+
+/// What a scene of derivatives differentiates.
+#[derive(Clone, Debug)]
+pub struct Derivative {
+    /// The scene whose results are differentiated, by its place in the list of scenes.
+    pub of: usize,
+    /// By what.
+    pub by: Vec<Variable>,
+    /// By what in vain: what it would be called, and the numbers that it would have. None in a sound declaration.
+    pub refused: Vec<(String, Vec<&'static str>)>,
+}
+
+/// What results are differentiated by.
+#[derive(Clone, Copy, Debug)]
+pub struct Variable {
+    /// What it is.
+    pub by: By,
+    /// Where it is asked for.
+    pub place: Place,
+}
+
+/// A value of run time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum By {
+    /// The coordinate of a drive.
+    Drive(DriveId),
+    /// Its rate or its acceleration.
+    Driven(DriveId, Order),
+    /// All that is given of a load.
+    Load(LoadId),
+    /// A parameter.
+    Parameter(ParamId),
 }
 
 /// How a scene is solved.
@@ -594,15 +644,37 @@ pub enum Method {
     Superposition,
     /// By velocities of the loads' points.
     VirtualWork,
+    /// The reduced equation of motion.
+    Motion,
+    /// The derivatives of places and angles by the drives.
+    Coefficients,
+    /// The drives for a wanted motion.
+    Inverse,
     /// All of these against the general solution.
     Verify,
+    /// How the results of another scene change.
+    Derivative,
 }
 
 impl Method {
-    /// Whether its results depend on loads.
+    /// Whether its results depend on loads. Those of a derivative may, as the results of its scene do.
     #[must_use]
     pub fn has_loads(self) -> bool {
-        !matches!(self, Self::Position | Self::Velocity | Self::Acceleration)
+        !matches!(
+            self,
+            Self::Position
+                | Self::Velocity
+                | Self::Acceleration
+                | Self::Coefficients
+                | Self::Inverse
+                | Self::Derivative
+        )
+    }
+
+    /// Whether there is nothing to it without loads.
+    #[must_use]
+    pub fn needs_loads(self) -> bool {
+        self.has_loads() && self != Self::Motion
     }
 }
 
@@ -635,8 +707,43 @@ pub enum Wanted {
     OnGround(End),
     /// The power of an unknown; of all of them.
     Power(Option<UnknownId>),
+    /// The mechanical advantage over a load.
+    Advantage(LoadId),
     /// Bounds of the rounding errors of all other results.
     ErrorBound,
+    /// A part of the equation of motion.
+    Part(Part),
+    /// Of a linkage that is driven elsewhere: what was a drive, its rate or its acceleration.
+    Driver(DriveId, Option<Order>),
+}
+
+/// A part of the reduced equation of motion `τ = M q̈ + h`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The efforts for unit accelerations.
+    Mass,
+    /// The efforts without accelerations.
+    Bias,
+    /// What of the masses may be nothing but rounding.
+    Rounding,
+    /// The kinetic energy for unit rates, twice.
+    Kinetic,
+}
+
+impl Part {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Mass, Self::Bias, Self::Rounding, Self::Kinetic];
+
+    /// How it is called.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mass => "M",
+            Self::Bias => "h",
+            Self::Rounding => "rounding",
+            Self::Kinetic => "M_kinetic",
+        }
+    }
 }
 
 /// What moves.
@@ -677,13 +784,13 @@ impl Model {
     }
 
     /// Stands for a value that could not be read: of no known size, sign or place.
-    fn unread(&self) -> Expr<'_> {
+    pub(crate) fn unread(&self) -> Expr<'_> {
         // Another one each time, so that no two of them cancel.
         self.graph.symbol(Symbol::Dimension(u32::try_from(self.graph.len()).unwrap_or(u32::MAX)))
     }
 
     /// Stands for a vector that could not be read.
-    fn unread_vector(&self) -> Vector<'_> {
+    pub(crate) fn unread_vector(&self) -> Vector<'_> {
         Vector::new(self.unread(), self.unread())
     }
 
@@ -752,6 +859,11 @@ impl Model {
             Wanted::OnGround(end) => format!("ground_about_{}", point(end)?),
             Wanted::Power(None) => "power".to_owned(),
             Wanted::Power(Some(unknown)) => format!("{}_power", self.unknowns.get(unknown.index())?.name),
+            Wanted::Advantage(load) => format!("{}_advantage", self.loads.get(load.index())?.name),
+            Wanted::Part(part) => part.name().to_owned(),
+            Wanted::Driver(drive, order) => {
+                Self::driver_name(&self.exchanged.as_ref()?.drives.get(drive.index())?.0, order)
+            }
             Wanted::ErrorBound => scenes::ERROR_BOUND.to_owned(),
         })
     }
@@ -787,8 +899,13 @@ impl Model {
     /// Whether anything is asked for that depends on velocities.
     #[must_use]
     pub fn moves(&self) -> bool {
+        let moving = |scene: &Scene| {
+            matches!(scene.method, Method::Velocity | Method::Motion)
+                || scene.has_power()
+                || scene.has_driver_motion(false)
+        };
         self.accelerates()
-            || self.scenes.iter().any(|scene| scene.method == Method::Velocity || scene.has_power())
+            || self.scenes.iter().any(moving)
             || self.loads.iter().any(|load| load.kind.depends_on_motion())
     }
 
@@ -796,17 +913,24 @@ impl Model {
     #[must_use]
     pub fn scene_moves(&self, scene: &Scene) -> bool {
         let load = |load: &LoadId| self.loads.get(load.index()).is_some_and(|load| load.kind.depends_on_motion());
-        matches!(scene.method, Method::Velocity | Method::Acceleration)
+        let differentiated = scene.derivative.as_ref().and_then(|derivative| self.scenes.get(derivative.of));
+        matches!(scene.method, Method::Velocity | Method::Acceleration | Method::Motion)
             || scene.has_power()
+            || scene.has_driver_motion(false)
             || scene.loads.iter().any(load)
+            || differentiated.is_some_and(|scene| matches!(scene.method, Method::Velocity | Method::Acceleration))
     }
 
     /// Whether the results of a scene depend on accelerations.
     #[must_use]
     pub fn scene_accelerates(&self, scene: &Scene) -> bool {
         let inertia = |load: &LoadId| self.loads.get(load.index()).map(|load| &load.kind);
+        let differentiated = scene.derivative.as_ref().and_then(|derivative| self.scenes.get(derivative.of));
         scene.method == Method::Acceleration
-            || scene.loads.iter().filter_map(inertia).any(|kind| matches!(kind, LoadKind::Inertia))
+            || scene.has_driver_motion(true)
+            || differentiated.is_some_and(|scene| scene.method == Method::Acceleration)
+            || scene.method != Method::Motion
+                && scene.loads.iter().filter_map(inertia).any(|kind| matches!(kind, LoadKind::Inertia))
     }
 
     /// Whether any result is a resultant of forces.
@@ -819,8 +943,29 @@ impl Model {
     /// Whether anything is asked for that depends on accelerations.
     #[must_use]
     pub fn accelerates(&self) -> bool {
-        self.scenes.iter().any(|scene| scene.method == Method::Acceleration)
+        self.scenes.iter().any(|scene| scene.method == Method::Acceleration || scene.has_driver_motion(true))
             || self.loads.iter().any(|load| matches!(load.kind, LoadKind::Inertia))
+    }
+
+    /// Whether equations of motion have matrices, because there are several drives.
+    #[must_use]
+    pub fn has_matrices(&self) -> bool {
+        self.unknowns.len() > 1 && self.scenes.iter().any(|scene| scene.method == Method::Motion)
+    }
+
+    /// The links whose masses count in the equation of motion: those of its loads `inertia`, as often as these name them; all that have
+    /// mass, if it has no such load.
+    #[must_use]
+    pub fn moved_masses(&self, scene: &Scene) -> Vec<LinkId> {
+        let inertia =
+            scene.loads.iter().map(|load| self.load(*load)).filter(|load| matches!(load.kind, LoadKind::Inertia));
+        let named: Vec<&Load> = inertia.collect();
+        let links: Vec<LinkId> = if named.is_empty() {
+            self.moving_links().collect()
+        } else {
+            named.into_iter().flat_map(|load| load.links.iter().copied()).collect()
+        };
+        links.into_iter().filter(|link| self.link(*link).mass.is_some()).collect()
     }
 
     /// All links but the ground.
@@ -832,6 +977,32 @@ impl Model {
     #[must_use]
     pub fn closure(&self, id: ClosureId) -> &Closure {
         &self.closures[id.index()]
+    }
+
+    /// The closures that fit a group with this inner joint between these outer ones.
+    pub fn fitting_closures<'a>(
+        &'a self,
+        inner: JointId,
+        outer: &'a [JointId],
+    ) -> impl Iterator<Item = ClosureId> + 'a {
+        let own = move |joint: &JointId| *joint == inner || outer.contains(joint);
+        // Where a linkage is driven otherwise, what is said of a joint and a slide of the declaration's groups is said of no other slide.
+        let sides = self.exchanged.as_ref().map_or(&[][..], |exchanged| &exchanged.closures);
+        let along = move |id: ClosureId| sides.iter().find(|side| side.closure == id).and_then(|side| side.along);
+        let fits = move |id: &ClosureId| {
+            let closure = self.closure(*id);
+            let named = closure.joint == inner && closure.of.iter().all(|of| outer.contains(of));
+            named && along(*id).is_none_or(|joints| joints.iter().all(own))
+        };
+        (0..self.closures.len()).map(ClosureId::new).filter(fits)
+    }
+
+    /// The closure that is declared for a group with this inner joint; if none fits, one of that joint, which is wrong.
+    #[must_use]
+    pub fn closure_at(&self, inner: JointId, outer: &[JointId]) -> Option<ClosureId> {
+        let of_joint = || self.closures.iter().position(|closure| closure.joint == inner).map(ClosureId::new);
+        let wrong = || of_joint().filter(|_| self.exchanged.is_none());
+        self.fitting_closures(inner, outer).next().or_else(wrong)
     }
 
     /// The closures whose sides are arguments, each with its place in the list.
@@ -895,6 +1066,8 @@ pub fn resolve(ast: &Ast, sink: &Sink) -> Model {
         loads: Vec::new(),
         scenes: Vec::new(),
         sweeps: Vec::new(),
+        inverses: Vec::new(),
+        exchanged: None,
     };
     links::params(&mut model, ast, &mut names, sink);
     links::links(&mut model, ast, &names, sink);

@@ -6,7 +6,7 @@ use super::joints::end;
 use super::loads::two_points;
 use super::names::{Names, Role, unread};
 use super::units::Kind;
-use super::{Closure, Drive, JointKind, Model, Side, Start, Unknown, UnknownKind};
+use super::{Closure, Drive, Joint, JointKind, Model, Side, Start, Unknown, UnknownKind};
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::graph::{Expr, NodeId, Order, Symbol};
 use crate::syntax::ast::{self, Ast, Effort, Item, Name, StartFrom};
@@ -64,32 +64,57 @@ fn turns(model: &Model, given: &ast::Drive, joint: JointId, sink: &Sink) -> bool
                 .help("drive another joint, or leave one of them out"),
         );
     }
-    let (coordinate, kind) = (given.coordinate.as_ref(), target.kind.word());
-    let place = coordinate.map_or(given.joint.place(), |coordinate| given.joint.place().to(coordinate.place()));
-    let has = match target.kind {
-        JointKind::Revolute => "angle",
-        JointKind::Prismatic { .. } => "travel",
-        JointKind::Slot { .. } => {
-            if !matches!(asked, Some("angle" | "travel")) {
-                let problem = format!("the slot `{}` has an angle and a travel", target.name);
-                let help = format!("say which one it is: `drive {}: {}.travel;`", given.name, given.joint);
-                sink.report(Diagnostic::new(place, problem).help(help));
+    let written = |coordinate: &str| format!("drive {}: {coordinate};", given.name);
+    let asked = Asked { joint: &given.joint, coordinate: given.coordinate.as_ref(), verb: "drive", written: &written };
+    let (turns, error) = asked.of(target);
+    error.into_iter().for_each(|error| sink.report(error));
+    turns
+}
+
+/// A coordinate of a joint as it is asked for.
+pub(super) struct Asked<'a> {
+    /// The joint.
+    pub(super) joint: &'a Name,
+    /// `.angle` or `.travel`
+    pub(super) coordinate: Option<&'a Name>,
+    /// What is done with it.
+    pub(super) verb: &'a str,
+    /// How it is written rightly.
+    pub(super) written: &'a dyn Fn(&str) -> String,
+}
+
+impl Asked<'_> {
+    /// Whether it is an angle; with what is wrong, if the joint has no such coordinate.
+    pub(super) fn of(&self, target: &Joint) -> (bool, Option<Diagnostic>) {
+        let Self { joint, coordinate, .. } = self;
+        let kind = target.kind.word();
+        let asked = coordinate.map(|coordinate| coordinate.text.as_str());
+        let place = coordinate.map_or(joint.place(), |coordinate| joint.place().to(coordinate.place()));
+        let has = match target.kind {
+            JointKind::Revolute => "angle",
+            JointKind::Prismatic { .. } => "travel",
+            JointKind::Slot { .. } => {
+                let unsaid = !matches!(asked, Some("angle" | "travel"));
+                let error = unsaid.then(|| {
+                    let problem = format!("the slot `{}` has an angle and a travel", target.name);
+                    let help = format!("say which one it is: `{}`", (self.written)(&format!("{joint}.travel")));
+                    Diagnostic::new(place, problem).help(help)
+                });
+                return (asked == Some("angle"), error);
             }
-            return asked == Some("angle");
-        }
-        JointKind::Weld { .. } | JointKind::Gear(_) => {
-            let what = target.kind.noun();
-            let problem = format!("the {what} `{}` has no coordinate of its own", target.name);
-            sink.report(Diagnostic::new(place, problem).help("drive a joint that turns or slides"));
-            return true;
-        }
-    };
-    if let Some(coordinate) = coordinate.filter(|coordinate| coordinate.text != has) {
-        let problem = format!("the {kind} joint `{}` has an {has}, and no {coordinate}", target.name);
-        let problem = if has == "travel" { problem.replace(" an ", " a ") } else { problem };
-        sink.report(Diagnostic::new(place, problem).help(format!("write `drive {}: {};`", given.name, given.joint)));
+            JointKind::Weld { .. } | JointKind::Gear(_) => {
+                let problem = format!("the {} `{}` has no coordinate of its own", target.kind.noun(), target.name);
+                let help = format!("{} a joint that turns or slides", self.verb);
+                return (true, Some(Diagnostic::new(place, problem).help(help)));
+            }
+        };
+        let wrong = coordinate.filter(|coordinate| coordinate.text != has).map(|coordinate| {
+            let problem = format!("the {kind} joint `{}` has an {has}, and no {coordinate}", target.name);
+            let problem = if has == "travel" { problem.replace(" an ", " a ") } else { problem };
+            Diagnostic::new(place, problem).help(format!("write `{}`", (self.written)(&joint.text)))
+        });
+        (has == "angle", wrong)
     }
-    has == "angle"
 }
 
 /// Unknowns: as declared, or the efforts at the driven joints.
@@ -199,7 +224,12 @@ pub(super) fn closures(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink)
         let Item::Assemble(given) = item else { continue };
         let found = closure(Scope { model, names }, given);
         let Some(Some(closure)) = sink.absorb(found) else { continue };
-        if model.closures.iter().any(|c| c.joint == closure.joint) {
+        // A linkage that is also driven otherwise may be assembled at one joint between others.
+        let again = |own: &Closure| {
+            let both_given = own.is_given_at_run_time() && closure.is_given_at_run_time();
+            own.joint == closure.joint && (both_given || own.of.iter().all(|of| closure.of.contains(of)))
+        };
+        if model.closures.iter().any(again) {
             let problem = format!("the side of `{}` is chosen already", given.joint);
             sink.report(Diagnostic::new(closure.place, problem).help("keep one of the two"));
         }

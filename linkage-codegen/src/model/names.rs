@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 use crate::model::units::unit_names;
+use crate::syntax::JOINTS;
 use crate::syntax::ast::{self, Ast, Broken, Item, Name};
 
 /// What a name stands for.
@@ -76,7 +77,7 @@ pub(super) fn role_of(broken: &Broken) -> Option<Role> {
     Some(match keyword.text.as_str() {
         "param" => Role::Param,
         "link" => Role::Link,
-        "revolute" | "prismatic" | "slot" | "weld" | "gear" => Role::Joint,
+        word if JOINTS.contains(&word) => Role::Joint,
         "drive" => Role::Drive,
         "unknown" => Role::Unknown,
         "load" => Role::Load,

@@ -3,14 +3,15 @@
 use std::collections::BTreeMap;
 
 use super::evaluate::Scope;
-use super::ids::{GROUND, JointId, LinkId, LoadId, PointId, UnknownId};
+use super::ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
-use super::sweeps;
-use super::{Along, End, Method, Model, Scene, Spot, Wanted};
+use super::{Along, By, Derivative, End, JointKind, LoadKind, Method, Model, Part, Scene, Spot, Variable, Wanted};
+use super::{inverses, sweeps};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
+use crate::graph::Order;
+use crate::syntax::METHODS;
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
-use crate::syntax::{METHODS, PLANNED_METHODS};
 
 /// Scenes with their loads and results.
 pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
@@ -21,26 +22,166 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
             model.scenes.push(stand_in(model, broken, name));
         }
         let Item::Scene(given) = item else { continue };
-        if sweeps::is_sweep(given) {
+        if sweeps::is_sweep(given) || inverses::is_inverse(given) {
             continue;
         }
         // A scene that is refused still brings its names.
         let method = sink.absorb(method(given)).unwrap_or_else(|| likely_method(&given.method.text));
         let loads = loads(model, given, method, names, sink);
         let (results, refused) = results(model, given, method, &loads, names, sink);
-        if unloaded && method.has_loads() && !told {
+        if unloaded && method.needs_loads() && !told {
             told = true;
             sink.report(
                 Diagnostic::new(given.name.place().to(given.method.place()), "there is no load to balance")
                     .help("declare one, as in `load F: force(coupler.C);`; only `position`, `velocity` and `acceleration` scenes need none"),
             );
         }
-        model.scenes.push(Scene { name: given.name.clone(), method, loads, results, refused });
+        let scene = Scene { name: given.name.clone(), method, loads, results, derivative: None, refused };
+        if method == Method::Motion && sink.is_clean() && model.moved_masses(&scene).is_empty() {
+            sink.report(
+                Diagnostic::new(given.method.place(), "no link has mass: nothing resists an acceleration")
+                    .help("give one to a link, as in `mass coupler: 0.5kg at (0, 0);`"),
+            );
+        }
+        model.scenes.push(scene);
     }
+    inverses::inverses(model, ast, names, sink);
+    derivatives(model, ast, names, sink);
     sweeps::sweeps(model, ast, sink);
     if sink.is_clean() {
         check_generated_names(model, sink);
     }
+}
+
+/// Of what and by what the scenes of derivatives are, once all scenes are there. Their loads and results are those of the others.
+fn derivatives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
+    for item in &ast.items {
+        let Item::Scene(ast::Scene { name, derivative: Some(given), .. }) = item else { continue };
+        let found = sink.absorb(differentiated(model, given, names)).flatten();
+        let (mut by, mut refused_by): (Vec<Variable>, _) = (Vec::new(), Vec::new());
+        for end in &given.by {
+            let Some(variable) = sink.absorb(variable(model, end, names)).flatten() else {
+                refused_by.push(in_vain(model, end, names));
+                continue;
+            };
+            if by.iter().any(|other| other.by == variable.by) {
+                let problem = format!("`{}` is listed twice", end.written());
+                sink.report(Diagnostic::new(end.place(), problem).help("leave one of them out"));
+            } else {
+                by.push(variable);
+            }
+        }
+        if given.by.is_empty() {
+            let problem = format!("the results of `{}` are differentiated by nothing", given.of);
+            sink.report(
+                Diagnostic::new(given.of.place(), problem)
+                    .help("list drives, loads that are given at run time, or parameters"),
+            );
+        }
+        let own = model.scenes.iter().position(|scene| scene.name.text == name.text);
+        let (Some(own), Some(of)) = (own, found) else { continue };
+        let (loads, mut results, refused) = {
+            let Scene { loads, results, refused, .. } = &model.scenes[of];
+            (loads.clone(), results.clone(), refused.clone())
+        };
+        // How uncertain the other results are is none that varies smoothly.
+        results.retain(|wanted| *wanted != Wanted::ErrorBound);
+        let scene = &mut model.scenes[own];
+        (scene.loads, scene.results, scene.refused) = (loads, results, refused);
+        scene.derivative = Some(Derivative { of, by, refused: refused_by });
+    }
+}
+
+/// The scene that is differentiated.
+fn differentiated(model: &Model, given: &ast::Derivative, names: &Names) -> Result<Option<usize>, Diagnostic> {
+    if names.find(Role::Scene, &given.of)?.is_none() {
+        return Ok(None);
+    }
+    let Some(of) = model.scenes.iter().position(|scene| scene.name.text == given.of.text) else {
+        return Err(Diagnostic::new(
+            given.of.place(),
+            format!("`{}` is a sweep: it has no results of its own", given.of),
+        )
+        .help("differentiate the scene that it sweeps; a scene of derivatives can be swept itself"));
+    };
+    let what = match model.scenes[of].method {
+        Method::Derivative => "a derivative of a derivative is not supported",
+        Method::Verify => "how far methods disagree is nothing to differentiate",
+        Method::Motion => "the derivative of an equation of motion is not supported",
+        Method::Inverse => "the derivative of an inverse scene is not supported",
+        _ => return Ok(Some(of)),
+    };
+    Err(Diagnostic::new(given.of.place(), what)
+        .help("differentiate a scene of positions, velocities, accelerations or forces"))
+}
+
+/// What results are differentiated by: `theta`, `theta.rate`, `F13`, `l2`.
+fn variable(model: &Model, end: &ast::End, names: &Names) -> Result<Option<Variable>, Diagnostic> {
+    let (name, place) = (&end.link, end.place());
+    let found = |by| Ok(Some(Variable { by, place }));
+    let known = names.entry(&name.text).map(|entry| (entry.role, entry.index, entry.sound));
+    if let (Some((role, ..)), Some(part)) = (known, &end.point)
+        && matches!(role, Role::Load | Role::Param)
+    {
+        let problem = format!("`{}` is no variable by itself", end.written());
+        let whole = if role == Role::Load { ": there is a field for each of its numbers" } else { "" };
+        return Err(Diagnostic::new(part.place(), problem).help(format!("write `{name}`{whole}")));
+    }
+    match known {
+        Some((Role::Broken, ..) | (_, _, false)) => Ok(None),
+        Some((Role::Drive, index, _)) => {
+            let (id, Some(drive)) = (DriveId::new(index), model.drives.get(index)) else { return Ok(None) };
+            let order = match end.point.as_ref().map(|part| part.text.as_str()) {
+                None => return found(By::Drive(id)),
+                Some("rate") => Order::Rate,
+                Some("acceleration") => Order::Acceleration,
+                Some(other) => {
+                    let place = end.point.as_ref().map_or(place, Name::place);
+                    let problem = format!("the drive `{name}` has no `{other}`");
+                    return Err(Diagnostic::new(place, problem).suggest(other, ["rate", "acceleration"]));
+                }
+            };
+            if drive.given_motion(&model.graph).any(|given| given == order) {
+                return found(By::Driven(id, order));
+            }
+            Err(Diagnostic::new(place, format!("`{}` is declared, and does not vary", end.written()))
+                .help(format!("leave its value out of the drive `{name}`: then it is given at run time")))
+        }
+        Some((Role::Load, index, _)) => {
+            let (id, Some(load)) = (LoadId::new(index), model.loads.get(index)) else { return Ok(None) };
+            if load.kind.is_given_at_run_time(model) {
+                return found(By::Load(id));
+            }
+            Err(match load.kind {
+                LoadKind::Inertia => {
+                    Diagnostic::new(place, format!("nothing of the inertia `{name}` is given at run time"))
+                        .help("differentiate by the acceleration of a drive, or by a mass that is a parameter")
+                }
+                _ => Diagnostic::new(place, format!("the load `{name}` is a constant, and does not vary"))
+                    .help("leave its value out, or write `_` for a value of a spring: then it is given at run time"),
+            })
+        }
+        Some((Role::Param, index, _)) => found(By::Parameter(ParamId::new(index))),
+        None if [Role::Drive, Role::Load, Role::Param].into_iter().any(|role| names.may_be(role)) => Ok(None),
+        Some((role, ..)) => {
+            let problem = format!("`{name}` is {}, and nothing that varies by itself", role.describe());
+            Err(Diagnostic::new(name.place(), problem)
+                .help("differentiate by a drive, a load that is given at run time, or a parameter"))
+        }
+        None => {
+            let known = names.of(Role::Drive).chain(names.of(Role::Load)).chain(names.of(Role::Param));
+            Err(Diagnostic::new(name.place(), format!("there is no drive, load or parameter `{name}`"))
+                .suggest(&name.text, known))
+        }
+    }
+}
+
+/// What a refused variable would be called, and the numbers that it would have.
+fn in_vain(model: &Model, end: &ast::End, names: &Names) -> (String, Vec<&'static str>) {
+    let known = names.entry(&end.link.text).filter(|entry| entry.role == Role::Load).map(|entry| entry.index);
+    let load = known.and_then(|index| model.loads.get(index));
+    let numbers = load.map(|load| load.kind.values().into_iter().map(|(name, _)| name).filter(|name| !name.is_empty()));
+    (end.written().replace('.', "_"), numbers.into_iter().flatten().collect())
 }
 
 /// The method that a refused one is most like.
@@ -48,8 +189,11 @@ fn likely_method(word: &str) -> Method {
     match word {
         "velocity" => Method::Velocity,
         "acceleration" => Method::Acceleration,
-        "inverse" | "position" => Method::Position,
+        "coefficients" => Method::Coefficients,
+        "position" => Method::Position,
         "verify" => Method::Verify,
+        "motion" => Method::Motion,
+        "derivative" => Method::Derivative,
         _ => Method::Equilibrium,
     }
 }
@@ -69,7 +213,7 @@ fn stand_in(model: &Model, broken: &ast::Broken, name: &Name) -> Scene {
         .collect();
     let loads = if named.is_empty() { (0..all).map(LoadId::new).collect() } else { named };
     let results = all_results(model, method, &loads);
-    Scene { name: name.clone(), method, loads, results, refused: Vec::new() }
+    Scene { name: name.clone(), method, loads, results, derivative: None, refused: Vec::new() }
 }
 
 fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
@@ -77,17 +221,16 @@ fn method(given: &ast::Scene) -> Result<Method, Diagnostic> {
         "position" => Ok(Method::Position),
         "velocity" => Ok(Method::Velocity),
         "acceleration" => Ok(Method::Acceleration),
+        "coefficients" => Ok(Method::Coefficients),
         "equilibrium" => Ok(Method::Equilibrium),
         "superposition" => Ok(Method::Superposition),
         "virtual_work" => Ok(Method::VirtualWork),
+        "motion" => Ok(Method::Motion),
+        "derivative" => Ok(Method::Derivative),
         "verify" if cfg!(feature = "reference") => Ok(Method::Verify),
         "verify" => {
             Err(Diagnostic::new(given.method.place(), "a scene can be verified only with the feature `reference`")
                 .help("in Cargo.toml: linkage-runtime = { …, features = [\"reference\"] }"))
-        }
-        word if PLANNED_METHODS.contains(&word) => {
-            Err(Diagnostic::new(given.method.place(), format!("the method `{word}` is not supported yet"))
-                .help(format!("supported are {}", list(&METHODS))))
         }
         word => {
             Err(Diagnostic::new(given.method.place(), format!("there is no method `{word}`")).suggest(word, METHODS))
@@ -104,6 +247,7 @@ fn loads(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink:
         let what = match method {
             Method::Velocity => "velocities do",
             Method::Acceleration => "accelerations do",
+            Method::Coefficients => "kinematic coefficients do",
             _ => "positions do",
         };
         sink.report(
@@ -128,7 +272,7 @@ fn loads(model: &Model, given: &ast::Scene, method: Method, names: &Names, sink:
             );
         }
     }
-    if listed.is_empty() {
+    if listed.is_empty() && method.needs_loads() {
         sink.report(
             Diagnostic::new(given.method.place(), "a scene without loads has nothing to balance")
                 .help("list its loads, or leave the parentheses out to have them all"),
@@ -190,7 +334,7 @@ fn results(
 }
 
 /// What a result is about.
-fn end_of(item: &ResultItem) -> ast::End {
+pub(super) fn end_of(item: &ResultItem) -> ast::End {
     match item {
         ResultItem::Name(name) => ast::End { link: name.clone(), point: None },
         ResultItem::Point(link, point) => ast::End { link: link.clone(), point: Some(point.clone()) },
@@ -215,6 +359,7 @@ fn likely(model: &Model, names: &Names, item: &ResultItem) -> (String, Option<Wa
             let like = match what.text.as_str() {
                 "offset" => Wanted::Offset(GROUND),
                 "power" => Wanted::Power(None),
+                "advantage" => Wanted::Advantage(LoadId::new(names.near(Role::Load, &link.text).unwrap_or(0))),
                 _ => Wanted::Inertia(GROUND),
             };
             return (format!("{link}_{what}"), Some(like));
@@ -264,7 +409,7 @@ fn all_results(model: &Model, method: Method, loads: &[LoadId]) -> Vec<Wanted> {
     let joints = (0..model.joints.len()).map(|j| Wanted::Joint(JointId::new(j)));
     let unknowns = (0..model.unknowns.len()).map(|u| Wanted::Unknown(UnknownId::new(u)));
     match method {
-        Method::Position | Method::Velocity | Method::Acceleration => {
+        Method::Position | Method::Velocity | Method::Acceleration | Method::Coefficients => {
             let jointed = |end: End| model.joints.iter().any(|j| j.ends().contains(&end));
             let points = model
                 .moving_links()
@@ -274,7 +419,8 @@ fn all_results(model: &Model, method: Method, loads: &[LoadId]) -> Vec<Wanted> {
         }
         Method::Equilibrium | Method::Superposition => unknowns.chain(joints).collect(),
         Method::VirtualWork => unknowns.chain(loads.iter().copied().map(Wanted::Load)).collect(),
-        Method::Verify => Vec::new(),
+        Method::Motion => [Part::Mass, Part::Bias, Part::Rounding].map(Wanted::Part).into(),
+        Method::Verify | Method::Inverse | Method::Derivative => Vec::new(),
     }
 }
 
@@ -288,6 +434,7 @@ fn result(
     match item {
         // Of a method that is not known, nothing is known of its results.
         _ if given.method.text != word(method) => Ok(None),
+        _ if method == Method::Motion => part(item).map(Some),
         ResultItem::Point(link, point) => {
             let place = link.place().to(point.place());
             let Some(id) = names.find(Role::Link, link)?.map(LinkId::new) else { return Ok(None) };
@@ -326,8 +473,15 @@ fn result(
             let place = what.place().to(unknown.place());
             power(model, given, method, (place, Some(unknown)), names)
         }
+        ResultItem::OfLink(what, load) if what.text == "advantage" => {
+            advantage(model, given, method, (what, load), names)
+        }
         ResultItem::OfPoint(what, point) => shaking(model, given, method, (what, point), names),
         ResultItem::OfLink(what, link) => of_link(model, given, method, (what, link), names),
+        ResultItem::Along(of, link) if method == Method::Coefficients => {
+            let (place, shown) = (of.place().to(link.place()), format!("{} along {link}", of.written()));
+            Err(cannot(given, place, &shown, "a part along a link").help("ask for the whole vector"))
+        }
         ResultItem::Along(joint, link) => {
             let link_id = names.find(Role::Link, link)?.map(LinkId::new);
             let joint_id = reaction_of(given, method, (joint, "along"), names, joint.place().to(link.place()))?;
@@ -387,7 +541,7 @@ fn of_link(
         "offset" => Wanted::Offset,
         other => {
             return Err(Diagnostic::new(what.place(), format!("there is no result `{shown}`"))
-                .suggest(other, ["inertia", "offset", "shaking", "power"]));
+                .suggest(other, ["inertia", "offset", "shaking", "power", "advantage"]));
         }
     };
     if method != Method::Acceleration {
@@ -417,7 +571,7 @@ fn shaking(
     let (place, shown) = (what.place().to(point.place()), format!("{what}({})", point.written()));
     if what.text != "shaking" {
         return Err(Diagnostic::new(what.place(), format!("there is no result `{shown}`"))
-            .suggest(&what.text, ["inertia", "offset", "shaking", "power"]));
+            .suggest(&what.text, ["inertia", "offset", "shaking", "power", "advantage"]));
     }
     if method != Method::Acceleration {
         return Err(cannot(given, place, &shown, "the resultant of inertia").help("`acceleration` gives it"));
@@ -455,6 +609,29 @@ fn power(
     }
 }
 
+/// `advantage(M4)`
+fn advantage(
+    model: &Model,
+    given: &ast::Scene,
+    method: Method,
+    (what, load): (&Name, &Name),
+    names: &Names,
+) -> Result<Option<Wanted>, Diagnostic> {
+    let (place, shown) = (what.place().to(load.place()), format!("{what}({load})"));
+    if method != Method::VirtualWork {
+        return Err(cannot(given, place, &shown, "the mechanical advantage").help("`virtual_work` gives it"));
+    }
+    let Some(id) = names.find(Role::Load, load)?.map(LoadId::new) else { return Ok(None) };
+    if model.loads.get(id.index()).is_some_and(|load| load.kind.is_per_link()) {
+        return Err(Diagnostic::new(
+            load.place(),
+            format!("`{load}` acts on many links: no single velocity goes with it"),
+        )
+        .help("ask for the advantage over a force, a moment or a thrust"));
+    }
+    Ok(Some(Wanted::Advantage(id)))
+}
+
 /// The joint whose reaction is wanted in some form.
 fn reaction_of(
     given: &ast::Scene,
@@ -480,11 +657,32 @@ fn word(method: Method) -> &'static str {
         Method::Position => "position",
         Method::Velocity => "velocity",
         Method::Acceleration => "acceleration",
+        Method::Coefficients => "coefficients",
         Method::Equilibrium => "equilibrium",
         Method::Superposition => "superposition",
         Method::VirtualWork => "virtual_work",
+        Method::Motion => "motion",
+        Method::Inverse => "inverse",
         Method::Verify => "verify",
+        Method::Derivative => "derivative",
     }
+}
+
+/// A part of the equation of motion.
+fn part(item: &ResultItem) -> Result<Wanted, Diagnostic> {
+    let of = end_of(item);
+    if matches!(item, ResultItem::Name(name) if name.text == ERROR_BOUND) {
+        return Ok(Wanted::ErrorBound);
+    }
+    let named = match item {
+        ResultItem::Name(name) => Part::ALL.into_iter().find(|part| part.name() == name.text),
+        _ => None,
+    };
+    named.map(Wanted::Part).ok_or_else(|| {
+        let names: Vec<&str> = Part::ALL.iter().map(|part| part.name()).collect();
+        Diagnostic::new(of.place(), format!("`motion` cannot give `{}`", of.written()))
+            .help(format!("its results are {}", list(&names)))
+    })
 }
 
 fn named_result(
@@ -496,7 +694,7 @@ fn named_result(
 ) -> Result<Option<Wanted>, Diagnostic> {
     if let Some(index) = model.unknowns.iter().position(|u| u.name == name.text) {
         return match method {
-            Method::Position | Method::Velocity | Method::Acceleration => {
+            Method::Position | Method::Velocity | Method::Acceleration | Method::Coefficients => {
                 Err(cannot(given, name.place(), &name.text, "an effort")
                     .help("`equilibrium` and `virtual_work` give it"))
             }
@@ -542,7 +740,7 @@ fn named_result(
         None if names.may_be(Role::Joint) || names.may_be(Role::Load) || names.may_be(Role::Unknown) => Ok(None),
         _ => {
             let known: Vec<&str> = match method {
-                Method::Position | Method::Velocity | Method::Acceleration => names.of(Role::Joint).collect(),
+                _ if !method.has_loads() => names.of(Role::Joint).collect(),
                 Method::VirtualWork => {
                     model.unknowns.iter().map(|u| u.name.as_str()).chain(names.of(Role::Load)).collect()
                 }
@@ -590,9 +788,10 @@ pub(crate) const OWN_TYPES: [&str; 15] = [
     "GearReaction",
     "WorkTerm",
 ];
-/// The same, where there are parameters, where there is something to verify, where there are resultants, and where closures are chosen
-/// at run time.
-const FURTHER_TYPES: [&str; 6] = ["Default", "Verification", "Wrench", "Closures", "Side", "Along"];
+/// The same, where there are parameters, where there is something to verify, where there are resultants, where there are equations of motion
+/// of several drives, and where closures are chosen at run time.
+const FURTHER_TYPES: [&str; 8] =
+    ["Default", "Verification", "Wrench", "SMatrix", "SVector", "Closures", "Side", "Along"];
 
 /// What the generated functions read may not have two meanings under one name.
 fn check_values(model: &Model, sink: &Sink) {
@@ -610,13 +809,29 @@ fn check_values(model: &Model, sink: &Sink) {
     for constant in ["EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"] {
         values.insert(constant.into(), "is a constant of the module".into());
     }
+    for inverse in model.inverses.iter().filter(|_| !model.params.is_empty()) {
+        values.insert(inverse.prepared_name(), format!("is what is prepared for `{}`", inverse.name));
+    }
     for link in &model.links {
         for part in ["cos", "sin"] {
             values.insert(format!("{}_{part}", link.name), format!("is the direction of `{}`", link.name));
             values.insert(format!("{}_{part}_before", link.name), format!("is a direction of `{}`", link.name));
         }
     }
+    // Only wheels, and what is joined to them, keep an angle.
+    let gears = model.joints.iter().any(|joint| matches!(joint.kind, JointKind::Gear(_)));
+    for link in model.links.iter().filter(|_| gears) {
+        for name in [format!("angle_{}", link.name), format!("angle_{}_before", link.name)] {
+            values.insert(name, format!("is an angle of `{}`", link.name));
+        }
+    }
     for joint in &model.joints {
+        for pivot in joint.pivot_names() {
+            values.insert(pivot, format!("is a pivot of `{}`", joint.name));
+        }
+        if matches!(joint.kind, JointKind::Slot { .. }) {
+            values.insert(format!("arm_{}", joint.name), format!("is the lever arm of `{}`", joint.name));
+        }
         values.insert(format!("travel_{}", joint.name), format!("is the travel of `{}`", joint.name));
         values.insert(format!("travel_{}_before", joint.name), format!("is a travel of `{}`", joint.name));
     }
@@ -680,8 +895,9 @@ fn check_generated_names(model: &Model, sink: &Sink) {
         }
     }
     let verifies = model.scenes.iter().any(|scene| scene.method == Method::Verify);
+    let (wrenches, matrices) = (model.has_wrenches(), model.has_matrices());
     let chooses = model.given_closures().next().is_some();
-    let further = [!model.params.is_empty(), verifies, model.has_wrenches(), chooses, chooses, chooses];
+    let further = [!model.params.is_empty(), verifies, wrenches, matrices, matrices, chooses, chooses, chooses];
     let further = FURTHER_TYPES.iter().zip(further).filter(|(_, there)| *there).map(|(name, _)| name);
     let mut types: BTreeMap<String, String> = OWN_TYPES
         .iter()
@@ -711,6 +927,18 @@ fn check_generated_names(model: &Model, sink: &Sink) {
             }
         }
     }
+    for inverse in &model.inverses {
+        let (own, made) = (format!("belongs to the scene `{}`", inverse.name), format!("{}_at", inverse.name));
+        if let Some(other) = methods.insert(made.clone(), own.clone()) {
+            clash(&inverse.name, format!("there would be two functions `{made}`: the other one {other}"));
+            continue;
+        }
+        if let Some((made, other)) =
+            inverse.types().into_iter().find_map(|made| Some((made.clone(), types.insert(made, own.clone())?)))
+        {
+            clash(&inverse.name, format!("the scene `{}` would have the type `{made}`, and {other}", inverse.name));
+        }
+    }
     for sweep in &model.sweeps {
         let own = format!("belongs to the sweep `{}`", sweep.name);
         if let Some(other) = methods.insert(sweep.name.text.clone(), own.clone()) {
@@ -728,7 +956,25 @@ fn check_generated_names(model: &Model, sink: &Sink) {
 
 /// The types that a scene brings.
 fn types_of(model: &Model, scene: &Scene) -> Vec<String> {
-    let base = type_name(&scene.name.text);
+    types_named(model, scene, &type_name(&scene.name.text))
+}
+
+fn types_named(model: &Model, scene: &Scene, base: &str) -> Vec<String> {
+    if let Some(derivative) = &scene.derivative {
+        // A record for each variable, and in it for each number of a load, of the results of the other scene.
+        let records = derivative.by.iter().flat_map(|variable| {
+            let own = format!("{base}{}", type_name(&variable.name(model)));
+            let numbers: Vec<&str> = match variable.by {
+                By::Load(load) => model.load(load).kind.given(model).filter(|value| !value.is_empty()).collect(),
+                _ => Vec::new(),
+            };
+            let inner = numbers.iter().map(|number| format!("{own}{}", type_name(number)));
+            let of = &model.scenes[derivative.of];
+            let inner: Vec<String> = inner.flat_map(|name| types_named(model, of, &name)).collect();
+            if inner.is_empty() { types_named(model, of, &own) } else { [vec![own], inner].concat() }
+        });
+        return core::iter::once(base.to_owned()).chain(records).collect();
+    }
     let per_link = |load: &LoadId| model.load(*load).kind.is_per_link();
     let records = scene.loads.iter().filter(|load| match scene.method {
         Method::VirtualWork => per_link(load) || model.unknowns.len() > 1,
@@ -737,11 +983,15 @@ fn types_of(model: &Model, scene: &Scene) -> Vec<String> {
     });
     let records = records.map(|load| format!("{base}{}", type_name(&model.load(*load).name.text)));
     let resolved = scene.results.iter().filter_map(|wanted| match wanted {
+        Wanted::Joint(_) | Wanted::Point(_) | Wanted::Angle(_) if scene.method == Method::Coefficients => {
+            model.result_name(*wanted)
+        }
+        Wanted::Advantage(_) if model.unknowns.len() > 1 => model.result_name(*wanted),
         Wanted::Resolved(..) | Wanted::Inertia(_) | Wanted::Offset(_) => model.result_name(*wanted),
         _ => None,
     });
     let records = records.chain(resolved.map(|name| format!("{base}{}", type_name(&name))));
     let parts = (scene.method == Method::Superposition).then(|| format!("{base}Contribution"));
     let bounds = scene.results.contains(&Wanted::ErrorBound).then(|| format!("{base}ErrorBound"));
-    core::iter::once(base.clone()).chain(parts).chain(bounds).chain(records).collect()
+    core::iter::once(base.to_owned()).chain(parts).chain(bounds).chain(records).collect()
 }

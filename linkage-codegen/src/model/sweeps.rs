@@ -72,6 +72,10 @@ fn scene_of(model: &Model, ast: &Ast, given: &ast::Scene) -> Result<Option<usize
                 .help("sweep another scene, and verify single positions in a test"))
         }
         Some((index, _)) => Ok(Some(index)),
+        None if model.inverses.iter().any(|inverse| inverse.name.text == name.text) => {
+            let problem = format!("the inverse scene `{name}` is solved at one position after the other");
+            Err(Diagnostic::new(name.place(), problem).help("sweep a scene that starts from the drives"))
+        }
         None => {
             let swept =
                 ast.items.iter().any(|item| matches!(item, Item::Scene(s) if is_sweep(s) && s.name.text == name.text));

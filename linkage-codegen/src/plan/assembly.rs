@@ -137,7 +137,7 @@ pub struct Assembly<'m> {
     pub topology: &'m Topology,
     /// The links that are placed by iteration, from a start.
     pub started: BTreeSet<LinkId>,
-    used: BTreeSet<JointId>,
+    used: BTreeSet<ClosureId>,
 }
 
 impl<'m> Assembly<'m> {
@@ -181,9 +181,18 @@ impl<'m> Assembly<'m> {
     }
 
     /// The declared closure of a group with this inner joint.
-    pub fn closure(&mut self, inner: JointId) -> Option<&'m Closure> {
-        self.used.insert(inner);
-        self.model().closures.iter().find(|c| c.joint == inner)
+    pub fn closure(&mut self, inner: JointId, group: &Group) -> Option<&'m Closure> {
+        let model = self.model();
+        let id = model.closure_at(inner, &group.outer)?;
+        self.used.insert(id);
+        Some(model.closure(id))
+    }
+
+    /// Nothing is said of the closures of a group that has an error.
+    pub fn pass_over(&mut self, group: &Group) {
+        let ids = (0..self.model().closures.len()).map(ClosureId::new);
+        let own = ids.filter(|id| group.inner.contains(&self.model().closure(*id).joint));
+        self.used.extend(own.collect::<Vec<_>>());
     }
 
     /// The sign that a closure chooses, if `plus` is the side of the positive root.
@@ -193,14 +202,21 @@ impl<'m> Assembly<'m> {
         if !closure.is_given_at_run_time() {
             return if closure.side == plus { Sign::Plus } else { Sign::Minus };
         }
-        let index = model.closures.iter().position(|own| own.joint == closure.joint).unwrap_or(0);
+        let index = model.closures.iter().position(|own| core::ptr::eq(own, closure)).unwrap_or(0);
         let sign = self.graph().symbol(Symbol::Side(ClosureId::new(index)));
         Sign::Given(sign, &model.joint(closure.joint).name.text)
     }
 
+    /// Whether a group closes as this closure says.
+    #[must_use]
+    pub fn uses(&self, closure: ClosureId) -> bool {
+        self.used.contains(&closure)
+    }
+
     /// Closures that no group asked for.
     pub fn unused_closures(&self) -> impl Iterator<Item = &'m Closure> {
-        self.model().closures.iter().filter(|c| !self.used.contains(&c.joint))
+        let all = self.model().closures.iter().enumerate();
+        all.filter(|(index, _)| !self.uses(ClosureId::new(*index))).map(|(_, closure)| closure)
     }
 
     /// A group that closes in two ways, and no word which one is meant.

@@ -121,10 +121,10 @@ impl<'m> Unit<'m> {
         self.on(link).fold(motion.graph().zero(), |sum, act| sum + act.power(motion))
     }
 
-    /// Its power on all links but these and the ground.
+    /// Its power on all links but these.
     #[must_use]
     pub fn power_outside(&self, motion: &Motion<'m, '_>, links: &[LinkId]) -> Expr<'m> {
-        let outside = self.acts.iter().filter(|act| act.link() != GROUND && !links.contains(&act.link()));
+        let outside = self.acts.iter().filter(|act| !links.contains(&act.link()));
         outside.fold(motion.graph().zero(), |sum, act| sum + act.power(motion))
     }
 

@@ -152,6 +152,10 @@ fn bounds_of<'g>(graph: &'g Graph, rounding: &mut Rounding<'g>, output: &Output)
     match output {
         Output::Scalar(node, meaning) => Output::Scalar(bound(*node), *meaning),
         Output::Vector(pair, meaning) => Output::Vector(pair.map(bound), *meaning),
+        Output::Column(values) => Output::Column(values.iter().copied().map(bound).collect()),
+        Output::Matrix(rows) => {
+            Output::Matrix(rows.iter().map(|row| row.iter().copied().map(&mut bound).collect()).collect())
+        }
         Output::Resolved(pair) => Output::Resolved(pair.map(bound)),
         Output::Reaction { ty, force, parts } => Output::Reaction {
             ty,

@@ -5,10 +5,13 @@
 
 mod assembly;
 mod balance;
+mod coefficients;
+mod dynamics;
 pub mod efforts;
 mod error_bound;
 mod framed;
 mod half_angle;
+mod inverse;
 mod linear;
 mod output;
 mod pivots;
@@ -18,11 +21,14 @@ mod reactions;
 mod resultants;
 pub mod rules;
 pub(crate) mod scenes;
+mod sensitivities;
+pub(crate) mod starts;
 mod sweeps;
 mod velocities;
 
 pub use assembly::Assembly;
 pub use balance::Balance;
+pub(crate) use coefficients::names as coefficient_names;
 pub use output::{Comparison, Field, Meaning, Output};
 pub use pivots::Pivots;
 pub use placement::Placement;
@@ -39,7 +45,7 @@ use crate::equations::System;
 use crate::graph::{Coordinate, Expr, NodeId, Op, Order, Symbol};
 use crate::model::ids::{DriveId, JointId, LinkId, ParamId};
 use crate::model::units::Kind;
-use crate::model::{Along, End, Model, Pair, Scene, Wanted};
+use crate::model::{Along, Closure, End, Model, Pair, Scene, Wanted};
 use crate::topology::{Group, Input, Topology};
 
 /// The solution of a linkage.
@@ -125,9 +131,16 @@ pub struct Accessor {
 }
 
 impl Plan {
-    /// Solves a linkage. `None` if that is not possible; why is reported.
+    /// Solves a linkage. `None` if that is not possible; why is reported. A closure may also be meant for groups that close `elsewhere`: where
+    /// the linkage is driven otherwise.
     #[must_use]
-    pub fn of(model: &Model, topology: &Topology, system: &System, sink: &Sink) -> Option<Self> {
+    pub fn of(
+        model: &Model,
+        topology: &Topology,
+        system: &System,
+        elsewhere: &BTreeSet<JointId>,
+        sink: &Sink,
+    ) -> Option<Self> {
         let motion_rules = rules_of(model, &topology.motion, "place", sink)?;
         let force_rules = rules_of(model, &topology.forces, "find the forces of", sink)?;
         let mut assembly = Assembly::new(model, topology);
@@ -136,12 +149,12 @@ impl Plan {
             if let Err(error) = rule.place(&mut assembly, group) {
                 sink.report(error);
                 // What is chosen at a group that has an error is no second one.
-                for joint in &group.inner {
-                    assembly.closure(*joint);
-                }
+                assembly.pass_over(group);
             }
         }
-        for closure in assembly.unused_closures() {
+        // Where the linkage is driven otherwise than it is declared, what is not used is the declaration's.
+        let idle = |closure: &&Closure| model.exchanged.is_none() && !elsewhere.contains(&closure.joint);
+        for closure in assembly.unused_closures().filter(idle) {
             let joint = &model.joint(closure.joint).name;
             sink.report(
                 Diagnostic::new(closure.place, format!("there is nothing to choose at `{joint}`"))
@@ -149,6 +162,7 @@ impl Plan {
                     .help("leave it out"),
             );
         }
+        check_chosen_once(model, topology, sink);
         check_starts_used(model, &assembly, sink);
         if !sink.is_clean() {
             return None;
@@ -169,7 +183,7 @@ impl Plan {
         let links = placed_links(posed);
         let accessors = accessors(&assembly);
         let mut pose = kept(&assembly);
-        let mut scenes = scenes::outputs(&assembly, posed, &force_rules, (system, &links), sink);
+        let mut scenes = scenes::outputs(&assembly, posed, [&motion_rules, &force_rules], (system, &links), sink);
         pose.extend(error_bound::add(&assembly, &mut scenes, &pose, sink));
         let plan = Self {
             pose,
@@ -183,6 +197,21 @@ impl Plan {
         check_possible(model, sink);
         check_defaults(model, sink);
         sink.is_clean().then_some(plan)
+    }
+}
+
+/// Where a linkage is driven in several ways, a joint may have several closures; a group of it has one.
+fn check_chosen_once(model: &Model, topology: &Topology, sink: &Sink) {
+    for group in &topology.motion {
+        for joint in group.inner.iter().chain(&group.outer) {
+            if let Some(second) = model.fitting_closures(*joint, &group.outer).nth(1) {
+                let problem = format!("the side of `{}` is chosen already", joint_name(model, *joint));
+                sink.report(
+                    Diagnostic::new(model.closure(second).place, problem)
+                        .help("keep one of the two; if the other one is for an inverse scene, name a joint that this group does not have"),
+                );
+            }
+        }
     }
 }
 
@@ -232,7 +261,10 @@ fn unsupported(model: &Model, group: &Group, what: &str) -> Diagnostic {
     let class = "its class is not supported yet";
     Diagnostic::new(place, format!("there is no rule to {what} the group of {}: {class}", list(&links)))
         .note(format!("its joints are {} ({letters})", list(&joints)))
-        .help("supported are gear trains on pins, and groups of pins, slides, slots and welds of every class: another drive or unknown may split the linkage so")
+        .help(format!(
+            "groups of joints of every kind are solved, with up to {} unknowns, and wheels whose arm is placed before them or with them: another drive or unknown may split the linkage so",
+            linear::CORE
+        ))
 }
 
 /// The heading of a group's steps.
@@ -345,7 +377,7 @@ fn accessors(assembly: &Assembly<'_>) -> Vec<Accessor> {
 }
 
 /// A check that fails whatever is given stands for a linkage that works at no pose.
-fn check_possible(model: &Model, sink: &Sink) {
+pub(crate) fn check_possible(model: &Model, sink: &Sink) {
     let mut told = BTreeSet::new();
     for guard in model.graph.impossible_guards() {
         use crate::graph::Failure;
@@ -390,6 +422,12 @@ fn check_possible(model: &Model, sink: &Sink) {
                     format!("the two points of `{of}` coincide at every pose: it has no direction"),
                 )
                 .help("let it act between points that are apart")
+            }
+            Failure::OtherSide { joint } => {
+                let place = model.scenes.first().map_or(model.name.place(), |scene| scene.name.place());
+                Diagnostic::new(place, format!("at every pose that is reached, `{joint}` lies on the other side"))
+                    .note("a pose counts if the groups that the drives move close there on the sides that are chosen for them")
+                    .help("choose the other side for one of the groups")
             }
             Failure::Parameter { requirement } => Diagnostic::new(model.name.place(), requirement.clone()),
         };

@@ -35,6 +35,8 @@ pub enum Meaning {
     AngularAcceleration,
     /// A plain number.
     Number,
+    /// Effort per acceleration of a drive.
+    Mass,
 }
 
 /// A result.
@@ -44,6 +46,10 @@ pub enum Output {
     Scalar(NodeId, Meaning),
     /// A vector.
     Vector([NodeId; 2], Meaning),
+    /// A number for each unknown.
+    Column(Vec<NodeId>),
+    /// A number for each pair of an unknown and a drive, row by row.
+    Matrix(Vec<Vec<NodeId>>),
     /// A force along and across a link.
     Resolved([NodeId; 2]),
     /// A reaction that is more than a vector.
@@ -98,6 +104,14 @@ pub struct Field {
     pub value: Output,
 }
 
+impl Field {
+    /// A result with its name and what it is.
+    #[must_use]
+    pub fn new(name: &str, doc: String, value: Output) -> Self {
+        Self { name: name.to_owned(), doc, value }
+    }
+}
+
 impl Output {
     /// A number.
     #[must_use]
@@ -109,6 +123,38 @@ impl Output {
     #[must_use]
     pub fn vector(value: Vector<'_>, meaning: Meaning) -> Self {
         Self::Vector([value.x.id(), value.y.id()], meaning)
+    }
+
+    /// The same tree of other nodes, and of other words.
+    #[must_use]
+    pub fn mapped(&self, node: &mut dyn FnMut(NodeId) -> NodeId, doc: &dyn Fn(&str) -> String) -> Self {
+        match self {
+            Self::Scalar(value, meaning) => Self::Scalar(node(*value), *meaning),
+            Self::Vector(parts, meaning) => Self::Vector(parts.map(&mut *node), *meaning),
+            Self::Column(values) => Self::Column(values.iter().map(|value| node(*value)).collect()),
+            Self::Matrix(rows) => {
+                Self::Matrix(rows.iter().map(|row| row.iter().map(|value| node(*value)).collect()).collect())
+            }
+            Self::Resolved(parts) => Self::Resolved(parts.map(&mut *node)),
+            Self::Reaction { ty, force, parts } => Self::Reaction {
+                ty,
+                force: force.map(&mut *node),
+                parts: parts.iter().map(|(part, value)| (*part, node(*value))).collect(),
+            },
+            Self::Term { velocity, work, meaning } => {
+                Self::Term { velocity: node(*velocity), work: node(*work), meaning: *meaning }
+            }
+            // How far methods disagree is nothing that has a derivative; no scene asks for it.
+            Self::Verification(comparison) => Self::Verification(comparison.clone()),
+            Self::Record(fields) => {
+                let fields = fields.iter().map(|field| Field {
+                    name: field.name.clone(),
+                    doc: doc(&field.doc),
+                    value: field.value.mapped(node, doc),
+                });
+                Self::Record(fields.collect())
+            }
+        }
     }
 
     /// All its numbers, each with its path: `B.x`.
@@ -156,6 +202,16 @@ impl Output {
             Self::Vector([x, y], _) => {
                 leaf("x", *x);
                 leaf("y", *y);
+            }
+            Self::Column(values) => {
+                values.iter().enumerate().for_each(|(row, node)| leaf(&format!("{}", row + 1), *node));
+            }
+            Self::Matrix(rows) => {
+                // Column by column, as the type of the result has them.
+                for column in 0..rows.len() {
+                    let entries = rows.iter().enumerate().filter_map(|(row, values)| Some((row, values.get(column)?)));
+                    entries.for_each(|(row, node)| leaf(&format!("{}.{}", row + 1, column + 1), *node));
+                }
             }
             Self::Resolved([axial, transverse]) => {
                 leaf("axial", *axial);

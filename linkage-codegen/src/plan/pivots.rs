@@ -35,6 +35,11 @@ impl<'m> Pivots<'m> {
         self.known.push(Known { from, to, sine, cosine });
     }
 
+    /// All that is stated: two directions, and the sine and the cosine of the angle from the first to the second.
+    pub(super) fn stated(&self) -> impl Iterator<Item = (Vector<'m>, Vector<'m>, Option<Expr<'m>>, Option<Expr<'m>>)> {
+        self.known.iter().map(|known| (known.from, known.to, known.sine, known.cosine))
+    }
+
     /// States the distance of two pins along the slide between them, zero where it is no larger than its rounding.
     pub fn state_reach(&mut self, slide: JointId, reach: Expr<'m>) {
         self.reaches.insert(slide, reach);

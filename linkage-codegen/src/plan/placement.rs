@@ -473,7 +473,13 @@ impl<'m> Placement<'m> {
             }
             at = far;
         }
-        push_segment(&mut segments, self.within(at, to));
+        if at.link == to.link {
+            push_segment(&mut segments, self.within(at, to));
+        } else {
+            // A group between has an error: nothing is known of the way.
+            let (along, size) = (self.model.unread_vector(), self.model.unread());
+            push_segment(&mut segments, Segment { direction: self.direction(GROUND), along, size });
+        }
         to_slot.into_iter().for_each(|segment| push_segment(&mut segments, segment));
         segments.retain(|s| !s.along.is_zero());
         Way { segments, graph: self.graph() }

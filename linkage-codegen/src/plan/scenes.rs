@@ -1,13 +1,15 @@
 //! The results of every scene, by its method.
 
 use super::framed::Framed;
+use super::inverse::drivers;
 use super::posed::Posed;
 use super::resultants::{Resultant, rate_of, reacted_by_ground};
 use super::rules::{Rule, RuleResult};
+use super::sensitivities::Sensitivities;
 use super::{Assembly, Balance, Comparison, Meaning, Motion, Output, PlacedLink, heading, joint_name};
 use crate::diagnostics::Sink;
 use crate::equations::joints::Component;
-use crate::equations::loads::{Action, Case, Line, cases_of};
+use crate::equations::loads::{Action, Case, Line, by_dalembert, cases_of};
 use crate::equations::{Exerted, Source, System};
 use crate::graph::{Expr, Failure, Order, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, LoadId, UnknownId};
@@ -17,22 +19,23 @@ use crate::plan::output::Field;
 use crate::topology::Group;
 
 /// What the solution of forces needs.
-struct Forces<'a, 'm> {
-    model: &'m Model,
+pub(super) struct Forces<'a, 'm> {
+    pub(super) model: &'m Model,
     groups: &'a [Group],
     rules: &'a [&'static dyn Rule],
-    assembly: &'a Assembly<'m>,
+    pub(super) motion_rules: &'a [&'static dyn Rule],
+    pub(super) assembly: &'a Assembly<'m>,
     posed: Posed<'m, 'a>,
     /// The cases of each load.
     cases: Vec<Vec<(Case, Vec<Action>)>>,
-    sink: &'a Sink,
+    pub(super) sink: &'a Sink,
 }
 
 /// The results of all scenes.
 pub(super) fn outputs<'m>(
     assembly: &Assembly<'m>,
     posed: Posed<'m, '_>,
-    rules: &[&'static dyn Rule],
+    [motion_rules, rules]: [&[&'static dyn Rule]; 2],
     equations: (&System, &[PlacedLink]),
     sink: &Sink,
 ) -> Vec<Output> {
@@ -42,20 +45,34 @@ pub(super) fn outputs<'m>(
         cases_of(&posed, load)
     });
     let cases = cases.collect();
-    let forces = Forces { model, groups: &assembly.topology.forces, rules, assembly, posed, cases, sink };
-    model
-        .scenes
-        .iter()
-        .map(|scene| match scene.method {
+    let forces = Forces { model, groups: &assembly.topology.forces, rules, motion_rules, assembly, posed, cases, sink };
+    let output = |(index, scene): (usize, &Scene)| {
+        model.graph.begin_scene(index);
+        match scene.method {
             Method::Position => position(&forces, scene),
             Method::Velocity => motion(&forces, scene, posed.velocities, Order::Rate),
             Method::Acceleration => motion(&forces, scene, posed.accelerations, Order::Acceleration),
             Method::Equilibrium => forces.equilibrium(scene),
             Method::Superposition => forces.superposition(scene),
             Method::VirtualWork => forces.virtual_work(scene),
+            Method::Motion => forces.equation_of_motion(scene),
+            Method::Coefficients => forces.coefficients(scene),
+            Method::Inverse => drivers(assembly, posed, scene),
             Method::Verify => forces.verify(scene, equations),
-        })
-        .collect()
+            // Of the results of another one, once these are known.
+            Method::Derivative => Output::Record(Vec::new()),
+        }
+    };
+    let mut all: Vec<Output> = model.scenes.iter().enumerate().map(output).collect();
+    let mut sensitivities = Sensitivities::new(assembly, motion_rules, sink);
+    for (index, scene) in model.scenes.iter().enumerate() {
+        if let Some(derivative) = &scene.derivative {
+            model.graph.begin_scene(index);
+            all[index] = sensitivities.of(derivative, &all[derivative.of]);
+        }
+    }
+    model.graph.end_scenes();
+    all
 }
 
 fn position(forces: &Forces<'_, '_>, scene: &Scene) -> Output {
@@ -168,10 +185,9 @@ impl<'m> Moved<'_, 'm> {
         let (of, _) = self.of(spot);
         let resolved = of_spot(self.motion, spot).along(self.motion.placement.frame(link));
         let name = &self.model.link(link).name;
-        let field = |part: &str, how: &str, value| Field {
-            name: part.to_owned(),
-            doc: format!("Along the x axis of the frame of `{name}`{how}, {unit}."),
-            value: Output::scalar(value, meaning),
+        let field = |part: &str, how: &str, value| {
+            let doc = format!("Along the x axis of the frame of `{name}`{how}, {unit}.");
+            Field::new(part, doc, Output::scalar(value, meaning))
         };
         let fields = vec![field("axial", "", resolved.x), field("transverse", " turned by +90°", resolved.y)];
         (format!("{what} of {of}, along and across `{name}`."), Output::Record(fields))
@@ -194,10 +210,8 @@ impl<'m> Moved<'_, 'm> {
         let (speed, rounding) = (direction.dot(velocity), rounding_of(velocity));
         let checked = |value: Expr<'m>| value.require_above(speed, rounding, failure.clone());
         let acceleration = of_spot(self.motion, spot).ground().resolved_along(direction);
-        let field = |part: &str, doc: &str, value| Field {
-            name: part.to_owned(),
-            doc: format!("{doc}, {unit}."),
-            value: Output::scalar(checked(value), meaning),
+        let field = |part: &str, doc: &str, value| {
+            Field::new(part, format!("{doc}, {unit}."), Output::scalar(checked(value), meaning))
         };
         let fields = vec![
             field("tangential", "Along its velocity", acceleration.x),
@@ -323,7 +337,7 @@ impl<'m> Forces<'_, 'm> {
     }
 
     /// The virtual motion of every unknown, each with the unknown.
-    fn motions(&self) -> Vec<(UnknownId, Motion<'m, '_>)> {
+    pub(super) fn motions(&self) -> Vec<(UnknownId, Motion<'m, '_>)> {
         let unknowns = (0..self.model.unknowns.len()).map(UnknownId::new);
         let single = self.model.unknowns.len() == 1;
         let prefix =
@@ -337,7 +351,7 @@ impl<'m> Forces<'_, 'm> {
     }
 
     /// The effort that does as much work as the loads, with the opposite sign.
-    fn effort_by_work(&self, motion: &Motion<'m, '_>, loads: &Balance<'m, '_>) -> Expr<'m> {
+    pub(super) fn effort_by_work(&self, motion: &Motion<'m, '_>, loads: &Balance<'m, '_>) -> Expr<'m> {
         -self.model.moving_links().fold(self.model.graph.zero(), |sum, link| sum + motion.power_of(loads, link))
     }
 
@@ -347,16 +361,15 @@ impl<'m> Forces<'_, 'm> {
         let name = &model.link(link).name;
         let (acceleration, force, couple) = self.inertia_of(link);
         let (force_unit, moment_unit) = (Kind::Force.unit(&model.units), Kind::Moment.unit(&model.units));
-        let field = |name: &str, doc: String, value| Field { name: name.to_owned(), doc, value };
         let unit = Kind::Acceleration.unit(&model.units);
         let fields = vec![
-            field(
+            Field::new(
                 "acceleration",
                 format!("Acceleration of the centre of mass, {unit}, ground axes."),
                 Output::vector(acceleration, Meaning::Acceleration),
             ),
-            field("force", format!("−m a, {force_unit}, ground axes."), Output::vector(force, Meaning::Force)),
-            field(
+            Field::new("force", format!("−m a, {force_unit}, ground axes."), Output::vector(force, Meaning::Force)),
+            Field::new(
                 "couple",
                 format!("−I α, {moment_unit}, counter-clockwise."),
                 Output::scalar(couple, Meaning::Moment),
@@ -373,13 +386,11 @@ impl<'m> Forces<'_, 'm> {
             return (graph.zero_vector(), graph.zero_vector(), zero);
         };
         let name = &model.link(link).name;
-        let conversion = graph.constant(&model.units.force_per_mass_acceleration());
         let at = self.posed.placement.carried(link, mass.centroid.vector(graph));
         let acceleration = motion.of_place(link, at).ground();
         let meaning = format!("acceleration of the centre of mass of {name}");
         let acceleration = acceleration.named(&format!("a_G_{name}"), &meaning);
-        let force = -acceleration.scaled(conversion * graph.expr(mass.mass));
-        let couple = -(conversion * graph.expr(mass.inertia) * motion.rate(link));
+        let (force, couple) = by_dalembert(model, mass, acceleration, motion.rate(link));
         (acceleration, force, couple)
     }
 
@@ -429,14 +440,13 @@ impl<'m> Forces<'_, 'm> {
         let distance = radius * motion.rate(link) / size;
         let distance = distance.named(format!("h_{name}"), format!("I α/(m |a|) of {name}"));
         let vector = -direction.perp().scaled(distance);
-        let field = |name: &str, doc: String, value| Field { name: name.to_owned(), doc, value };
         let fields = vec![
-            field(
+            Field::new(
                 "distance",
                 format!("I α/(m |a|), {unit}: positive to the right of the acceleration."),
                 Output::scalar(distance, Meaning::Length),
             ),
-            field(
+            Field::new(
                 "vector",
                 format!("From the centre of mass to the line of the force, {unit}, ground axes."),
                 Output::vector(vector, Meaning::Length),
@@ -457,6 +467,23 @@ impl<'m> Forces<'_, 'm> {
                 let effort = effort.named(name.clone(), "−(Σ F·v + Σ M ω), at unit rate of its own coordinate");
                 let value = Output::scalar(effort, unknown_meaning(self.model, unknown));
                 Some(Field { name: name.clone(), doc: unknown_doc(self.model, unknown), value })
+            }
+            Wanted::Advantage(load) => {
+                let value = if single {
+                    self.advantage(&motions[0].1, load)
+                } else {
+                    let each = motions.iter().map(|(unknown, motion)| {
+                        let unknown = &self.model.unknown(*unknown).name;
+                        let doc = format!("Of `{unknown}`.");
+                        Field { name: unknown.clone(), doc, value: self.advantage(motion, load) }
+                    });
+                    Output::Record(each.collect())
+                };
+                let doc = format!(
+                    "Mechanical advantage: how much of `{}` a unit of effort holds.",
+                    self.model.load(load).name
+                );
+                Some(Field { name: self.model.result_name(*wanted)?, doc, value })
             }
             Wanted::Power(of) => {
                 self.power(*wanted, of, |unknown| self.effort_by_work(&motions[unknown.index()].1, &loads))
@@ -541,6 +568,21 @@ impl<'m> Forces<'_, 'm> {
         motion.through(self.groups, self.rules, self.sink)
     }
 
+    /// What a load is over the effort that holds it, in size: the inverse of the velocity along it at unit rate.
+    fn advantage(&self, motion: &Motion<'m, '_>, load: LoadId) -> Output {
+        let (graph, name) = (&self.model.graph, &self.model.load(load).name);
+        let Output::Term { velocity, .. } = self.terms(motion, load) else {
+            return Output::scalar(graph.zero(), Meaning::Number);
+        };
+        let velocity = graph.expr(velocity);
+        let velocity =
+            velocity.named(motion.name(&format!("v_along_{name}")), format!("velocity along {name}, at unit rate"));
+        let failure = Failure::DeadCentre { group: name.text.clone(), pivot: format!("v_along_{name}") };
+        let limit = graph.epsilons(8) * velocity.magnitude_given(&mut self.unit_vectors());
+        let divisor = velocity.require_above(velocity.abs(), limit, failure);
+        Output::scalar(graph.one() / divisor, Meaning::Number)
+    }
+
     /// The term of a load; of gravity one for each link.
     fn terms(&self, motion: &Motion<'m, '_>, load: LoadId) -> Output {
         let cases = self.cases_of(load);
@@ -567,7 +609,12 @@ impl<'m> Forces<'_, 'm> {
     }
 }
 
-fn of_spot<'m>(motion: &Motion<'m, '_>, spot: Spot) -> Framed<'m> {
+/// The name of a joint.
+pub(super) fn joint_of(model: &Model, joint: JointId) -> &str {
+    joint_name(model, joint)
+}
+
+pub(super) fn of_spot<'m>(motion: &Motion<'m, '_>, spot: Spot) -> Framed<'m> {
     match spot {
         Spot::Joint(joint) => motion.of_joint(joint),
         Spot::Point(end) => motion.of_point(end),
@@ -730,7 +777,7 @@ fn about_doc(model: &Model, joint: JointId, at: End) -> String {
     format!("Couple on `{to}` by `{from}` at `{}`, about `{at}`, {moment}.", data.name)
 }
 
-fn unknown_meaning(model: &Model, unknown: UnknownId) -> Meaning {
+pub(super) fn unknown_meaning(model: &Model, unknown: UnknownId) -> Meaning {
     match model.unknown(unknown).kind {
         UnknownKind::Torque(..) => Meaning::Moment,
         UnknownKind::Drive(drive) if model.drive(drive).turns => Meaning::Moment,

@@ -1,13 +1,14 @@
-//! Motion: how the links move, found group by group in one way for three purposes.
+//! Motion: how the links move, found group by group in one way for four purposes.
 //!
 //! * **Virtual**: the velocities of the links when the coordinate of one unknown changes at unit rate and the others rest. It is the
 //!   transpose of equilibrium: the groups of forces, in the order from the unknowns outwards.
 //! * **Velocities**: the drives move at their rates; the groups of motion, in their order.
 //! * **Accelerations**: the same groups again. What is found is the acceleration of material places, so that a place of a turning link has
 //!   `a + α r⊥ − ω² r` where velocities have `v + ω r⊥`; where links slide along each other, Coriolis' acceleration stands between them.
+//! * **Change**: the derivative of the pose by a drive's coordinate or by a parameter; of a parameter, places move in their links too.
 //!
 //! A rule first supposes that its links do not turn or slide by themselves, reads what is missing at its inner joint, and divides it by
-//! its pivot: the same for all three.
+//! its pivot: the same for all of them.
 
 use std::collections::BTreeMap;
 
@@ -19,9 +20,10 @@ use super::placement::{Placement, Spot};
 use super::rules::Rule;
 use crate::diagnostics::Sink;
 use crate::equations::loads::Action;
-use crate::graph::{Expr, Graph, Vector};
-use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
-use crate::model::{JointKind, Model, UnknownKind};
+use crate::graph::tangent::Tangent;
+use crate::graph::{Expr, Graph, Symbol, Vector};
+use crate::model::ids::{DriveId, GROUND, JointId, LinkId, UnknownId};
+use crate::model::{Gear, JointKind, Model, UnknownKind};
 use crate::topology::{Group, Input};
 
 /// The motion of a link: its rate of rotation, and the velocity of one of its places. Of accelerations the same with one dot more.
@@ -40,10 +42,15 @@ pub struct Twist<'m> {
 enum Purpose<'m, 'p> {
     /// The coordinate of one unknown changes at unit rate.
     Virtual(UnknownId),
+    /// One drive moves at unit rate, the others rest.
+    Unit(DriveId),
     /// The drives move at their rates.
     Velocity,
-    /// The drives' accelerations, at these velocities.
-    Acceleration(&'p Motion<'m, 'p>),
+    /// The drives' accelerations, at these velocities. Of two different ones, what is left of the accelerations at their sum when those at
+    /// each of them are taken away, halved: the part that is linear in both.
+    Acceleration([&'p Motion<'m, 'p>; 2]),
+    /// The coordinate of this drive, or this parameter, changes at unit rate.
+    Change(Symbol),
 }
 
 /// The velocities or the accelerations of all links.
@@ -55,10 +62,16 @@ pub struct Motion<'m, 'p> {
     pub pivots: &'p Pivots<'m>,
     /// What distinguishes the names of this motion.
     pub prefix: String,
+    /// Of a change, what is behind its names: by what.
+    by: String,
     purpose: Purpose<'m, 'p>,
+    /// Of accelerations: whether the drives accelerate, too.
+    driven: bool,
     twists: Vec<Twist<'m>>,
     /// Of slides: how fast the second link slides along the first one.
     sliding: BTreeMap<JointId, Expr<'m>>,
+    /// How dimensions change, if a parameter does.
+    dimensions: Option<Tangent<'m>>,
 }
 
 impl<'m, 'p> Motion<'m, 'p> {
@@ -67,7 +80,86 @@ impl<'m, 'p> Motion<'m, 'p> {
         let rest = Framed { components: graph.zero_vector(), axes: placement.direction(GROUND) };
         let still = Twist { rate: graph.zero(), at: graph.zero_vector(), velocity: rest };
         let twists = vec![still; placement.model.links.len()];
-        Self { placement, pivots, prefix, purpose, twists, sliding: BTreeMap::new() }
+        let by = String::new();
+        Self {
+            placement,
+            pivots,
+            prefix,
+            by,
+            purpose,
+            driven: true,
+            twists,
+            sliding: BTreeMap::new(),
+            dimensions: None,
+        }
+    }
+
+    /// The change of the pose with a drive's coordinate or with a parameter, before any group is solved.
+    #[must_use]
+    pub(crate) fn change(placement: &'p Placement<'m>, pivots: &'p Pivots<'m>, by: Symbol, name: &str) -> Self {
+        let mut motion = Self::new(placement, pivots, Purpose::Change(by), String::new());
+        motion.by = format!("_by_{name}");
+        if let Symbol::Parameter(_) = by {
+            motion.dimensions = Some(Tangent::by(placement.graph(), by, name).at_rest());
+        }
+        motion
+    }
+
+    /// How a dimension changes: a length, an angle or a part of a vector in a link's own axes.
+    #[must_use]
+    pub fn change_of(&self, dimension: Expr<'m>) -> Expr<'m> {
+        self.dimensions.as_ref().map_or_else(|| self.graph().zero(), |tangent| tangent.of(dimension))
+    }
+
+    /// How fast the direction that a link carries turns in the link's frame: dimensions may tell where it points to.
+    fn turn_in_frame(&self, link: LinkId) -> Expr<'m> {
+        let axis = self.placement.orientation(link).axis;
+        axis.cross(Vector::new(self.change_of(axis.x), self.change_of(axis.y)))
+    }
+
+    /// How a vector of a link, along and across the direction that the link carries, changes in the link's frame: dimensions do.
+    #[must_use]
+    pub fn within(&self, link: LinkId, vector: Vector<'m>) -> Vector<'m> {
+        let own = Vector::new(self.change_of(vector.x), self.change_of(vector.y));
+        own + vector.perp().scaled(self.turn_in_frame(link))
+    }
+
+    /// How fast the direction that a link carries turns.
+    #[must_use]
+    pub fn rate_of_direction(&self, link: LinkId) -> Expr<'m> {
+        self.rate(link) + self.turn_in_frame(link)
+    }
+
+    /// How fast the angle changes by which a slide or a weld turns a link against the other one.
+    #[must_use]
+    pub fn turned_by(&self, joint: JointId, link: LinkId) -> Expr<'m> {
+        let data = self.model().joint(joint);
+        let change =
+            data.kind.turn().map_or_else(|| self.graph().zero(), |(_, angle)| self.change_of(self.graph().expr(angle)));
+        if data.to.link == link { change } else { -change }
+    }
+
+    /// What a parameter does where two wheels roll, along the pitch line: as far as radii and phase change what rolls by.
+    #[must_use]
+    pub fn meshing(&self, joint: JointId, gear: &Gear) -> Expr<'m> {
+        let (model, graph) = (self.model(), self.graph());
+        let [first, second] = gear.radii.map(|radius| graph.expr(radius));
+        let changes = [first, second, graph.expr(gear.phase)].map(|dimension| self.change_of(dimension));
+        if changes.iter().all(|change| change.is_zero()) {
+            return graph.zero();
+        }
+        let [to_first, to_second, phase] = changes;
+        let centres = gear.centres(model);
+        let line = self.placement.angle(gear.arm[0].link) + graph.atan2(centres.y, centres.x);
+        let [a, b] = model.joint(joint).ends().map(|end| self.placement.angle(end.link) - line);
+        (gear.distance(model) / (first + second)) * (to_first * a + to_second * b - phase)
+    }
+
+    /// How fast the travel of a slide or a slot changes: its second point along it, from the first one. A travel that parameters alone
+    /// determine moves its place on the line as a dimension does; what slides beside that is found.
+    #[must_use]
+    pub fn of_travel(&self, joint: JointId) -> Expr<'m> {
+        self.sliding(joint, self.model().joint(joint).to.link) + self.change_of(self.placement.travel(joint))
     }
 
     /// The virtual motion of an unknown, before any group is solved.
@@ -87,11 +179,59 @@ impl<'m, 'p> Motion<'m, 'p> {
         Self::new(placement, pivots, Purpose::Velocity, String::new())
     }
 
+    /// The velocities at unit rate of one drive, before any group is solved.
+    #[must_use]
+    pub fn of_drive(placement: &'p Placement<'m>, pivots: &'p Pivots<'m>, drive: DriveId, prefix: String) -> Self {
+        Self::new(placement, pivots, Purpose::Unit(drive), prefix)
+    }
+
+    /// The velocities as the sum of those at unit rates, each times the rate of its drive.
+    #[must_use]
+    pub fn combined(units: &[&Motion<'m, 'p>], placement: &'p Placement<'m>, pivots: &'p Pivots<'m>) -> Self {
+        let mut sum = Self::velocities(placement, pivots);
+        let (model, graph) = (placement.model, placement.graph());
+        let ground = placement.direction(GROUND);
+        let rates = || model.drives.iter().map(|drive| graph.expr(drive.rate));
+        for link in model.moving_links() {
+            let Some(at) = units.first().map(|unit| unit.twists[link.index()].at) else { continue };
+            let mut twist = Twist { at, ..sum.twists[link.index()] };
+            for (unit, rate) in units.iter().zip(rates()) {
+                let Framed { components, axes } = unit.of_place(link, at);
+                twist.rate = twist.rate + rate * unit.rate(link);
+                twist.velocity = twist.velocity.plus(&Framed { components: components.scaled(rate), axes }, ground);
+            }
+            let name = &model.link(link).name;
+            twist.rate = twist.rate.named(format!("omega_{name}"), format!("rate of rotation of {name}"));
+            sum.found(link, twist);
+        }
+        let slides = units.first().map(|unit| unit.sliding.keys().copied().collect::<Vec<_>>()).unwrap_or_default();
+        for slide in slides {
+            let to = model.joint(slide).to.link;
+            let speeds = units.iter().zip(rates()).map(|(unit, rate)| rate * unit.sliding(slide, to));
+            let speed = speeds.fold(graph.zero(), |sum, speed| sum + speed);
+            sum.sliding.insert(slide, speed);
+        }
+        sum
+    }
+
+    /// What the accelerations are at these velocities without any of the drives, before any group is solved.
+    #[must_use]
+    pub fn undriven_accelerations(velocities: &'p Motion<'m, 'p>) -> Self {
+        Self::second_order([velocities; 2], String::new())
+    }
+
+    /// The second derivatives of the motion by two drives, from the first ones; before any group is solved.
+    #[must_use]
+    pub fn second_order(first: [&'p Motion<'m, 'p>; 2], prefix: String) -> Self {
+        let Motion { placement, pivots, .. } = *first[0];
+        Self { driven: false, ..Self::new(placement, pivots, Purpose::Acceleration(first), prefix) }
+    }
+
     /// The accelerations at these velocities, before any group is solved.
     #[must_use]
     pub fn accelerations(velocities: &'p Motion<'m, 'p>) -> Self {
         let Motion { placement, pivots, .. } = *velocities;
-        Self::new(placement, pivots, Purpose::Acceleration(velocities), String::new())
+        Self::new(placement, pivots, Purpose::Acceleration([velocities; 2]), String::new())
     }
 
     /// The same, once all groups are solved, each by its rule.
@@ -99,7 +239,10 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn through(mut self, groups: &[Group], rules: &[&dyn Rule], sink: &Sink) -> Self {
         let what = match self.purpose {
             Purpose::Virtual(_) => "virtual velocities",
+            Purpose::Unit(_) => "velocities at unit rate",
+            Purpose::Change(_) => "change of the pose",
             Purpose::Velocity => "velocities",
+            Purpose::Acceleration(_) if !self.driven => "accelerations by the velocities alone",
             Purpose::Acceleration(_) => "accelerations",
         };
         for (index, (group, rule)) in groups.iter().zip(rules).enumerate() {
@@ -137,10 +280,11 @@ impl<'m, 'p> Motion<'m, 'p> {
 
     /// `ω²` of a link, if these are accelerations and it turns.
     fn angular_velocity_squared(&self, link: LinkId) -> Option<Expr<'m>> {
-        let Purpose::Acceleration(velocities) = self.purpose else { return None };
-        let omega = velocities.rate(link);
+        let Purpose::Acceleration([one, other]) = self.purpose else { return None };
+        let product = one.rate(link) * other.rate(link);
         let name = &self.model().link(link).name;
-        (!omega.is_zero()).then(|| omega.squared().named(format!("omega2_{name}"), format!("ω² of {name}")))
+        let how = if core::ptr::eq(one, other) { "ω²" } else { "the product of the rates of rotation" };
+        (!product.is_zero()).then(|| product.named(self.name(&format!("omega2_{name}")), format!("{how} of {name}")))
     }
 
     /// The rate at which the coordinate of a drive or an unknown changes: of a virtual motion one or zero.
@@ -156,10 +300,28 @@ impl<'m, 'p> Motion<'m, 'p> {
                 };
                 if same { graph.one() } else { graph.zero() }
             }
+            (Purpose::Unit(own), Input::Drive(drive)) => {
+                if own == drive {
+                    graph.one()
+                } else {
+                    graph.zero()
+                }
+            }
+            (Purpose::Acceleration(_), Input::Drive(_)) if !self.driven => graph.zero(),
             (Purpose::Velocity, Input::Drive(drive)) => graph.expr(model.drive(drive).rate),
             (Purpose::Acceleration(_), Input::Drive(drive)) => graph.expr(model.drive(drive).acceleration),
+            (Purpose::Change(by), Input::Drive(drive)) => {
+                if by == Symbol::Drive(drive) {
+                    graph.one()
+                } else {
+                    graph.zero()
+                }
+            }
             // Real motion is driven.
-            (Purpose::Velocity | Purpose::Acceleration(_), Input::Unknown(_)) => graph.zero(),
+            (
+                Purpose::Unit(_) | Purpose::Velocity | Purpose::Acceleration(_) | Purpose::Change(_),
+                Input::Unknown(_),
+            ) => graph.zero(),
         }
     }
 
@@ -191,6 +353,8 @@ impl<'m, 'p> Motion<'m, 'p> {
             Some(squared) => turning - arm.scaled(squared),
             None => turning,
         };
+        // A parameter moves places in their link.
+        let turning = if self.dimensions.is_some() { turning + self.within(link, arm) } else { turning };
         let turning = Framed { components: turning, axes: self.placement.direction(link) };
         turning.plus(&twist.velocity, self.placement.direction(GROUND))
     }
@@ -202,7 +366,7 @@ impl<'m, 'p> Motion<'m, 'p> {
         let guided = self.of_place(far, self.placement.slide_point(slide, far));
         let velocity = guided.plus(&self.coriolis(slide, link), self.placement.direction(GROUND));
         Twist {
-            rate: self.rate(far) + self.driven_rate(slide, far),
+            rate: self.rate(far) + self.driven_rate(slide, far) + self.turned_by(slide, link),
             at: self.placement.slide_point(slide, link),
             velocity,
         }
@@ -262,7 +426,8 @@ impl<'m, 'p> Motion<'m, 'p> {
     }
 
     /// How fast a link slides along the other link of a slide or a slot.
-    fn sliding(&self, joint: JointId, link: LinkId) -> Expr<'m> {
+    #[must_use]
+    pub fn sliding(&self, joint: JointId, link: LinkId) -> Expr<'m> {
         if let Some(sliding) = self.sliding.get(&joint) {
             return if self.model().joint(joint).to.link == link { *sliding } else { -*sliding };
         }
@@ -280,18 +445,25 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn coriolis(&self, joint: JointId, link: LinkId) -> Framed<'m> {
         let graph = self.graph();
         let nothing = Framed { components: graph.zero_vector(), axes: self.placement.direction(GROUND) };
-        let (Purpose::Acceleration(velocities), Some((carrier, _))) =
+        let (Purpose::Acceleration([one, other]), Some((carrier, _))) =
             (self.purpose, self.model().joint(joint).kind.line())
         else {
             return nothing;
         };
-        let omega = velocities.rate(carrier);
-        if omega.is_zero() {
+        if one.rate(carrier).is_zero() && other.rate(carrier).is_zero() {
             return nothing;
         }
         let name = &self.model().joint(joint).name;
-        let across = (2 * graph.one()) * (omega * velocities.sliding(joint, link));
-        let across = across.named(format!("coriolis_{name}"), "Coriolis: 2 ω times the speed of sliding");
+        let (across, how) = if core::ptr::eq(one, other) {
+            ((2 * graph.one()) * (one.rate(carrier) * one.sliding(joint, link)), "2 ω times the speed of sliding")
+        } else {
+            let part = |turning: &Motion<'m, '_>, sliding: &Motion<'m, '_>| {
+                let omega = turning.rate(carrier);
+                if omega.is_zero() { omega } else { omega * sliding.sliding(joint, link) }
+            };
+            (part(one, other) + part(other, one), "ω times the speed of sliding, of either by the other")
+        };
+        let across = across.named(self.name(&format!("coriolis_{name}")), format!("Coriolis: {how}"));
         Framed { components: Vector::new(graph.zero(), across), axes: self.placement.slide_direction(joint) }
     }
 
@@ -317,7 +489,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn lacking(&self, joint: JointId, needed: &Framed<'m>, has: &Framed<'m>) -> Framed<'m> {
         let gap = self.difference(needed, has);
         let (letter, what) = match self.purpose {
-            Purpose::Virtual(_) => return gap,
+            Purpose::Virtual(_) | Purpose::Unit(_) | Purpose::Change(_) => return gap,
             Purpose::Velocity => ('v', "velocity"),
             Purpose::Acceleration(_) => ('a', "acceleration"),
         };
@@ -373,7 +545,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     /// The name of a quantity of this motion.
     #[must_use]
     pub fn name(&self, name: &str) -> String {
-        format!("{}{name}", self.prefix)
+        format!("{}{name}{}", self.prefix, self.by)
     }
 
     /// A link's rate of rotation, or its angular acceleration, as a named quantity; how it comes about is said with `{velocity}` for
@@ -381,7 +553,8 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn named_rate(&self, rate: Expr<'m>, of: &str, how: &str) -> Expr<'m> {
         let (name, what) = match self.purpose {
-            Purpose::Virtual(_) => ("rate", "rate of rotation"),
+            Purpose::Virtual(_) | Purpose::Unit(_) => ("rate", "rate of rotation"),
+            Purpose::Change(_) => ("turn", "change of the angle"),
             Purpose::Velocity => ("omega", "angular velocity"),
             Purpose::Acceleration(_) => ("alpha", "angular acceleration"),
         };
@@ -393,7 +566,8 @@ impl<'m, 'p> Motion<'m, 'p> {
     #[must_use]
     pub fn named_sliding(&self, sliding: Expr<'m>, slide: JointId, of: &str, how: &str) -> Expr<'m> {
         let what = match self.purpose {
-            Purpose::Virtual(_) | Purpose::Velocity => "speed",
+            Purpose::Virtual(_) | Purpose::Unit(_) | Purpose::Velocity => "speed",
+            Purpose::Change(_) => "shift",
             Purpose::Acceleration(_) => "acceleration",
         };
         let (how, slide) = (self.in_words(how), &self.model().joint(slide).name);
@@ -402,7 +576,8 @@ impl<'m, 'p> Motion<'m, 'p> {
 
     fn in_words(&self, how: &str) -> String {
         let word = match self.purpose {
-            Purpose::Virtual(_) | Purpose::Velocity => "velocity",
+            Purpose::Virtual(_) | Purpose::Unit(_) | Purpose::Velocity => "velocity",
+            Purpose::Change(_) => "change",
             Purpose::Acceleration(_) => "acceleration",
         };
         how.replace("{velocity}", word)

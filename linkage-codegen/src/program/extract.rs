@@ -35,9 +35,16 @@ impl Extract<'_> {
     /// The program of some results, each with its path, and the sums of them that must be finite.
     #[must_use]
     pub fn program(self, results: &[(String, NodeId)], sums: &[Vec<NodeId>]) -> Program {
+        self.program_of(None, results, sums)
+    }
+
+    /// The same with the names of a scene, by its place among all.
+    #[must_use]
+    pub fn program_of(self, scene: Option<usize>, results: &[(String, NodeId)], sums: &[Vec<NodeId>]) -> Program {
         let needed = self.needed(results.iter().map(|(_, node)| *node));
         let mut building = Building {
             extract: self,
+            scene,
             program: Program { values: Vec::new(), steps: Vec::new(), outputs: Vec::new() },
             placed: BTreeMap::new(),
             computed: HashMap::new(),
@@ -125,6 +132,7 @@ impl Extract<'_> {
 
 struct Building<'g> {
     extract: Extract<'g>,
+    scene: Option<usize>,
     program: Program,
     /// The value of each node that is placed.
     placed: BTreeMap<NodeId, ValueId>,
@@ -136,7 +144,9 @@ impl Building<'_> {
     fn add(&mut self, node: NodeId, definition: Definition) -> ValueId {
         let graph = self.extract.graph;
         let id = ValueId::new(self.program.values.len());
-        self.program.values.push(Value { definition, label: graph.label(node), section: graph.section(node) });
+        let (label, section) = graph.label_in(self.scene, node);
+        let section = section.unwrap_or_else(|| graph.section(node));
+        self.program.values.push(Value { definition, label, section });
         self.placed.insert(node, id);
         id
     }
@@ -156,10 +166,11 @@ impl Building<'_> {
                     Op::Quantity(inner) | Op::Held(inner) | Op::Checked { value: inner, .. } => {
                         let value = self.value(inner);
                         self.placed.insert(node, value);
-                        let label = self.extract.graph.label(node);
-                        let own = &mut self.program.values[value.index()].label;
-                        if own.is_none() {
-                            *own = label;
+                        let (label, section) = self.extract.graph.label_in(self.scene, node);
+                        let own = &mut self.program.values[value.index()];
+                        if own.label.is_none() {
+                            own.label = label;
+                            own.section = section.unwrap_or_else(|| own.section.clone());
                         }
                         value
                     }

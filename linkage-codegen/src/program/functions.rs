@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::{Extract, Form, Input, Program, passes};
-use crate::graph::{Graph, NodeId};
+use crate::graph::NodeId;
+use crate::model::{Method, Model};
 use crate::plan::Plan;
 
 /// The programs of a linkage.
@@ -46,7 +47,8 @@ pub struct SceneFunctions {
 impl Functions {
     /// Takes all functions of a plan out of its graph.
     #[must_use]
-    pub fn of(graph: &Graph, plan: &Plan) -> Self {
+    pub fn of(model: &Model, plan: &Plan) -> Self {
+        let graph = &model.graph;
         let program = |form, results: &[(String, NodeId)], sums: &[Vec<NodeId>]| {
             passes::optimised(Extract { graph, form }.program(results, sums), graph)
         };
@@ -74,12 +76,15 @@ impl Functions {
         let scenes: Vec<SceneFunctions> = plan
             .scenes
             .iter()
-            .map(|output| {
+            .zip(&model.scenes)
+            .enumerate()
+            .map(|(index, (output, scene))| {
                 let results = output.leaves();
-                SceneFunctions {
-                    from_pose: program(Form::FromPose, &results, &output.sums()),
-                    direct: program(Form::Direct, &results, &output.sums()),
-                }
+                // Derivatives by several variables are no parts of a sum.
+                let sums = if scene.method == Method::Derivative { single(&results) } else { output.sums() };
+                let program =
+                    |form| passes::optimised(Extract { graph, form }.program_of(Some(index), &results, &sums), graph);
+                SceneFunctions { from_pose: program(Form::FromPose), direct: program(Form::Direct) }
             })
             .collect();
         let both = scenes.iter().flat_map(|scene| [&scene.from_pose, &scene.direct]);

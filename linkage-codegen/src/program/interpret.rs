@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use super::{Definition, Input, Program, Step, ValueId};
-use crate::graph::number::Number;
 use crate::graph::real::Real;
 use crate::graph::{Condition, Failure, Graph, Kernel, Op};
 
@@ -80,43 +79,19 @@ impl Run<'_> {
         if let Some(value) = &values.known[id.index()] {
             return value.clone();
         }
-        let zero = || T::from_number(&Number::zero());
         let value = match &self.program.value(id).definition {
             Definition::Input(input) => inputs(*input),
             Definition::Computed(op) => {
-                let mut of = |operand: &ValueId| self.value(*operand, inputs, values);
+                let mut of = |operand: ValueId| self.value(operand, inputs, values);
                 match op {
                     Op::Constant(number) => T::from_number(&self.graph.number(*number)),
-                    // Symbols are inputs; none is computed.
-                    Op::Symbol(_) => zero(),
-                    Op::Neg(a) => of(a).neg(),
-                    Op::Abs(a) => {
-                        let a = of(a);
-                        if zero().above(&a) { a.neg() } else { a }
-                    }
-                    Op::NonNegative(a) => {
-                        let a = of(a);
-                        if a.above(&zero()) { a } else { zero() }
-                    }
-                    Op::Sqrt(a) => of(a).sqrt(),
-                    Op::Add(a, b) => of(a).add(&of(b)),
-                    Op::Sub(a, b) => of(a).sub(&of(b)),
-                    Op::Mul(a, b) => of(a).mul(&of(b)),
-                    Op::Div(a, b) => of(a).div(&of(b)),
-                    Op::Where { value, limit, then } => {
-                        if of(value).above(&of(limit)) {
-                            of(then)
-                        } else {
-                            zero()
-                        }
-                    }
-                    Op::Quantity(a) | Op::Held(a) | Op::Checked { value: a, .. } => of(a),
                     Op::Kernel { kernel, args: of_call, part } => {
-                        let args: Vec<T> = of_call.iter().map(of).collect();
+                        let args: Vec<T> = of_call.iter().map(|arg| of(*arg)).collect();
                         let call = (*kernel, of_call.clone());
                         let results = values.calls.entry(call).or_insert_with(|| self.graph.apply(*kernel, &args));
                         results[usize::from(*part)].clone()
                     }
+                    op => op.arithmetic(&mut of),
                 }
             }
         };

@@ -536,8 +536,21 @@ pub struct Scene {
     pub method: Name,
     /// Its loads; all if left out. Of a sweep, the scene that it goes through.
     pub loads: Option<Vec<Name>>,
+    /// Of an inverse scene, the joints whose motion is wanted, each with the word for its coordinate if that is said.
+    pub wanted: Vec<End>,
     /// Its results; all if left out.
     pub results: Option<Vec<ResultItem>>,
+    /// `(statics) by (theta, F13)` of a derivative.
+    pub derivative: Option<Derivative>,
+}
+
+/// What is differentiated, and by what.
+#[derive(Clone, Debug)]
+pub struct Derivative {
+    /// The scene.
+    pub of: Name,
+    /// `theta`, `theta.rate`, `F13`, `l2`.
+    pub by: Vec<End>,
 }
 
 /// A wanted result.

@@ -46,7 +46,7 @@ pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
             link(input, &keyword, Some(name), slips)
         }
         "mass" => mass(input),
-        "revolute" | "prismatic" | "slot" | "weld" | "gear" => joint(input, keyword),
+        word if super::JOINTS.contains(&word) => joint(input, keyword),
         "drive" => drive(input),
         "assemble" => assemble(input, &keyword),
         "start" => start(input, &keyword),

@@ -17,7 +17,7 @@ use syn::parse::discouraged::Speculative;
 use syn::parse::{ParseStream, Parser};
 
 pub(crate) use loads::is_given_at_run_time;
-pub(crate) use scenes::{METHODS, PLANNED as PLANNED_METHODS};
+pub(crate) use scenes::METHODS;
 
 use ast::{Ast, Item};
 use recovery::{at_item, pass_over, unread};
@@ -29,6 +29,9 @@ use crate::diagnostics::{Diagnostic, Place, Sink};
 const DEPTH: usize = 128;
 /// Characters of a number. A double written out has up to 1,075 digits.
 const LENGTH: usize = 4096;
+
+/// The words of joints.
+pub(crate) const JOINTS: [&str; 5] = ["revolute", "prismatic", "slot", "weld", "gear"];
 
 /// The words that begin an item.
 const ITEMS: [&str; 20] = [

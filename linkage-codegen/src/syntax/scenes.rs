@@ -4,23 +4,32 @@ use syn::parse::ParseStream;
 use syn::token::Paren;
 use syn::{Result, Token};
 
-use super::ast::{Item, ResultItem, Scene};
+use super::ast::{Derivative, Item, ResultItem, Scene};
 use super::items::{end, rest};
 use super::tokens::{between, comma_list, eat_word, name, place_of, take};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
 /// The methods that are carried out.
-pub(crate) const METHODS: [&str; 8] =
-    ["position", "velocity", "acceleration", "equilibrium", "superposition", "virtual_work", "verify", "sweep"];
-/// The methods that are not carried out yet.
-pub(crate) const PLANNED: [&str; 3] = ["motion", "derivative", "inverse"];
+pub(crate) const METHODS: [&str; 12] = [
+    "position",
+    "velocity",
+    "acceleration",
+    "coefficients",
+    "equilibrium",
+    "superposition",
+    "virtual_work",
+    "motion",
+    "inverse",
+    "verify",
+    "sweep",
+    "derivative",
+];
 
 pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let name_ = name(input)?;
     input.parse::<Token![:]>()?;
     let mut method = name(input)?;
     if !METHODS.contains(&method.text.as_str())
-        && !PLANNED.contains(&method.text.as_str())
         && let Some(meant) = closest(&method.text, METHODS)
     {
         let problem = format!("there is no method `{method}`");
@@ -28,22 +37,72 @@ pub(super) fn scene(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         meant.clone_into(&mut method.text);
     }
     if !METHODS.contains(&method.text.as_str()) {
-        // Whether planned or unknown, the model says what is wrong with it.
+        // The model says what is wrong with it.
         rest(input);
-        return Ok(Item::Scene(Scene { name: name_, method, loads: None, results: None }));
+        let (loads, results, derivative) = (None, None, None);
+        return Ok(Item::Scene(Scene { name: name_, method, loads, wanted: Vec::new(), results, derivative }));
     }
-    let mut loads = None;
+    if method.text == "derivative" {
+        let (wanted, derivative) = (Vec::new(), Some(derivative(input, slips)?));
+        return Ok(Item::Scene(Scene { name: name_, method, loads: None, wanted, results: None, derivative }));
+    }
+    let (mut loads, mut wanted) = (None, Vec::new());
     if input.peek(Paren) {
         let content;
         let _ = syn::parenthesized!(content in input);
-        loads = Some(comma_list(&content, name)?);
+        match method.text.as_str() {
+            "inverse" => wanted = comma_list(&content, end)?,
+            _ => loads = Some(comma_list(&content, name)?),
+        }
     }
     let mut results = None;
     if input.peek(Token![->]) {
         input.parse::<Token![->]>()?;
         results = Some(result_list(input, slips)?);
     }
-    Ok(Item::Scene(Scene { name: name_, method, loads, results }))
+    Ok(Item::Scene(Scene { name: name_, method, loads, wanted, results, derivative: None }))
+}
+
+/// `(statics) by (theta, F13)`
+fn derivative(input: ParseStream<'_>, slips: &Sink) -> Result<Derivative> {
+    let form = |of: &str| format!("as in `derivative({of}) by (theta)`");
+    let begin = input.fork();
+    let scenes = if input.peek(Paren) {
+        let content;
+        let _ = syn::parenthesized!(content in input);
+        comma_list(&content, name)?
+    } else {
+        vec![name(input)?]
+    };
+    let Some(of) = scenes.first().cloned() else {
+        return Err(begin.error(format!("a derivative is that of a scene\nhelp: {}", form("statics"))));
+    };
+    if let Some(other) = scenes.get(1) {
+        slips.report(
+            Diagnostic::new(other.place(), "one scene is differentiated at a time").help("declare a scene for each"),
+        );
+    }
+    if !eat_word(input, "by") {
+        return Err(input.error(format!("expected what varies\nhelp: {}", form(&of.text))));
+    }
+    let by = if input.peek(Paren) {
+        let content;
+        let _ = syn::parenthesized!(content in input);
+        comma_list(&content, end)?
+    } else {
+        vec![end(input)?]
+    };
+    if input.peek(Token![->]) {
+        let begin = input.fork();
+        input.parse::<Token![->]>()?;
+        result_list(input, slips)?;
+        let place = place_of(&between(&begin, input)).unwrap_or(Place::at(begin.span()));
+        slips.report(
+            Diagnostic::new(place, "a derivative has the results of its scene")
+                .help(format!("leave the list out, or list them in the scene `{of}`")),
+        );
+    }
+    Ok(Derivative { of, by })
 }
 
 /// `( … )`; without parentheses it is clear what is meant, too.

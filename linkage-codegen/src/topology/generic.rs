@@ -7,6 +7,7 @@ use std::collections::HashMap;
 
 use super::{Group, Input};
 use crate::equations::joints::{Shape, Teeth};
+use crate::equations::poses::Random;
 use crate::equations::{Body, Dimensions, Row, drive_row, joint_rows, unknown_row};
 use crate::graph::{Coordinate, Graph, Symbol, Vector};
 use crate::model::ids::JointId;
@@ -114,7 +115,7 @@ struct Pose {
 
 impl Pose {
     fn random(model: &Model, seed: u64) -> Self {
-        let mut random = Random(0x9e37_79b9_7f4a_7c15 ^ (seed + 1).wrapping_mul(0xd134_2543_de82_ef95));
+        let mut random = Random::new(seed);
         let mut values = HashMap::new();
         let mut frames: Vec<[f64; 4]> = vec![[0.0, 0.0, 1.0, 0.0]];
         for link in model.moving_links() {
@@ -158,18 +159,6 @@ impl Pose {
 
     fn value(&self, symbol: Symbol) -> f64 {
         self.values.get(&symbol).copied().unwrap_or(0.0)
-    }
-}
-
-/// Numbers between −1 and 1 (xorshift): always the same ones.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        f64::from(u32::try_from(self.0 >> 33).unwrap_or(0)) / f64::from(1u32 << 30) - 1.0
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::matching::Unbalanced;
-use super::{Constraint, Input, generic};
+use super::{Constraint, Input, generic, redundant};
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::model::Model;
 use crate::model::ids::{GROUND, JointId, LinkId};
@@ -28,6 +28,14 @@ pub(super) fn check(model: &Model, sink: &Sink) -> bool {
     let pinned_twice = super::pinned_twice(model, &joints);
     let last = model.drives.last().map_or(model.name.place(), |d| d.name.place());
     let drives = i64::try_from(drives).unwrap_or(0);
+    if mobility < drives && pinned_twice.is_none() {
+        let redundant = redundant::find(model);
+        if let Some(redundant) = redundant.filter(|found| i64::try_from(found.mobility).is_ok_and(|own| own >= drives))
+        {
+            sink.report(redundant.report(counts));
+            return false;
+        }
+    }
     let found = if mobility <= 0 {
         Diagnostic::new(model.name.place(), "the linkage cannot move: its joints hold it fast")
             .note(counts)
@@ -118,13 +126,15 @@ pub(super) fn unbalanced(model: &Model, all: &[Constraint], inputs: &[Input], fo
         }
         _ => "move a joint or a drive from the first links to the second".to_owned(),
     };
-    Diagnostic::new(place, problem)
-        .note(format!(
-            "constraints and drives: {inside} for the {} of the first, {on} for the {} of the second",
-            freedoms(&found.overdetermined),
-            freedoms(&found.loose)
-        ))
-        .help(help)
+    let refusal = Diagnostic::new(place, problem).note(format!(
+        "constraints and drives: {inside} for the {} of the first, {on} for the {} of the second",
+        freedoms(&found.overdetermined),
+        freedoms(&found.loose)
+    ));
+    match redundant::find(model) {
+        Some(redundant) => refusal.note(redundant.reason()).help(redundant.release()),
+        None => refusal.help(help),
+    }
 }
 
 fn are(links: &BTreeSet<LinkId>) -> &'static str {

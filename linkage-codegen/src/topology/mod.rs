@@ -10,6 +10,8 @@
 mod generic;
 mod matching;
 mod mobility;
+mod redundant;
+mod sides;
 
 use std::collections::BTreeSet;
 
@@ -312,9 +314,13 @@ fn singular_group(model: &Model, group: &Group, rank: usize) -> Diagnostic {
     let found = Diagnostic::new(place, problem).note(format!(
         "{freedoms} constraints for {freedoms} freedoms, but only {rank} of them independent: the linkage is held twice here, and loose elsewhere"
     ));
-    found.help(pinned_twice(model, &joints).unwrap_or_else(|| {
-        "take out a joint that repeats another one, or turn a slider so that it guides another way".to_owned()
-    }))
+    if let Some(help) = pinned_twice(model, &joints) {
+        return found.help(help);
+    }
+    match redundant::find(model) {
+        Some(redundant) => found.note(redundant.reason()).help(redundant.release()),
+        None => found.help("take out a joint that repeats another one, or turn a slider so that it guides another way"),
+    }
 }
 
 /// What to do about two pins between the same two links, if there are such.

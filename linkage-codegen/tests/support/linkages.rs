@@ -1,5 +1,7 @@
 //! Random linkages: the places of the joints are drawn first, and the dimensions are those that fit.
 
+mod iterated;
+
 use core::fmt::Write;
 
 use super::Arguments;
@@ -65,6 +67,7 @@ fn direction(angle: f64) -> Place {
     [angle.cos(), angle.sin()]
 }
 
+#[derive(Clone)]
 struct Body {
     name: String,
     origin: Place,
@@ -104,6 +107,7 @@ pub struct Kind {
     pub scalar: &'static str,
 }
 
+#[derive(Clone)]
 struct Builder {
     random: Random,
     base: Place,
@@ -128,52 +132,63 @@ struct Builder {
     framed: bool,
 }
 
+impl Builder {
+    fn new(random: Random, base: Place, kind: Kind) -> Self {
+        let ground =
+            Body { name: "ground".into(), origin: [0.0; 2], angle: 0.0, points: Vec::new(), framed: false, mass: None };
+        Self {
+            random,
+            base,
+            bodies: vec![ground],
+            items: String::new(),
+            places: Vec::new(),
+            names: 0,
+            sines: 0.2,
+            pins: Vec::new(),
+            drives: Vec::new(),
+            driven_slots: false,
+            either: kind.joints,
+            sides: Vec::new(),
+            radii: kind.params.then(Vec::new),
+            framed: false,
+        }
+    }
+
+    /// A link or some more, placed by those that are there: a dyad, a link with other joints, a wheel.
+    fn further(&mut self, kind: Kind) {
+        self.driven_slots = kind.joints && self.random.chance(0.3);
+        if kind.joints && self.random.chance(0.7) {
+            match self.random.below(6) {
+                0 => self.weld(),
+                5 => self.split(true),
+                1 => self.lever(),
+                2 => self.runner(),
+                3 => self.yoke(),
+                _ => self.wheel(),
+            }
+            return;
+        }
+        match kind.sliders.then(|| self.random.below(10)) {
+            Some(0 | 1) => self.slider_dyad(),
+            Some(2) => self.sliding_pair(),
+            Some(3) => self.pinned_sliders(),
+            Some(4) => self.slider_on_slider(),
+            Some(5) => self.split(false),
+            _ => self.pinned_dyad(),
+        }
+    }
+}
+
 /// A random linkage.
 pub fn sample(seed: u64, kind: Kind) -> Sample {
     let mut random = Random(seed);
     let offset = *random.pick(&[0.0, 0.0, 10.0, 1e3]);
     let base = [random.range(-offset, offset), random.range(-offset, offset)];
-    let ground =
-        Body { name: "ground".into(), origin: [0.0; 2], angle: 0.0, points: Vec::new(), framed: false, mass: None };
-    let mut builder = Builder {
-        random,
-        base,
-        bodies: vec![ground],
-        items: String::new(),
-        places: Vec::new(),
-        names: 0,
-        sines: 0.2,
-        pins: Vec::new(),
-        drives: Vec::new(),
-        driven_slots: false,
-        either: kind.joints,
-        sides: Vec::new(),
-        radii: kind.params.then(Vec::new),
-        framed: false,
-    };
+    let mut builder = Builder::new(random, base, kind);
     let drive = builder.driven_link(kind.sliders);
     builder.drives.push(drive);
     for _ in 0..kind.dyads {
-        builder.driven_slots = kind.joints && builder.random.chance(0.3);
-        if kind.joints && builder.random.chance(0.7) {
-            match builder.random.below(6) {
-                0 => builder.weld(),
-                5 => builder.split(true),
-                1 => builder.lever(),
-                2 => builder.runner(),
-                3 => builder.yoke(),
-                _ => builder.wheel(),
-            }
-            continue;
-        }
-        match kind.sliders.then(|| builder.random.below(10)) {
-            Some(0 | 1) => builder.slider_dyad(),
-            Some(2) => builder.sliding_pair(),
-            Some(3) => builder.pinned_sliders(),
-            Some(4) => builder.slider_on_slider(),
-            Some(5) => builder.split(false),
-            _ => builder.pinned_dyad(),
-        }
+        builder.further(kind);
     }
     builder.masses();
     let mut loads = builder.loads(kind.unknown_anywhere);
@@ -181,24 +196,40 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
     builder.finish(loads, motion, kind)
 }
 
-/// The same with a group that has no closed form at its end, its start somewhat off: a triad, of which a leg may be a slider, or a
-/// group of class IV.
+/// The same with a group that has no closed form, its start somewhat off. Without other joints it is the last one: a triad, of which a leg
+/// may be a slider, or a group of class IV. With them it has joints of any kind, and other links may follow it.
 pub fn sample_with_search(seed: u64, kind: Kind) -> Sample {
-    let mut builder = Builder::near(seed);
+    let mut random = Random(seed);
+    let base = [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
+    let mut builder = Builder::new(random, base, kind);
     let drive = builder.driven_link(kind.sliders);
     builder.drives.push(drive);
-    for _ in 0..kind.dyads {
-        builder.pinned_dyad();
-    }
-    if builder.random.chance(0.6) {
-        builder.triad(kind.sliders);
+    if kind.joints {
+        let before = builder.random.below(kind.dyads + 1);
+        for _ in 0..before {
+            builder.further(kind);
+        }
+        builder.iterated();
+        for _ in before..kind.dyads {
+            builder.further(kind);
+        }
     } else {
-        builder.ring();
+        for _ in 0..kind.dyads {
+            builder.pinned_dyad();
+        }
+        if builder.random.chance(0.6) {
+            builder.triad(kind.sliders);
+        } else {
+            builder.ring();
+        }
     }
     builder.masses();
     let mut loads = builder.loads(kind.unknown_anywhere);
     let motion = if kind.moving { builder.motion(&mut loads) } else { Vec::new() };
-    builder.finish_search(loads, motion, kind)
+    let starts = builder.starts_of_drives(if kind.joints { 0.02 } else { 0.0 });
+    let mut sample = builder.finish(loads, motion, kind);
+    sample.text.push_str(&starts);
+    sample
 }
 
 /// Groups without a closed form.
@@ -215,16 +246,6 @@ pub enum Class {
 /// A crank and a group of this class, with forces on two of its links that are given at run time. All lengths are numbers that single
 /// precision holds too. Frames have their origins at joints, about which moments are then taken.
 pub fn sample_with_forces(seed: u64, class: Class) -> Sample {
-    let mut builder = Builder::near(seed);
-    builder.framed = true;
-    let drive = builder.driven_link(false);
-    builder.drives.push(drive);
-    match class {
-        Class::Three => builder.triad(false),
-        Class::ThreeWithSlider => builder.triad(true),
-        Class::Four => builder.ring(),
-    }
-    let loads = builder.forces();
     let kind = Kind {
         dyads: 0,
         sliders: false,
@@ -234,7 +255,21 @@ pub fn sample_with_forces(seed: u64, class: Class) -> Sample {
         params: false,
         scalar: "f64",
     };
-    let mut sample = builder.finish_search(loads, Vec::new(), kind);
+    let mut random = Random(seed);
+    let base = [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
+    let mut builder = Builder::new(random, base, kind);
+    builder.framed = true;
+    let drive = builder.driven_link(false);
+    builder.drives.push(drive);
+    match class {
+        Class::Three => builder.triad(false),
+        Class::ThreeWithSlider => builder.triad(true),
+        Class::Four => builder.ring(),
+    }
+    let loads = builder.forces();
+    let starts = builder.starts_of_drives(0.0);
+    let mut sample = builder.finish(loads, Vec::new(), kind);
+    sample.text.push_str(&starts);
     sample.text = in_single_precision(&sample.text.replace("scalar f64;\n", ""));
     sample
 }
@@ -279,30 +314,6 @@ fn independence(lines: [(Place, Place); 3]) -> f64 {
 }
 
 impl Builder {
-    /// Nothing but the ground, not far from the origin.
-    fn near(seed: u64) -> Self {
-        let mut random = Random(seed);
-        let base = [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
-        let ground =
-            Body { name: "ground".into(), origin: [0.0; 2], angle: 0.0, points: Vec::new(), framed: false, mass: None };
-        Self {
-            random,
-            base,
-            bodies: vec![ground],
-            items: String::new(),
-            places: Vec::new(),
-            names: 0,
-            sines: 0.2,
-            pins: Vec::new(),
-            drives: Vec::new(),
-            driven_slots: false,
-            either: false,
-            sides: Vec::new(),
-            radii: None,
-            framed: false,
-        }
-    }
-
     /// Two forces on two links, anywhere.
     fn forces(&mut self) -> Vec<[f64; 2]> {
         let moving = self.bodies.len() - 1;
@@ -316,16 +327,6 @@ impl Builder {
                 [self.random.range(-50.0, 50.0), self.random.range(-50.0, 50.0)]
             })
             .to_vec()
-    }
-
-    /// The linkage, with the drive's coordinate at the start.
-    fn finish_search(self, loads: Vec<[f64; 2]>, motion: Vec<[f64; 2]>, kind: Kind) -> Sample {
-        let (joint, at) = &self.drives[0];
-        let unit = if self.items.contains(&format!("prismatic {joint}:")) { "m" } else { "rad" };
-        let start = format!("start q0: {at:?}{unit};\n");
-        let mut sample = self.finish(loads, motion, kind);
-        sample.text.push_str(&start);
-        sample
     }
 
     /// A link with points of its own.
@@ -412,7 +413,9 @@ impl Builder {
             // The rates at which the plates' turns stretch the legs.
             let (u, v) = (unit(minus(e, c)), unit(minus(f, d)));
             let rates = [cross(minus(c, a), u), cross(minus(e, b), u), cross(minus(d, a), v), cross(minus(f, b), v)];
-            if (rates[0] * rates[3] - rates[1] * rates[2]).abs() > 0.6 {
+            if (rates[0] * rates[3] - rates[1] * rates[2]).abs() > 0.6
+                && iterated::ring_is_firm([a, b, c, d, e, f], self.base)
+            {
                 break [a, b, c, d, e, f];
             }
         };
@@ -768,7 +771,7 @@ impl Builder {
         let (arm, wheel) = self.arrow(a, b);
         let points = &self.bodies[arm].points;
         let at = points.iter().find(|(name, _)| *name == centre).expect("a pin's point").1;
-        let [p, g] = [self.fresh('J'), self.fresh('J')];
+        let p = self.fresh('J');
         let own = loop {
             let own = self.place();
             if size(minus(own, at)) > 0.3 {
@@ -779,7 +782,14 @@ impl Builder {
         let other = self.place();
         let link = self.link((&p, own), (&format!("{p}x"), other));
         self.revolute(&p, arm, link);
-        let ends = [(wheel, &centre, at), (link, &p, own)];
+        let (g, touch, _) = self.mesh(arm, [(wheel, &centre, at), (link, &p, own)]);
+        self.places.extend([(p, own), (g, touch)]);
+    }
+
+    /// A gear pair of two wheels on the pins of an arm: its name, where the teeth touch, and its radii, that of a pinion in a ring negative.
+    /// The ring, if there is one, is the first.
+    fn mesh(&mut self, arm: usize, ends: [(usize, &str, Place); 2]) -> (String, Place, [(usize, f64); 2]) {
+        let g = self.fresh('J');
         let [first, second] = if self.random.chance(0.5) { [ends[0], ends[1]] } else { [ends[1], ends[0]] };
         let way = minus(second.2, first.2);
         let distance = size(way);
@@ -792,7 +802,10 @@ impl Builder {
         };
         let signed = [radii[0], if ring { -radii[1] } else { radii[1] }];
         let e = direction(self.bodies[arm].angle);
-        let psi = self.bodies[arm].angle + cross(e, way).atan2(dot(e, way));
+        // Where both centres are on the arm's x axis, that is exact in its frame.
+        let across = cross(e, way);
+        let within = (if across.abs() < 1e-12 { 0.0 } else { across }).atan2(dot(e, way));
+        let psi = self.bodies[arm].angle + within;
         let angles = [first.0, second.0].map(|link| self.bodies[link].angle);
         let phase = signed[0] * (angles[0] - psi) + signed[1] * (angles[1] - psi);
         let mut options = String::from(if ring { ", internal" } else { "" });
@@ -817,7 +830,7 @@ impl Builder {
         );
         self.items.push_str(&line);
         let touch = plus(first.2, way.map(|x| x * signed[0] / (signed[0] + signed[1])));
-        self.places.extend([(p, own), (g, touch)]);
+        (g, touch, [(first.0, signed[0]), (second.0, signed[1])])
     }
 
     /// A slide between two links that are placed here, with its line anywhere.
@@ -1014,29 +1027,36 @@ impl Builder {
             }
             arguments.push([self.random.range(-1.0, 1.0), -9.81]);
         }
-        // Of several drives, every one has its effort.
-        if unknown_anywhere && self.drives.len() == 1 && self.random.chance(0.7) {
-            let link = 1 + self.random.below(moving);
-            let name = self.bodies[link].name.clone();
-            let line = if self.random.chance(0.4) {
-                format!("unknown E: thrust({});\n", self.two_points())
-            } else if self.random.chance(0.5) {
-                let mut other = self.random.below(moving + 1);
-                if other == link {
-                    other = 0;
-                }
-                format!("unknown E: torque({} -> {name});\n", self.bodies[other].name)
-            } else {
-                let point = self.fresh('p');
-                let at = self.place();
-                self.bodies[link].points.push((point.clone(), at));
-                let angle = self.random.range(-3.0, 3.0);
-                let frame = self.random.below(moving + 1);
-                format!("unknown E: force({name}.{point}) along {angle:?}rad of {};\n", self.bodies[frame].name)
-            };
-            self.items.push_str(&line);
+        if unknown_anywhere && self.drives.len() <= 3 && self.random.chance(0.7) {
+            for number in 0..self.drives.len() {
+                let line = self.unknown(number);
+                self.items.push_str(&line);
+            }
         }
         arguments
+    }
+
+    /// An unknown that acts anywhere.
+    fn unknown(&mut self, number: usize) -> String {
+        let moving = self.bodies.len() - 1;
+        let link = 1 + self.random.below(moving);
+        let name = self.bodies[link].name.clone();
+        if self.random.chance(0.4) {
+            format!("unknown E{number}: thrust({});\n", self.two_points())
+        } else if self.random.chance(0.5) {
+            let mut other = self.random.below(moving + 1);
+            if other == link {
+                other = 0;
+            }
+            format!("unknown E{number}: torque({} -> {name});\n", self.bodies[other].name)
+        } else {
+            let point = self.fresh('p');
+            let at = self.place();
+            self.bodies[link].points.push((point.clone(), at));
+            let angle = self.random.range(-3.0, 3.0);
+            let frame = self.random.below(moving + 1);
+            format!("unknown E{number}: force({name}.{point}) along {angle:?}rad of {};\n", self.bodies[frame].name)
+        }
     }
 
     /// Two points of two links, as they are written.

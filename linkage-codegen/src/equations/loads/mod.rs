@@ -13,6 +13,8 @@ mod torsion;
 pub use line::Line;
 pub use posture::{Posture, Symbolic};
 
+pub(crate) use inertia::by_dalembert;
+
 use super::{Body, Exerted};
 use crate::graph::{NodeId, Order, Vector};
 use crate::model::ids::{LinkId, LoadId};
@@ -96,6 +98,12 @@ pub fn cases_of(posture: &dyn Posture<'_>, load: LoadId) -> Vec<(Case, Vec<Actio
             massive.map(of).collect()
         }
     }
+}
+
+/// The inertia of a link by D'Alembert; nothing if it has no mass.
+#[must_use]
+pub fn inertia_of(posture: &dyn Posture<'_>, link: LinkId) -> Vec<Action> {
+    posture.model().link(link).mass.map_or_else(Vec::new, |mass| inertia::actions(posture, link, mass))
 }
 
 /// What a force at a point of a link exerts about the origin of its frame: with `r` from there to the point, `r × F`.

@@ -231,20 +231,31 @@ impl<'p, 'm> Parts<'p, 'm> {
                 if self.is_slide(member.far) {
                     // n·(a_pin − a_guide) − α x = 2 ω ṡ − ω² y at the pin (x, y) from the runner.
                     let coriolis = motion.coriolis(member.far, member.link).components.y;
-                    return motion.centripetal(member.link, self.slide_arm(member).y) - coriolis;
+                    let held = motion.centripetal(member.link, self.slide_arm(member).y) - coriolis;
+                    // A parameter may move the pin in its link, and turn the link in its guide.
+                    let arm = self.place(member.near, member.link) - self.place(member.far, member.link);
+                    let axes = self.placement.direction(member.link);
+                    let moved = Framed { components: motion.within(member.link, arm), axes };
+                    let across = motion.part(&moved, self.placement.slide_direction(member.far).perp());
+                    let turned = motion.turned_by(member.far, member.link);
+                    return held - across - turned * self.slide_arm(member).x;
                 }
-                // u·(a_near − a_far) = −ω² r.
-                motion.centripetal(member.link, self.rod(member).0)
+                // u·(a_near − a_far) = −ω² r, and where a parameter changes the length its rate.
+                let length = self.rod(member).0;
+                motion.centripetal(member.link, length) - motion.change_of(length)
             }
             Unknown::Joint(joint, part) => {
                 let component = reactions::parts(self.placement, joint).get(part).map(|part| part.component);
                 let data = self.model.joint(joint);
                 match (component, data.kind) {
+                    (Some(Component::Couple), _) => motion.turned_by(joint, data.to.link),
                     (Some(Component::Normal), _) => motion.coriolis(joint, data.to.link).components.y,
                     // The centres turn about each other.
                     (Some(Component::Tangential), JointKind::Gear(gear)) => {
                         let incline = self.placement.graph().expr(gear.incline);
-                        -(incline * motion.centripetal(gear.arm[0].link, gear.distance(self.model)))
+                        let distance = gear.distance(self.model);
+                        let drawn = -(incline * motion.centripetal(gear.arm[0].link, distance));
+                        drawn + incline * motion.change_of(distance) + motion.meshing(joint, &gear)
                     }
                     _ => zero,
                 }
@@ -377,6 +388,10 @@ impl Rule for Block {
         "block"
     }
 
+    fn is_closed(&self) -> bool {
+        false
+    }
+
     fn fits(&self, _: &Model, _: &Group) -> bool {
         true
     }
@@ -496,10 +511,13 @@ impl Rule for Block {
             let velocity = end(member.near);
             let at = parts.place(member.near, member.link);
             let rate = if parts.is_slide(member.far) {
-                motion.rate(parts.other(member.far, member.link))
+                motion.rate(parts.other(member.far, member.link)) + motion.turned_by(member.far, member.link)
             } else {
                 let (length, direction) = parts.rod(member);
                 let gap = motion.difference(&velocity, &end(member.far));
+                let arm = at - parts.place(member.far, member.link);
+                let axes = motion.placement.direction(member.link);
+                let gap = motion.difference(&gap, &Framed { components: motion.within(member.link, arm), axes });
                 motion.part(&gap, direction.perp()) / length
             };
             let name = &parts.model.link(member.link).name;
@@ -517,7 +535,7 @@ fn too_large(model: &Model, group: &Group, size: usize) -> Diagnostic {
 
 /// The power of an act on a link. Members have no motion before their ends have one.
 fn power<'m>(motion: &Motion<'m, '_>, parts: &Parts<'_, 'm>, act: &Act<'m>) -> Expr<'m> {
-    let moves = |link: LinkId| link != GROUND && !parts.is_member(link);
+    let moves = |link: LinkId| !parts.is_member(link);
     match act {
         Act::Force(link, at, force) if moves(*link) => {
             motion.of_place(*link, *at).along(force.axes).dot(force.components)

@@ -33,6 +33,11 @@ pub trait Rule: Sync {
     /// What the class is called: `RRR dyad`.
     fn class(&self) -> &'static str;
 
+    /// Whether it places its links in closed form, and not by iteration.
+    fn is_closed(&self) -> bool {
+        true
+    }
+
     /// Whether a group belongs to the class.
     fn fits(&self, model: &Model, group: &Group) -> bool;
 

@@ -16,6 +16,7 @@ use crate::model::ids::{DriveId, JointId, LinkId};
 use crate::model::{End, Gear, JointKind, Model, Start};
 use crate::plan::assembly::Assembly;
 use crate::plan::placement::{Orientation, Placement, Way};
+use crate::plan::starts;
 use crate::topology::{Group, Input};
 
 /// What a group's links are placed by.
@@ -474,6 +475,24 @@ fn check_starts(assembly: &Assembly<'_>, group: &Group) -> RuleResult {
     if lines.is_empty() {
         return Ok(());
     }
+    let placed = |link: LinkId| {
+        let placement = &assembly.placement;
+        let frame = |origin: Vector<'_>, angle: Expr<'_>| [origin.x.id(), origin.y.id(), angle.id()];
+        placement.is_placed(link).then(|| frame(placement.origin(link), placement.angle(link)))
+    };
+    let closing = starts::Wanted { model, group: &group.links, placed: &placed }.starts();
+    let is_missing = |item: &starts::Item| match item {
+        starts::Item::Drive(drive) => model.drive(*drive).start.is_none(),
+        starts::Item::Link(link) => missing.contains(link),
+    };
+    let closing = closing.map(|items| items.into_iter().filter(|(item, _)| is_missing(item)).map(|(_, line)| line));
+    let help = match closing {
+        Some(closing) => {
+            let closing: Vec<String> = closing.collect();
+            format!("they close, among other poses, with\n{}", closing.join("\n"))
+        }
+        None => format!("with the numbers of your linkage, write\n{}", lines.join("\n")),
+    };
     let names: Vec<&str> = group.links.iter().map(|link| model.link(*link).name.text.as_str()).collect();
     let problem = format!("{} are placed together, by iteration: they need a pose to start from", list(&names));
     let (place, note) = match (missing.first(), model.drives.iter().find(|drive| drive.start.is_none())) {
@@ -484,7 +503,5 @@ fn check_starts(assembly: &Assembly<'_>, group: &Group) -> RuleResult {
         (None, Some(drive)) => (drive.name.place(), "what the drives' coordinates are at that pose is part of it"),
         (None, None) => (model.name.place(), ""),
     };
-    Err(Diagnostic::new(place, problem)
-        .note(note)
-        .help(format!("with the numbers of your linkage, write\n{}", lines.join("\n"))))
+    Err(Diagnostic::new(place, problem).note(note).help(help))
 }

@@ -133,7 +133,7 @@ impl Rule for Rpr {
     }
 }
 
-/// Supposes that the carrier of the slide does not turn, nor the other link against it but for a drive. Gives what their first links must
+/// Supposes that the carrier of the slide does not turn, nor the other link against it but for a drive or a parameter. Gives what their first links must
 /// turn back for that.
 fn turns_within<'m>(dyad: &Dyad<'m>, motion: &mut Motion<'m, '_>) -> Result<[Expr<'m>; 2], Diagnostic> {
     let mut own = [motion.graph().zero(); 2];
@@ -142,7 +142,11 @@ fn turns_within<'m>(dyad: &Dyad<'m>, motion: &mut Motion<'m, '_>) -> Result<[Exp
         // In a slot the drive turns the other link against its carrier.
         let link = leg.tip.end.link;
         let carrier = dyad.model.joint(dyad.inner).kind.line().map_or(link, |(carrier, _)| carrier);
-        let wanted = if carrier == link { motion.graph().zero() } else { motion.driven_rate(dyad.inner, carrier) };
+        let wanted = if carrier == link {
+            motion.graph().zero()
+        } else {
+            motion.driven_rate(dyad.inner, carrier) + motion.turned_by(dyad.inner, link)
+        };
         *own = motion.rate(link) - wanted;
         if !own.is_zero() {
             dyad.turn(motion, leg, -*own)?;
@@ -254,8 +258,11 @@ fn side<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'_>) -> Resu
     let slide = dyad.joint_name(dyad.inner);
     let outer: [JointId; 2] = dyad.legs.each_ref().map(|leg| leg.outer);
     let [p, q] = outer.map(|joint| dyad.joint_name(joint));
-    let Some(closure) = assembly.closure(dyad.inner) else {
-        return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], p));
+    let Some(closure) = assembly.closure(dyad.inner, group) else {
+        // Of the two ways to say it, the one that no other group at this joint has.
+        let taken = dyad.model.closures.iter().any(|other| other.joint == dyad.inner && other.of == [outer[0]]);
+        let of = if taken { q } else { p };
+        return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], of));
     };
     let sign = match (closure.side, outer.iter().position(|joint| closure.of == [*joint])) {
         (Side::Ahead | Side::Behind | Side::Either, Some(0)) => assembly.sign(closure, Side::Ahead),

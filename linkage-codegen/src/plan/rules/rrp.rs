@@ -177,7 +177,7 @@ pub(super) fn ahead<'m>(
 ) -> Result<Sign<'m>, Diagnostic> {
     let model = assembly.model();
     let [name, of] = [inner, outer].map(|joint| &model.joint(joint).name.text);
-    let Some(closure) = assembly.closure(inner) else {
+    let Some(closure) = assembly.closure(inner, group) else {
         return Err(assembly.missing_closure(group, inner, [Side::Ahead, Side::Behind], of));
     };
     if !matches!(closure.side, Side::Ahead | Side::Behind | Side::Either) || closure.of != [outer] {

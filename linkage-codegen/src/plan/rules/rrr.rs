@@ -35,7 +35,7 @@ pub(super) struct Rrr;
 #[must_use]
 pub fn pinned_dyad<'a>(model: &'a Model, group: &Group) -> Option<Dyad<'a>> {
     let mut dyad = dyad(model, group).filter(|dyad| dyad.pins() == [true; 3])?;
-    let closure = model.closures.iter().find(|c| c.joint == dyad.inner);
+    let closure = model.closure_at(dyad.inner, &group.outer).map(|id| model.closure(id));
     if closure.is_some_and(|c| c.of.first() == Some(&dyad.legs[1].outer)) {
         dyad.legs.swap(0, 1);
     }
@@ -191,7 +191,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     dyad.check_lengths()?;
     let outer_names = [first, second].map(|leg| dyad.joint_name(leg.outer));
     let of = format!("{} -> {}", outer_names[0], outer_names[1]);
-    let Some(closure) = assembly.closure(dyad.inner) else {
+    let Some(closure) = assembly.closure(dyad.inner, group) else {
         return Err(assembly.missing_closure(group, dyad.inner, [Side::Left, Side::Right], &of));
     };
     check_closure(dyad, closure, &of)?;

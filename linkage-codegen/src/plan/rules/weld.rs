@@ -60,7 +60,8 @@ impl Rule for Weld {
         let Some((link, weld)) = parts(model, group) else { return Ok(()) };
         let data = model.joint(weld);
         let (Some(near), Some(far)) = (data.end_on(link), data.end_off(link)) else { return Ok(()) };
-        let (at, rate, velocity) = (motion.placement.point(near), motion.rate(far.link), motion.of_point(far));
+        let (at, rate, velocity) =
+            (motion.placement.point(near), motion.rate(far.link) + motion.turned_by(weld, link), motion.of_point(far));
         motion.found(link, Twist { rate, at, velocity });
         Ok(())
     }

@@ -17,6 +17,17 @@ pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
     }
     let shared: BTreeSet<ValueId> =
         divisors.into_iter().filter(|(_, uses)| *uses > 1).map(|(divisor, _)| divisor).collect();
+    // A reciprocal that is there already serves all the others.
+    let mut own: BTreeMap<ValueId, ValueId> = BTreeMap::new();
+    for step in &program.steps {
+        if let Step::Let(value) = step
+            && let Some(Op::Div(dividend, divisor)) = program.op(*value)
+            && shared.contains(divisor)
+            && is_one(&program, graph, *dividend)
+        {
+            own.entry(*divisor).or_insert(*value);
+        }
+    }
     let mut reciprocals: BTreeMap<ValueId, ValueId> = BTreeMap::new();
     let mut steps = Vec::new();
     for step in core::mem::take(&mut program.steps) {
@@ -24,6 +35,14 @@ pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
             && let Some(Op::Div(dividend, divisor)) = program.op(value).cloned()
             && shared.contains(&divisor)
         {
+            if let Some(reciprocal) = own.get(&divisor).copied() {
+                if reciprocals.insert(divisor, reciprocal).is_none() {
+                    steps.push(Step::Let(reciprocal));
+                }
+                if reciprocal == value {
+                    continue;
+                }
+            }
             let reciprocal = *reciprocals.entry(divisor).or_insert_with(|| {
                 let reciprocal = reciprocal_of(&mut program, graph, divisor, value);
                 steps.push(Step::Let(reciprocal));
@@ -35,6 +54,13 @@ pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
     }
     program.steps = steps;
     program
+}
+
+fn is_one(program: &Program, graph: &Graph, value: ValueId) -> bool {
+    match (program.op(value), graph.constant(&Number::one()).op()) {
+        (Some(Op::Constant(number)), Op::Constant(one)) => *number == one,
+        _ => false,
+    }
 }
 
 /// `1/divisor` as a new value, under the heading of its first use.

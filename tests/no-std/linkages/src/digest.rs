@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use linkage_runtime::nalgebra::{SMatrix, Scalar};
 use linkage_runtime::{Error, SliderReaction, Vector2, WorkTerm};
 
 /// A hash over the bits of everything put into it, and how many answers and refusals were among it.
@@ -52,6 +53,8 @@ impl Digest {
             Error::Parameter { requirement } => (4, requirement, 0.0),
             Error::NotFinite { what } => (5, what, 0.0),
             Error::NoConvergence { group, gap } => (7, group, gap),
+            Error::NoInertia { scene } => (8, scene, 0.0),
+            Error::OtherSide { joint } => (9, joint, 0.0),
             _ => (6, "", 0.0),
         };
         self.bits(kind);
@@ -110,7 +113,15 @@ impl<T: Output + Copy> Output for Vector2<T> {
     }
 }
 
-impl<T: Output + linkage_runtime::nalgebra::Scalar + Copy> Output for SliderReaction<T> {
+impl<T: Output + Copy> Output for SMatrix<T, 2, 2> {
+    fn put(self, digest: &mut Digest) {
+        let [[a, b], [c, d]] = self.data.0;
+        (a, b).put(digest);
+        (c, d).put(digest);
+    }
+}
+
+impl<T: Output + Scalar + Copy> Output for SliderReaction<T> {
     fn put(self, digest: &mut Digest) {
         let Self { force, normal, couple } = self;
         force.put(digest);

@@ -38,6 +38,7 @@ linkage! {
     scene work:    virtual_work;
     scene held:    virtual_work(W) -> (effort_theta);
     scene place:   position;
+    scene slopes:  derivative(held) by (theta, crank_length, tilt, coupler_mass);
 }
 
 outputs! {
@@ -49,6 +50,11 @@ outputs! {
     linkage::WorkW { coupler, rocker }
     linkage::Held { effort_theta }
     linkage::Place { A0, A, B, B0, coupler_C, crank_angle, coupler_angle, rocker_angle }
+    linkage::Slopes { theta, crank_length, tilt, coupler_mass }
+    linkage::SlopesTheta { effort_theta }
+    linkage::SlopesCrankLength { effort_theta }
+    linkage::SlopesTilt { effort_theta }
+    linkage::SlopesCouplerMass { effort_theta }
 }
 
 /// Calls everything.
@@ -80,6 +86,7 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     digest.result(linkage::work_at(linkage, theta, &loads));
     digest.result(linkage::held_at(linkage, theta));
     digest.result(linkage::place_at(linkage, theta));
+    digest.result(linkage::slopes_at(linkage, theta));
     let pose = match linkage::Pose::at(linkage, theta) {
         Ok(pose) => pose,
         Err(error) => return digest.refusal(error),
@@ -94,6 +101,7 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     digest.result(pose.work(&loads));
     digest.result(pose.held());
     digest.result(pose.place());
+    digest.result(pose.slopes());
     accessors!(digest, pose: theta, A0, A, B, B0, crank_direction, crank_A0, crank_A, coupler_direction, coupler_A,
         coupler_B, coupler_C, rocker_direction, rocker_B0, rocker_B, sin_mu_B);
 }

@@ -40,6 +40,7 @@ linkage! {
     scene parts:   superposition;
     scene work:    virtual_work;
     scene place:   position;
+    scene slopes:  derivative(statics) by (theta, F);
 }
 
 outputs! {
@@ -50,6 +51,11 @@ outputs! {
     linkage::Work { T, F, W }
     linkage::WorkW { plate }
     linkage::Place { O, A, E, C, D, Q, P, plate_G, crank_angle, rod_angle, plate_angle, upper_angle, lower_angle }
+    linkage::Slopes { theta, F }
+    linkage::SlopesTheta { T, O, A, E, C, D, Q, P }
+    linkage::SlopesF { x, y }
+    linkage::SlopesFX { T, O, A, E, C, D, Q, P }
+    linkage::SlopesFY { T, O, A, E, C, D, Q, P }
 }
 
 /// Calls everything.
@@ -60,6 +66,7 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     digest.result(linkage::parts_at(theta, &loads));
     digest.result(linkage::work_at(theta, &loads));
     digest.result(linkage::place_at(theta));
+    digest.result(linkage::slopes_at(theta, &loads));
     let pose = match linkage::Pose::at(theta).and_then(|pose| pose.moved_to(theta + 0.1 * c)) {
         Ok(pose) => pose,
         Err(error) => return digest.refusal(error),
@@ -73,6 +80,7 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     }
     digest.result(pose.work(&loads));
     digest.result(pose.place());
+    digest.result(pose.slopes(&loads));
     accessors!(digest, pose: theta, O, A, E, C, D, Q, P, crank_direction, crank_O, crank_A, rod_direction, rod_A, rod_E,
         plate_direction, plate_E, plate_C, plate_D, plate_G, upper_direction, upper_Q, upper_C, lower_direction,
         lower_P, lower_D);

@@ -1,5 +1,5 @@
 //! A press, posed by its crank and held between crank and rod: forces by a core of two equations.
-//! One dimension is given at run time.
+//! One dimension is given at run time. The crank is found from the ram, too.
 
 use linkage_runtime::{Vector2, linkage};
 
@@ -35,6 +35,8 @@ linkage! {
     unknown T: torque(crank -> rod);
     assemble B: left(A -> B0);
     assemble E: ahead(B5);
+    assemble B5: left(E -> B0);
+    assemble A: left(A0 -> B);
 
     load P: force(ram.G);
     load M: moment(ground -> crank) = 2N*m;
@@ -44,6 +46,7 @@ linkage! {
     scene parts:   superposition;
     scene work:    virtual_work;
     scene place:   position;
+    scene crank_of: inverse(D);
 }
 
 outputs! {
@@ -51,6 +54,7 @@ outputs! {
     linkage::Parts { P, M, W }
     linkage::PartsContribution { T, A0, A, B, B0, B5, E, D }
     linkage::PartsW { coupler, ram }
+    linkage::CrankOf { theta, theta_rate, theta_acceleration }
     linkage::Work { T, P, M, W }
     linkage::WorkW { coupler, ram }
     linkage::Place { A0, A, B, B0, B5, E, D, coupler_C, ram_G, crank_angle, coupler_angle, rocker_angle, rod_angle, ram_angle }
@@ -58,7 +62,7 @@ outputs! {
 
 /// Calls everything.
 pub fn solve(input: &super::Inputs, digest: &mut Digest) {
-    let [theta, a, b, _, _, p, _, _] = *input;
+    let [theta, a, b, c, d, p, _, _] = *input;
     let loads = linkage::Loads { P: Vector2::new(50.0 * a, 50.0 * b) };
     let params = linkage::Params { reach: linkage::Params::default().reach * (1.0 + 0.1 * p) };
     let prepared = match linkage::Linkage::new(&params) {
@@ -78,6 +82,8 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     digest.result(linkage::parts_at(linkage, theta, &loads));
     digest.result(linkage::work_at(linkage, theta, &loads));
     digest.result(linkage::place_at(linkage, theta));
+    let motion = linkage::CrankOfMotion { D_travel_rate: 100.0 * c, D_travel_acceleration: 1000.0 * d };
+    digest.result(linkage::crank_of_at(linkage, 120.0 + 90.0 * a, &motion));
     let pose = match linkage::Pose::at(linkage, theta) {
         Ok(pose) => pose,
         Err(error) => return digest.refusal(error),

@@ -1,4 +1,4 @@
-//! A slider-crank with the weight of its links.
+//! A slider-crank with the weight of its links, and its equation of motion.
 
 use linkage_runtime::{Vector2, linkage};
 
@@ -36,6 +36,7 @@ linkage! {
     scene torque:  virtual_work -> (effort_theta);
     scene place:   position;
     scene stroke:  position -> (piston.D);
+    scene control: motion;
 }
 
 outputs! {
@@ -49,11 +50,12 @@ outputs! {
     linkage::Torque { effort_theta }
     linkage::Place { A0, A, B, C, rod_G, piston_D, crank_angle, rod_angle, piston_angle }
     linkage::Stroke { piston_D }
+    linkage::Control { M, h, rounding }
 }
 
 /// Calls everything.
 pub fn solve(input: &super::Inputs, digest: &mut Digest) {
-    let [theta, a, b, _, _, _, _, _] = *input;
+    let [theta, a, b, _, _, p, q, _] = *input;
     let loads = linkage::Loads { P: Vector2::new(50.0 * a, 50.0 * b) };
     digest.result(linkage::statics_at(theta, &loads));
     digest.result(linkage::guide_at(theta));
@@ -62,6 +64,8 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     digest.result(linkage::torque_at(theta, &loads));
     digest.result(linkage::place_at(theta));
     digest.result(linkage::stroke_at(theta));
+    let motion = linkage::Motion { theta_rate: 30.0 * p };
+    digest.result(linkage::control_at(theta, &motion, &loads));
     let pose = match linkage::Pose::at(theta) {
         Ok(pose) => pose,
         Err(error) => return digest.refusal(error),
@@ -78,6 +82,11 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     digest.result(pose.torque(&loads));
     digest.result(pose.place());
     digest.result(pose.stroke());
+    let control = pose.control(&motion, &loads);
+    digest.result(control);
+    if let Ok(control) = control {
+        digest.result(control.acceleration(200.0 * q));
+    }
     accessors!(digest, pose: theta, A0, A, B, C, crank_direction, crank_A0, crank_A, rod_direction, rod_A, rod_B,
         rod_G, piston_direction, piston_B, piston_C, piston_D, sin_mu_B);
 }

@@ -1,4 +1,4 @@
-use linkage_runtime::{linkage, polar};
+use linkage_runtime::{Error, linkage, polar};
 
 linkage! {
     pub mod four_bar;
@@ -20,19 +20,22 @@ linkage! {
     assemble B: left(A -> B0);
 
     load F13: force(coupler.C);
-    load F14: force(rocker.D) = 100N @ 200deg;
 
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
-
-    scene control: motion;
-    scene cycle: inverse(A0);
+    scene a: derivative() by (theta);
+    scene b: derivative(statics);
+    scene c: derivative statics by theta;
+    scene d: derivative(statics, torque) by (theta);
+    scene e: derivative(statics) by (theta) -> (T12);
 }
 
-fn main() {
+fn main() -> Result<(), Error> {
     let loads = four_bar::Loads { F13: polar(50.0, 4.0) };
-    let pose = four_bar::Pose::at(1.0).unwrap();
-    let all = pose.statics(&loads).unwrap();
-    println!("{} {} {}", all.T12, all.B.norm(), pose.coupler_C());
-    println!("{}", four_bar::torque_at(1.0, &loads).unwrap().T12);
+    let pose = four_bar::Pose::at(1.0)?;
+    println!("{}", pose.statics(&loads)?.T12);
+    println!("{}", four_bar::torque_at(1.0, &loads)?.T12);
+    println!("{}", four_bar::c_at(1.0, &loads)?.theta.T12);
+    println!("{} {}", four_bar::d_at(1.0, &loads)?.theta.T12, four_bar::e_at(1.0, &loads)?.theta.T12);
+    Ok(())
 }

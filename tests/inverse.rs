@@ -1,0 +1,209 @@
+//! Inverse scenes as a user has them: the drives for a wanted motion of an output, and what cannot be reached.
+
+use core::f64::consts::TAU;
+
+use linkage_runtime::{Error, Side, linkage};
+
+linkage! {
+    /// A crank-rocker, asked for the crank both ways.
+    mod four_bar;
+    units { mm, N }
+    ground       { A0: (0, 0), B0: (140mm, 0) }
+    link crank   { A0 -> A: 40mm }
+    link coupler { A -> B: 120mm }
+    link rocker  { B0 -> B: 80mm }
+    revolute A0: ground  -> crank;
+    revolute A:  crank   -> coupler;
+    revolute B:  coupler -> rocker;
+    revolute B0: ground  -> rocker;
+    drive theta: A0;
+    assemble B: left(A -> B0);
+    assemble A: either(A0 -> B);
+    load M4: moment(rocker);
+    scene places: position -> (rocker.angle);
+    scene speeds: velocity -> (rocker.angle);
+    scene accelerations: acceleration -> (rocker.angle);
+    scene crank_of: inverse(B0);
+    scene angle_of: inverse(B0) -> (theta);
+}
+
+linkage! {
+    /// A press of run-time length in single precision: the crank for a wanted stroke.
+    mod press;
+    scalar f32;
+    units { mm, N }
+    param length: length = 130mm;
+    ground      { O: (0, 0) }
+    link crank  { O -> A: 40mm }
+    link rod    { A -> B: length }
+    link ram    { B }
+    revolute O: ground -> crank;
+    revolute A: crank -> rod;
+    revolute B: rod -> ram;
+    prismatic S: ground.O -> ram.B along 0deg;
+    drive theta: O { rate: 3rad/s, acceleration: 0 };
+    assemble B: ahead(A);
+    assemble A: left(O -> B);
+    scene places: position -> (B);
+    scene speeds: velocity -> (B);
+    scene accelerations: acceleration -> (B);
+    scene crank_of: inverse(S);
+}
+
+linkage! {
+    /// A double rocker: its two assemblies swing over common angles.
+    mod rocker;
+    ground       { A0: (0, 0), B0: (1.2m, 0) }
+    link crank   { A0 -> A: 0.9m }
+    link coupler { A -> B: 0.5m }
+    link rocker  { B0 -> B: 0.8m }
+    revolute A0: ground  -> crank;
+    revolute A:  crank   -> coupler;
+    revolute B:  coupler -> rocker;
+    revolute B0: ground  -> rocker;
+    drive theta: A0;
+    assemble B: left(A -> B0);
+    assemble A: either(A0 -> B);
+    scene places: position -> (rocker.angle);
+    scene crank_of: inverse(B0) -> (theta, theta.rate);
+}
+
+linkage! {
+    /// A five-bar that a tool's slide and pin are to guide.
+    mod five_bar;
+    ground     { O1: (0, 0), O2: (0.5m, 0), S: (0.25m, 0.4m) }
+    link left  { O1 -> P: 0.3m }
+    link right { O2 -> Q: 0.35m }
+    link upper { P -> R: 0.45m }
+    link lower { Q -> R: 0.4m }
+    revolute O1: ground -> left;
+    revolute O2: ground -> right;
+    revolute P: left -> upper;
+    revolute Q: right -> lower;
+    revolute R: upper -> lower;
+    drive a: O1;
+    drive b: O2;
+    assemble R: left(P -> Q);
+    assemble P: either(O1 -> R);
+    scene places: position -> (lower.angle, right.angle);
+    scene speeds: velocity -> (lower.angle, right.angle);
+    scene accelerations: acceleration -> (lower.angle, right.angle);
+    scene drives_of: inverse(O2, Q);
+}
+
+fn turned(a: f64, b: f64) -> f64 {
+    (a - b) - TAU * ((a - b) / TAU).round()
+}
+
+#[test]
+fn the_crank_is_found_from_the_motion_of_the_rocker() -> Result<(), Error> {
+    for theta in (0..48).map(|step| 0.05 + 0.13 * f64::from(step)) {
+        let motion = four_bar::Motion { theta_rate: 12.0, theta_acceleration: -70.0 };
+        let angle = four_bar::places_at(theta, closures(Side::Left))?.rocker_angle;
+        let rate = four_bar::speeds_at(theta, closures(Side::Left), &motion)?.rocker_angle;
+        let acceleration = four_bar::accelerations_at(theta, closures(Side::Left), &motion)?.rocker_angle;
+        let wanted = four_bar::CrankOfMotion { B0_angle_rate: rate, B0_angle_acceleration: acceleration };
+        let found = [Side::Left, Side::Right].map(|side| four_bar::crank_of_at(angle, closures(side), &wanted));
+        let mut back = 0;
+        for (found, side) in found.into_iter().zip([Side::Left, Side::Right]) {
+            let found = found?;
+            assert_eq!(found.theta.to_bits(), four_bar::angle_of_at(angle, closures(side))?.theta.to_bits());
+            let again = four_bar::places_at(found.theta, closures(side))?.rocker_angle;
+            assert!((again - angle).abs() < 1e-12, "{angle} {again}");
+            if turned(found.theta, theta).abs() < 1e-6 {
+                back += 1;
+                assert!(
+                    (found.theta_rate - 12.0).abs() < 1e-8 && (found.theta_acceleration + 70.0).abs() < 1e-5,
+                    "{found:?}"
+                );
+            }
+        }
+        assert_eq!(back, 1);
+    }
+    Ok(())
+}
+
+fn closures(side: Side) -> four_bar::Closures {
+    four_bar::Closures { A: side }
+}
+
+#[test]
+fn what_the_rocker_does_not_reach_is_an_error() {
+    let wanted = four_bar::CrankOfMotion::default();
+    assert!(matches!(
+        four_bar::crank_of_at(0.2, closures(Side::Left), &wanted),
+        Err(Error::CannotAssemble { group: "crank + coupler", joint: "A", .. })
+    ));
+    assert!(matches!(
+        four_bar::crank_of_at(f64::NAN, closures(Side::Left), &wanted),
+        Err(Error::NotFinite { what: "B0_angle" })
+    ));
+    let wanted = four_bar::CrankOfMotion { B0_angle_rate: f64::INFINITY, B0_angle_acceleration: 0.0 };
+    assert!(matches!(four_bar::crank_of_at(1.8, closures(Side::Left), &wanted), Err(Error::NotFinite { .. })));
+}
+
+/// Of the angles that the other assembly alone reaches, nothing is given.
+#[test]
+fn no_drive_is_found_on_the_other_side() -> Result<(), Error> {
+    let (mut found, mut other) = (0, 0);
+    for angle in (0..200).map(|step| -3.0 + 0.03 * f64::from(step)) {
+        for side in [Side::Left, Side::Right] {
+            let closures = rocker::Closures { A: side };
+            let wanted = rocker::CrankOfMotion { B0_angle_rate: 1.0 };
+            match rocker::crank_of_at(angle, closures, &wanted) {
+                Ok(crank) => {
+                    found += 1;
+                    let again = rocker::places_at(crank.theta, closures)?.rocker_angle;
+                    assert!(turned(again, angle).abs() < 1e-9, "{angle} {again}");
+                }
+                Err(Error::OtherSide { joint: "B" }) => other += 1,
+                Err(error) => assert!(matches!(error, Error::CannotAssemble { .. }), "{error}"),
+            }
+        }
+    }
+    assert!(found > 40 && other > 40, "{found} {other}");
+    Ok(())
+}
+
+#[test]
+fn the_crank_of_a_press_is_found_from_its_stroke() -> Result<(), Error> {
+    let linkage = press::Linkage::new(&press::Params { length: 140.0 })?;
+    for theta in [0.2f32, 0.9, 1.7, 2.6] {
+        let stroke = press::places_at(&linkage, theta)?.B.x;
+        let wanted = press::CrankOfMotion {
+            S_travel_rate: press::speeds_at(&linkage, theta)?.B.x,
+            S_travel_acceleration: press::accelerations_at(&linkage, theta)?.B.x,
+        };
+        let found = press::crank_of_at(&linkage, stroke, &wanted)?;
+        assert!((found.theta - theta).abs() < 1e-5, "{found:?}");
+        assert!((found.theta_rate - 3.0).abs() < 1e-4 && found.theta_acceleration.abs() < 2e-3, "{found:?}");
+    }
+    // At its dead centre no rate of the crank moves the ram.
+    let ahead = press::crank_of_at(&linkage, 180.0, &press::CrankOfMotion::default());
+    assert!(matches!(ahead, Err(Error::DeadCentre { .. })), "{ahead:?}");
+    let beyond = press::crank_of_at(&linkage, 180.1, &press::CrankOfMotion::default());
+    assert!(matches!(beyond, Err(Error::CannotAssemble { joint: "A", .. })), "{beyond:?}");
+    Ok(())
+}
+
+#[test]
+fn two_drives_are_found_from_two_coordinates() -> Result<(), Error> {
+    for (a, b, side) in [(1.9, 1.1, Side::Left), (1.5, 1.6, Side::Left), (1.2, 2.0, Side::Right)] {
+        let closures = five_bar::Closures { P: side };
+        let motion = five_bar::Motion { a_rate: 2.5, a_acceleration: -3.0, b_rate: -1.5, b_acceleration: 6.0 };
+        let pose = five_bar::Pose::at(a, b, closures)?;
+        let (places, speeds, accelerations) = (pose.places()?, pose.speeds(&motion)?, pose.accelerations(&motion)?);
+        let wanted = five_bar::DrivesOfMotion {
+            O2_angle_rate: speeds.right_angle,
+            O2_angle_acceleration: accelerations.right_angle,
+            Q_angle_rate: speeds.lower_angle - speeds.right_angle,
+            Q_angle_acceleration: accelerations.lower_angle - accelerations.right_angle,
+        };
+        let [first, second] = [places.right_angle, places.lower_angle - places.right_angle];
+        let found = five_bar::drives_of_at(first, second, closures, &wanted)?;
+        assert!(turned(found.a, a).abs() < 1e-12 && (found.b - b).abs() < 1e-12, "{found:?}");
+        assert!((found.a_rate - 2.5).abs() < 1e-9 && (found.b_rate + 1.5).abs() < 1e-9, "{found:?}");
+        assert!((found.a_acceleration + 3.0).abs() < 1e-8 && (found.b_acceleration - 6.0).abs() < 1e-8, "{found:?}");
+    }
+    Ok(())
+}
