@@ -117,14 +117,6 @@ fn ten_thousand_poses_of_gears() {
 }
 
 #[test]
-#[ignore = "long"]
-fn ten_thousand_poses_of_groups_without_a_closed_form() {
-    assert!(check(searches(26, (600, 20), Class::Three), "triads") > 10_000);
-    assert!(check(searches(27, (600, 20), Class::ThreeWithSlider), "triads, some with a slider") > 10_000);
-    assert!(check(searches(28, (600, 20), Class::Four), "groups of class IV") > 10_000);
-}
-
-#[test]
 fn oscillating_blocks_and_booms() {
     assert!(check(oscillating_blocks(5, (60, 20)), "oscillating blocks") > 600);
     assert!(check(booms(6, (60, 20)), "booms on cylinders") > 300);

@@ -199,7 +199,9 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
 /// The same with a group that has no closed form, its start somewhat off. Without other joints it is the last one: a triad, of which a leg
 /// may be a slider, or a group of class IV. With them it has joints of any kind, and other links may follow it.
 pub fn sample_with_search(seed: u64, kind: Kind) -> Sample {
-    let mut builder = Builder::near(seed, kind);
+    let mut random = Random(seed);
+    let base = [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
+    let mut builder = Builder::new(random, base, kind);
     let drive = builder.driven_link(kind.sliders);
     builder.drives.push(drive);
     if kind.joints {
@@ -253,7 +255,9 @@ pub fn sample_with_forces(seed: u64, class: Class) -> Sample {
         params: false,
         scalar: "f64",
     };
-    let mut builder = Builder::near(seed, kind);
+    let mut random = Random(seed);
+    let base = [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
+    let mut builder = Builder::new(random, base, kind);
     builder.framed = true;
     let drive = builder.driven_link(false);
     builder.drives.push(drive);
@@ -310,13 +314,6 @@ fn independence(lines: [(Place, Place); 3]) -> f64 {
 }
 
 impl Builder {
-    /// Nothing but the ground, not far from the origin.
-    fn near(seed: u64, kind: Kind) -> Self {
-        let mut random = Random(seed);
-        let base = [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
-        Self::new(random, base, kind)
-    }
-
     /// Two forces on two links, anywhere.
     fn forces(&mut self) -> Vec<[f64; 2]> {
         let moving = self.bodies.len() - 1;
