@@ -250,11 +250,11 @@ fn check(seeds: core::ops::Range<u64>, exactly: u64) -> Census {
 
 #[test]
 fn random_linkages_agree_with_the_general_solution() {
-    check(0..400, 4).expect(360, 5);
+    check(0..400, 4).expect(360, 15);
 }
 
 #[test]
 #[ignore = "long"]
 fn five_thousand_linkages_agree_with_the_general_solution() {
-    check(10_000..16_000, 1).expect(5000, 75);
+    check(10_000..16_000, 1).expect(5000, 150);
 }
