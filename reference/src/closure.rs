@@ -61,7 +61,8 @@ pub(crate) fn close(file: &File, declaration: &Declaration) -> Result<Closed, Re
 /// What the compiler says of a declaration, if that is text which it can read.
 fn compile(declaration: &Declaration, closures: &[String]) -> Result<Result<Closed, Refusal>, Refused> {
     let text = declaration.text(closures);
-    let tokens = text.parse().map_err(|error: LexError| Refused::Broken(format!("no text of a declaration: {error}")))?;
+    let tokens =
+        text.parse().map_err(|error: LexError| Refused::Broken(format!("no text of a declaration: {error}")))?;
     Ok(analyse(tokens).map(|linkage| Closed { text, linkage }))
 }
 
@@ -218,4 +219,20 @@ fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Refused, compile};
+    use crate::declaration::Declaration;
+    use crate::file::File;
+
+    #[test]
+    fn text_that_cannot_be_read_is_no_refusal() {
+        let text = include_str!("../../tests/reference/neg_o5_over_driven.json");
+        let file = File::parse(text).expect("a file");
+        let declaration = Declaration::of(&file).expect("a declaration");
+        assert!(matches!(compile(&declaration, &[]), Ok(Err(_))));
+        assert!(matches!(compile(&declaration, &["assemble B: left(".into()]), Err(Refused::Broken(_))));
+    }
 }

@@ -7,8 +7,8 @@
 use std::collections::BTreeMap;
 
 use crate::declaration::{
-    ACCELERATIONS, ALL, CENTROID, CONTROL, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, POWERS, SHAKING,
-    RESOLVED, SPEEDS, WEIGHT, WORK, point_of,
+    ACCELERATIONS, ALL, CENTROID, CONTROL, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, POWERS, RESOLVED,
+    SHAKING, SPEEDS, WEIGHT, WORK, point_of,
 };
 use crate::exact::{difference, difference_of_angles, nearest};
 use crate::file::{Answers, File, Limits, LinkMotion, Ordered, Reaction, Reduced};
@@ -110,9 +110,7 @@ impl Scales {
     fn of(file: &File, answers: &Answers) -> Result<Self, String> {
         let limit = |floor: &str| Ok::<f64, String>((64.0 * nearest(floor)?).max(ROUNDINGS));
         let limits = match (&answers.accept, &answers.f64_floor) {
-            (Some(accept), _) => {
-                [accept.loose.clone(), accept.tight.clone().unwrap_or_else(|| accept.loose.clone())]
-            }
+            (Some(accept), _) => [accept.loose.clone(), accept.tight.clone().unwrap_or_else(|| accept.loose.clone())],
             (None, Some(floor)) => {
                 let effort = floor.effort.iter().map(|floor| limit(floor)).collect::<Result<_, _>>()?;
                 let limits = Limits { effort, reaction: limit(&floor.reaction_normwise)? };

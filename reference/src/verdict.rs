@@ -50,8 +50,13 @@ const OF_MOBILITY: [&str; 10] = [
     "cannot hold",
 ];
 /// What is said of a linkage that works at no pose.
-const OF_POSES: [&str; 5] =
-    ["cannot be assembled", "cannot be closed", "coincide at every pose", "at every pose, nothing holds", "cannot hold"];
+const OF_POSES: [&str; 5] = [
+    "cannot be assembled",
+    "cannot be closed",
+    "coincide at every pose",
+    "at every pose, nothing holds",
+    "cannot hold",
+];
 
 /// What the compiler says where a linkage has no answer at a stage.
 fn is_of_stage(message: &str, stage: &str) -> bool {
@@ -70,16 +75,12 @@ pub(crate) fn of_refusal(file: &File, refused: &Refused) -> Verdict {
         Refused::Broken(problem) => return Verdict::Failed(problem.clone()),
     };
     let summary = messages.first().map_or("refused", |message| first_line(message));
+    // All that stands in the way is what the compiler does not carry out yet.
+    if !messages.is_empty() && messages.iter().all(|message| message.contains("not supported yet")) {
+        return Verdict::Unsupported(summary.to_owned());
+    }
     let all = || messages.join("\n    ").replace('\n', "\n    ");
-    let Some(expected) = &file.expect else {
-        // All that stands in the way is what the compiler does not carry out yet.
-        let unsupported = messages.iter().all(|message| message.contains("not supported yet"));
-        return if unsupported {
-            Verdict::Unsupported(summary.to_owned())
-        } else {
-            Verdict::Failed(format!("refused: {}", all()))
-        };
-    };
+    let Some(expected) = &file.expect else { return Verdict::Failed(format!("refused: {}", all())) };
     let stages = match expected.stages() {
         Ok(stages) => stages,
         Err(problem) => return Verdict::Failed(problem),
@@ -150,7 +151,8 @@ fn sweep(file: &File, form: &str, printed: &Printed) -> Result<(), String> {
     let expected = sweep.results.iter().position(|at| at.outcome.answers().is_none()).unwrap_or(count);
     let whole = results(printed, 0, SWEPT)?;
     let answered = whole.get(CYCLE).and_then(|value| value.field("positions")?.number()).ok_or("nothing was swept")?;
-    let name = |position: f64| if position < count as f64 { format!("at position {position}") } else { "nowhere".into() };
+    let name =
+        |position: f64| if position < count as f64 { format!("at position {position}") } else { "nowhere".into() };
     if answered != expected as f64 {
         return Err(format!("the sweep stops {}, and should {}", name(answered), name(expected as f64)));
     }
@@ -236,8 +238,10 @@ pub(crate) fn report(verdicts: &[(String, Verdict)], allow_unsupported: bool) ->
 
 #[cfg(test)]
 mod tests {
-    use super::{Verdict, report};
+    use super::{Verdict, of_refusal, report};
+    use crate::closure::Refused;
     use crate::compare::Worst;
+    use crate::file::File;
 
     fn all_is_well(verdict: Verdict, allow_unsupported: bool) -> bool {
         report(&[("a".into(), Verdict::Passed(Worst::new())), ("b".into(), verdict)], allow_unsupported)
@@ -249,5 +253,22 @@ mod tests {
         assert!(all_is_well(Verdict::Unsupported("gears".into()), true));
         assert!(!all_is_well(Verdict::Failed("wrong".into()), true));
         assert!(all_is_well(Verdict::Refused("a dead centre".into()), false));
+    }
+    #[test]
+    fn only_a_refusal_for_the_stage_that_a_file_names_is_right() {
+        let text = include_str!("../../tests/reference/neg_o5_over_driven.json");
+        let file = File::parse(text).expect("a file");
+        let declined = |messages: &[&str]| {
+            let messages = messages.iter().map(|message| (*message).to_owned()).collect();
+            of_refusal(&file, &Refused::Declined(messages))
+        };
+        let over_driven = "the linkage is over-driven by 1 drive\nhelp: take a drive out";
+        assert!(matches!(declined(&[over_driven]), Verdict::Refused(_)));
+        assert!(matches!(declined(&[]), Verdict::Failed(_)));
+        assert!(matches!(declined(&[over_driven, "there is no link `rod`"]), Verdict::Failed(_)));
+        // A remark is no reason.
+        assert!(matches!(declined(&["there is no link `rod`\nnote: over-driven"]), Verdict::Failed(_)));
+        assert!(matches!(declined(&["gears: not supported yet"]), Verdict::Unsupported(_)));
+        assert!(matches!(of_refusal(&file, &Refused::Broken("a panic".into())), Verdict::Failed(_)));
     }
 }
