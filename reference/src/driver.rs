@@ -29,8 +29,10 @@ pub(crate) fn form_of_sweep(closed: &Closed) -> &'static str {
     FORMS[usize::from(closed.linkage.functions.near.is_none())]
 }
 
-/// The numbers of a sweep at a position, and how far it came.
+/// The numbers of a sweep at a position.
 pub(crate) const SWEPT: &str = "swept";
+/// How many positions a sweep went through.
+pub(crate) const ANSWERED: &str = "answered";
 
 /// What the program printed for a mechanism.
 #[derive(Debug, Default)]
@@ -224,12 +226,12 @@ fn swept(text: &mut String, index: usize, case: &Case<'_>, sweep: &Sweep) {
         text,
         "    let inputs = mechanism::{inputs_type} {{ {inputs}}};\n    \
              let outcome = mechanism::{name}(&inputs, mechanism::{results_type} {{ {results}}});\n    \
-             let answered = match outcome {{\n        \
-                 Ok(()) => {count},\n        \
-                 Err(SweepError::Position {{ index, .. }}) => index,\n        \
-                 Err(error) => panic!(\"{{error}}\"),\n    \
+             let (answered, said) = match outcome {{\n        \
+                 Ok(()) => ({count}, {count}.to_string()),\n        \
+                 Err(SweepError::Position {{ index, .. }}) => (index, index.to_string()),\n        \
+                 Err(error) => (0, error.to_string()),\n    \
              }};\n    \
-             println!(\"{index} 0 {name} {SWEPT} Ok(Answered {{{{ positions: {{answered}} }}}})\");\n    \
+             println!(\"{index} 0 {name} {ANSWERED} {{said}}\");\n    \
              for position in 0..answered {{\n        \
                  println!(\"{index} {{position}} {scene} {SWEPT} Ok(Swept {{{{ {fields}}}}})\", {values});\n    \
              }}",

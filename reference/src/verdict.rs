@@ -5,7 +5,7 @@ use std::fmt;
 use crate::closure::{Refused, first_line};
 use crate::compare::{Results, Worst, compare};
 use crate::declaration::{ALL, CYCLE, Declaration, PARTS, PLACES, WORK};
-use crate::driver::{FORMS, Printed, SWEPT};
+use crate::driver::{ANSWERED, FORMS, Printed, SWEPT};
 use crate::file::{Answers, Expected, File};
 use crate::printed::Value;
 
@@ -149,12 +149,11 @@ fn sweep(file: &File, form: &str, printed: &Printed) -> Result<(), String> {
     let Some(sweep) = &file.sweep else { return Ok(()) };
     let count = sweep.results.len();
     let expected = sweep.results.iter().position(|at| at.outcome.answers().is_none()).unwrap_or(count);
-    let whole = results(printed, 0, SWEPT)?;
-    let answered = whole.get(CYCLE).and_then(|value| value.field("positions")?.number()).ok_or("nothing was swept")?;
-    let name =
-        |position: f64| if position < count as f64 { format!("at position {position}") } else { "nowhere".into() };
-    if answered != expected as f64 {
-        return Err(format!("the sweep stops {}, and should {}", name(answered), name(expected as f64)));
+    let answered = printed.results.get(&(0, CYCLE.to_owned(), ANSWERED.to_owned())).ok_or("nothing was swept")?;
+    let answered: usize = answered.parse().map_err(|_| format!("the sweep fails: {answered}"))?;
+    let place = |position: usize| if position < count { format!("at position {position}") } else { "nowhere".into() };
+    if answered != expected {
+        return Err(format!("the sweep stops {}, and should {}", place(answered), place(expected)));
     }
     for position in 0..expected {
         let one = |form: &str| -> Result<Value, String> {
