@@ -237,9 +237,11 @@ pub(crate) fn report(verdicts: &[(String, Verdict)], allow_unsupported: bool) ->
 
 #[cfg(test)]
 mod tests {
-    use super::{Verdict, of_refusal, report};
+    use super::{Verdict, of_refusal, report, sweep};
     use crate::closure::Refused;
     use crate::compare::Worst;
+    use crate::declaration::{ALL, CYCLE};
+    use crate::driver::{ANSWERED, FORMS, Printed, SWEPT};
     use crate::file::File;
 
     fn all_is_well(verdict: Verdict, allow_unsupported: bool) -> bool {
@@ -269,5 +271,33 @@ mod tests {
         assert!(matches!(declined(&["there is no link `rod`\nnote: over-driven"]), Verdict::Failed(_)));
         assert!(matches!(declined(&["gears: not supported yet"]), Verdict::Unsupported(_)));
         assert!(matches!(of_refusal(&file, &Refused::Broken("a panic".into())), Verdict::Failed(_)));
+    }
+
+    #[test]
+    fn a_sweep_has_the_bits_of_the_single_positions() {
+        let text = include_str!("../../tests/reference/sweep_o38a_into_limit.json");
+        let file = File::parse(text).expect("a file");
+        let of = |first: &str, answered: &str| {
+            let mut printed = Printed::default();
+            let mut add = |at: usize, scene: &str, form: &str, text: String| {
+                printed.results.insert((at, scene.to_owned(), form.to_owned()), text);
+            };
+            add(0, CYCLE, ANSWERED, answered.to_owned());
+            for at in 0..18 {
+                add(at, ALL, FORMS[1], "Ok(All { E: 0.1, A: [[1.0, -0.0]] })".to_owned());
+                add(
+                    at,
+                    ALL,
+                    SWEPT,
+                    format!("Ok(Swept {{ E: {}, A_x: 1.0, A_y: -0.0, }})", if at == 3 { first } else { "0.1" }),
+                );
+            }
+            sweep(&file, FORMS[1], &printed)
+        };
+        assert_eq!(of("0.1", "18"), Ok(()));
+        assert!(of("0.10000000000000002", "18").is_err_and(|problem| problem.starts_with("position 3: `E`")));
+        assert!(of("NaN", "18").is_err());
+        assert!(of("0.1", "17").is_err());
+        assert!(of("0.1", "A_x has 17 values for 18 positions").is_err());
     }
 }
