@@ -147,3 +147,36 @@ fn radii_may_be_parameters() -> Result<(), Error> {
     assert!(matches!(Linkage::new(&Params { ra: f64::NAN, rb: 40.0, alpha: 0.3 }), Err(Error::NotFinite { .. })));
     Ok(())
 }
+
+linkage! {
+    /// A pinion in a driven ring, their radii at run time.
+    mod ringed;
+    units { mm, N }
+    param ring: length;
+    param pinion: length;
+    ground { R: (0, 0), P: (30mm, 0) }
+    link outer { R: (0, 0) }
+    link inner { P: (0, 0) }
+    revolute R: ground -> outer;
+    revolute P: ground -> inner;
+    gear G: outer.R -> inner.P, radii (ring, pinion), internal;
+    drive q: R;
+    load M: moment(inner) = 300N*mm;
+    scene statics: equilibrium -> (effort_q, G);
+    scene place: position -> (inner.angle);
+}
+
+#[test]
+fn a_ring_of_given_size_turns_its_pinion() -> Result<(), Error> {
+    let linkage = ringed::Linkage::new(&ringed::Params { ring: 50.0, pinion: 20.0 })?;
+    for q in [-4.0, 0.3, 9.0] {
+        // 50 q = 20 θ, and the tooth force holds the moment.
+        assert!((ringed::place_at(&linkage, q)?.inner_angle - 2.5 * q).abs() < 1e-14 * (1.0 + q.abs()));
+        let held = ringed::statics_at(&linkage, q)?;
+        assert!((held.G.tangential.abs() - 15.0).abs() < 1e-13, "{held:?}");
+        assert!((held.effort_q + 750.0).abs() < 1e-11, "{held:?}");
+    }
+    let refused = ringed::Linkage::new(&ringed::Params { ring: 20.0, pinion: 50.0 });
+    assert!(matches!(refused, Err(Error::Parameter { .. })), "{refused:?}");
+    Ok(())
+}

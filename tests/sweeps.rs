@@ -89,6 +89,26 @@ linkage! {
     scene turned: sweep(held);
 }
 
+linkage! {
+    /// A slider-crank in fused arithmetic.
+    mod pump;
+    units { mm, N }
+    arithmetic fused;
+    ground      { O: (0, 0) }
+    link crank  { O -> A: 40mm }
+    link rod    { A -> B: 140mm }
+    link plunger { B }
+    revolute O: ground -> crank;
+    revolute A: crank -> rod;
+    revolute B: rod -> plunger;
+    prismatic S: ground.O -> plunger.B along 0deg;
+    drive theta: O;
+    assemble B: ahead(A);
+    load F: force(plunger.B) = 500N @ 170deg;
+    scene held: equilibrium -> (effort_theta, A);
+    scene stroke: sweep(held);
+}
+
 /// Some blocks of positions and a part of one.
 const COUNT: usize = 200;
 
@@ -325,5 +345,18 @@ fn a_side_is_chosen_for_the_whole_sweep() {
         for (theta, effort) in theta.into_iter().zip(efforts) {
             assert_eq!(effort, sided::hold_at(theta, closures).expect("regular").effort_theta);
         }
+    }
+}
+
+#[test]
+fn fused_operations_are_rounded_once_in_vectors_too() {
+    let angles = angles();
+    let [mut t, mut x, mut y] = [[0.0; COUNT]; 3];
+    let inputs = pump::StrokeInputs { theta: Series::Each(&angles) };
+    pump::stroke(&inputs, pump::Stroke { effort_theta: &mut t, A_x: &mut x, A_y: &mut y }).expect("regular");
+    for (index, theta) in angles.into_iter().enumerate() {
+        let one = pump::held_at(theta).expect("regular");
+        let expected = [one.effort_theta, one.A.x, one.A.y];
+        assert_eq!([t[index], x[index], y[index]].map(f64::to_bits), expected.map(f64::to_bits));
     }
 }

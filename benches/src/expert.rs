@@ -151,6 +151,15 @@ pub(crate) mod four_bar {
     four_bar!(f64);
 }
 
+/// For loads of the linkage in fused arithmetic.
+#[allow(dead_code, reason = "the formulas of the first, of which sweeps need two")]
+pub(crate) mod four_bar_fused {
+    use super::{Reactions, Vector2};
+    use crate::linkages::four_bar_fused::Loads;
+
+    four_bar!(f64);
+}
+
 /// In single precision.
 #[allow(dead_code, clippy::excessive_precision, reason = "the formulas of the other, of which sweeps need two")]
 pub(crate) mod four_bar_single {

@@ -4,11 +4,12 @@ use linkage_runtime::linkage;
 
 /// METU Example 6.3, both loads given at run time, in a scalar.
 macro_rules! four_bar {
-    ($name:ident, $scalar:ident) => {
+    ($name:ident, $scalar:ident, $arithmetic:ident) => {
         linkage! {
             /// METU Example 6.3, both loads given at run time.
             pub(crate) mod $name;
             scalar $scalar;
+            arithmetic $arithmetic;
             units { mm, N }
 
             ground       { A0: (0, 0), B0: (140mm, 0) }
@@ -37,8 +38,9 @@ macro_rules! four_bar {
     };
 }
 
-four_bar!(four_bar, f64);
-four_bar!(four_bar_single, f32);
+four_bar!(four_bar, f64, plain);
+four_bar!(four_bar_single, f32, plain);
+four_bar!(four_bar_fused, f64, fused);
 
 linkage! {
     /// A six-bar, Watt's chain: a crank-rocker moves a second rocker. Weight on every link, a load on the coupler, one on

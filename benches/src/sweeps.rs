@@ -23,6 +23,7 @@ pub(crate) fn print(rounds: usize) -> Result<(), String> {
     for count in [360, 4096] {
         double::rows(count, rounds)?;
         single::rows(count, rounds)?;
+        fused::rows(count, rounds)?;
     }
     Ok(())
 }
@@ -52,7 +53,7 @@ fn row(title: &str, count: usize, rounds: usize, ways: &mut [&mut dyn FnMut(); 3
 
 /// The sweeps of a four-bar in a scalar.
 macro_rules! sweeps {
-    ($module:ident, $scalar:ident, $linkage:ident, $tolerance:expr) => {
+    ($module:ident, $scalar:ident, $note:literal, $linkage:ident, $tolerance:expr) => {
         mod $module {
             use linkage_runtime::{Series, Vector2};
 
@@ -194,7 +195,7 @@ macro_rules! sweeps {
             }
 
             pub(super) fn rows(count: usize, rounds: usize) -> Result<(), String> {
-                let scalar = stringify!($scalar);
+                let scalar = concat!(stringify!($scalar), $note);
                 compared(
                     &format!("torque only, {scalar}"),
                     count,
@@ -207,5 +208,6 @@ macro_rules! sweeps {
     };
 }
 
-sweeps!(double, f64, four_bar, 1e-9);
-sweeps!(single, f32, four_bar_single, 1e-2);
+sweeps!(double, f64, "", four_bar, 1e-9);
+sweeps!(single, f32, "", four_bar_single, 1e-2);
+sweeps!(fused, f64, " fused", four_bar_fused, 1e-9);

@@ -71,6 +71,59 @@ fn check_efforts<T: Number>(text: &str, linkage: &Linkage, arguments: &Arguments
     }
 }
 
+/// The accelerations that efforts give, as the method `acceleration` of the emitted results: `None` where no inertia resists.
+fn forward(mass: &[Vec<f64>], rounding: &[Vec<f64>], open: &[f64]) -> Option<Vec<f64>> {
+    fn solve<const N: usize>(mass: &[Vec<f64>], rounding: &[Vec<f64>], open: &[f64]) -> Option<Vec<f64>> {
+        let square = |of: &[Vec<f64>]| core::array::from_fn(|row| core::array::from_fn(|column| of[row][column]));
+        let open: [f64; N] = core::array::from_fn(|row| open[row]);
+        let (found, distance) = linkage_runtime::__private::f64::solve::<N>(square(mass), square(rounding), open);
+        (distance.abs() > 1.0).then(|| found.to_vec())
+    }
+    match open {
+        [open] => (mass[0][0].abs() > rounding[0][0]).then(|| vec![open / mass[0][0]]),
+        [_, _] => solve::<2>(mass, rounding, open),
+        [_, _, _] => solve::<3>(mass, rounding, open),
+        [_, _, _, _] => solve::<4>(mass, rounding, open),
+        _ => panic!("more drives than any sample has"),
+    }
+}
+
+/// Forward dynamics after inverse dynamics: the efforts of equilibrium give the accelerations that they were asked for, to what their own
+/// rounding makes of accelerations. False where no inertia resists.
+fn check_forward(text: &str, linkage: &Linkage, arguments: &Arguments) -> bool {
+    let count = linkage.model.drives.len();
+    let results = scene::<Double>(linkage, "control", arguments).expect("an equation of motion");
+    let part = |name: &str, columns: usize| -> Vec<Vec<f64>> {
+        let rows = numbers(&results, name, count, columns);
+        rows.iter().map(|row| row.iter().map(|value| value.0).collect()).collect()
+    };
+    let (mass, rounding, bias) = (part("M", count), part("rounding", count), part("h", 1));
+    let all = scene::<Double>(linkage, "all", arguments).expect("forces");
+    let parts = scene::<Double>(linkage, "parts", arguments).expect("parts");
+    let unknowns = &linkage.model.unknowns;
+    let open: Vec<f64> = unknowns.iter().zip(&bias).map(|(unknown, bias)| all[&unknown.name].0 - bias[0]).collect();
+    let Some(found) = forward(&mass, &rounding, &open) else { return false };
+    // What an effort of the size of its rounding gives, by the inverse of M.
+    let mut allowed = vec![0.0; count];
+    for (row, unknown) in unknowns.iter().enumerate() {
+        let named = parts.iter().filter(|(path, _)| path.ends_with(&unknown.name));
+        let mut unit = vec![0.0; count];
+        unit[row] = 1e-9 * named.fold(1e-30, |sum, (_, part)| sum + part.0.abs());
+        let share = forward(&mass, &rounding, &unit).expect("as before");
+        allowed.iter_mut().zip(share).for_each(|(sum, share)| *sum += share.abs());
+    }
+    for (drive, [_, wanted]) in arguments.motion.iter().enumerate() {
+        let off = (found[drive] - wanted).abs();
+        assert!(
+            off <= allowed[drive],
+            "{} is {off:e} off {wanted}, allowed {:e}\n{text}",
+            found[drive],
+            allowed[drive]
+        );
+    }
+    true
+}
+
 /// Symmetric, and no motion has a negative kinetic energy.
 fn check_mass(text: &str, linkage: &Linkage, results: &HashMap<String, Extended>, rates: &[f64]) {
     let count = linkage.model.drives.len();
@@ -101,11 +154,20 @@ fn check_mass(text: &str, linkage: &Linkage, results: &HashMap<String, Extended>
     assert!(twice.to_f64() >= 0.0, "{text}");
 }
 
-fn check(seed: u64) -> Option<(usize, bool)> {
+/// Of a linkage that was checked.
+struct Checked {
+    drives: usize,
+    at_drives: bool,
+    /// Whether forward dynamics gave accelerations.
+    forward: bool,
+}
+
+fn check(seed: u64) -> Option<Checked> {
     let (text, linkage, arguments) = linkage(seed)?;
     let Ok(results) = scene::<Extended>(&linkage, "control", &arguments) else { return None };
     check_efforts::<Double>(&text, &linkage, &arguments, 1e-9);
     check_efforts::<Extended>(&text, &linkage, &arguments, 1e-14);
+    let forward = check_forward(&text, &linkage, &arguments);
     let rates: Vec<f64> = arguments.motion.iter().map(|[rate, _]| *rate).collect();
     check_mass(&text, &linkage, &results, &rates);
     // From a pose the same as straight from the drives.
@@ -121,15 +183,18 @@ fn check(seed: u64) -> Option<(usize, bool)> {
         let off = (value.0 - straight[path].0).abs();
         assert!(off <= 1e-10 * size, "{path} is off by {off:e} of {size:e}\n{text}");
     }
-    Some((linkage.model.drives.len(), at_drives(&linkage)))
+    Some(Checked { drives: linkage.model.drives.len(), at_drives: at_drives(&linkage), forward })
 }
 
 #[test]
 fn the_equation_of_motion_of_random_linkages_is_their_equilibrium() {
-    let checked: Vec<(usize, bool)> = (8000..8100).filter_map(check).collect();
-    let several = checked.iter().filter(|(drives, _)| *drives > 1).count();
-    let elsewhere = checked.iter().filter(|(_, at_drives)| !at_drives).count();
+    let checked: Vec<Checked> = (8000..8100).filter_map(check).collect();
+    let count = |having: &dyn Fn(&Checked) -> bool| checked.iter().filter(|one| having(one)).count();
+    let (several, elsewhere) = (count(&|one| one.drives > 1), count(&|one| !one.at_drives));
+    let (forward, forward_several) = (count(&|one| one.forward), count(&|one| one.forward && one.drives > 1));
+    println!("{} {several} {elsewhere} {forward} {forward_several}", checked.len());
     assert!(checked.len() > 50 && several > 4 && elsewhere > 9, "{} {several} {elsewhere}", checked.len());
+    assert!(forward > 40 && forward_several > 2, "forward: {forward}, of several drives {forward_several}");
 }
 
 /// With the coefficients of first and second order every velocity and every acceleration is made of the drives' motion.
@@ -183,23 +248,36 @@ const FOUR_BAR: &str = "mod four_bar; ground { A0: (0, 0), B0: (0.14m, 0) } link
     scene free: motion(); scene torque: virtual_work -> (effort_theta); scene statics: virtual_work(W, M4) -> (effort_theta);
     scene of_rocker: motion(Ir) -> (M); load Ir: inertia(rocker);";
 
+/// A five-bar with masses and two inputs.
+const FIVE_BAR: &str = "mod five_bar; ground { O1: (0, 0), O2: (0.5m, 0) } link left { O1 -> P: 0.3m, G: (0.12m, 0) }
+    link right { O2 -> Q: 0.35m, G: (0.2m, 0.01m) } link upper { P -> R: 0.45m, G: (0.2m, 0) } link lower { Q -> R: 0.4m, G: (0.15m, 0) }
+    mass left: 1.2kg at G, inertia 0.01kg*m^2; mass right: 1.4kg at G, inertia 0.02kg*m^2;
+    mass upper: 0.8kg at G, inertia 0.012kg*m^2; mass lower: 0.7kg at G, inertia 0.009kg*m^2;
+    revolute O1: ground -> left; revolute O2: ground -> right; revolute P: left -> upper; revolute Q: right -> lower;
+    revolute R: upper -> lower; drive a: O1; drive b: O2; assemble R: left(P -> Q); load I: inertia; load W: gravity = (0, -9.81m/s^2);
+    scene torque: virtual_work -> (effort_a, effort_b); scene control: motion; scene controlled: motion -> (M, h); scene mass: motion -> (M);";
+
+/// Additions, multiplications and divisions of a scene, from a pose.
+fn cost(linkage: &Linkage, name: &str) -> usize {
+    let index = linkage.model.scenes.iter().position(|scene| scene.name.text == name).expect("a scene");
+    let counts = linkage.functions.scenes[index].from_pose.counts();
+    counts.add + counts.mul + counts.div
+}
+
 #[test]
 fn mass_and_bias_together_cost_less_than_two_dynamic_solutions() {
     let text = FOUR_BAR.replace("scene torque: virtual_work ->", "scene torque: virtual_work(I, W, M4) ->");
     let text = text.replace("motion;", "motion(I, W, M4);").replace("motion -> (M, h)", "motion(I, W, M4) -> (M, h)");
+    for text in [text.as_str(), FIVE_BAR] {
+        let linkage = compile(text);
+        let [once, both, all, mass] = ["torque", "controlled", "control", "mass"].map(|name| cost(&linkage, name));
+        println!("dynamic solution {once}, M and h {both}, with rounding {all}, M {mass}");
+        // `rounding`, of which the default has one number for each of M, too.
+        assert!(all < 2 * once && both < all && mass < both, "{once} {both} {all} {mass}");
+        // The mass needs no acceleration.
+        assert!(2 * mass < once, "{once} {mass}");
+    }
+    // And inertia of one link no velocity of another.
     let linkage = compile(&text);
-    let cost = |name: &str| {
-        let index = linkage.model.scenes.iter().position(|scene| scene.name.text == name).expect("a scene");
-        let counts = linkage.functions.scenes[index].from_pose.counts();
-        counts.add + counts.mul + counts.div
-    };
-    let (once, both, all) = (cost("torque"), cost("controlled"), cost("control"));
-    assert!(both < 2 * once && cost("mass") < both, "{once} {both} {all} {}", cost("mass"));
-    // The mass needs no acceleration, and inertia of one link no velocity of another.
-    assert!(
-        2 * cost("mass") < once && cost("of_rocker") < cost("mass"),
-        "{once} {} {}",
-        cost("mass"),
-        cost("of_rocker")
-    );
+    assert!(cost(&linkage, "of_rocker") < cost(&linkage, "mass"));
 }

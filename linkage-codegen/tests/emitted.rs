@@ -66,6 +66,20 @@ declared! { CRUSHER:
     scene curves: derivative(more) by (theta, x, theta.rate);
 }
 
+declared! { FUSED:
+    mod fused;
+    units { mm, N } arithmetic fused;
+    ground { A0: (0, 0), B0: (140mm, 10mm) } link crank { A0 -> A: 50mm }
+    link coupler { A -> B: 100mm, C: (60mm, 35mm) } link rocker { B0 -> B: 120mm }
+    link rod { B -> D: 200mm } link block { D: (0, 0) }
+    mass coupler: 0.9kg at (65mm, 12mm); mass rocker: 0.8kg at (60mm, -10mm);
+    revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+    revolute B2: rocker.B -> rod.B; revolute D: rod -> block; prismatic S: ground.B0 -> block.D along 10deg;
+    drive theta: A0; assemble B: left(A -> B0); assemble D: ahead(B2);
+    load F: force(coupler.C); load W: gravity = 9.81m/s^2 @ -90deg;
+    scene held: equilibrium; scene parts: superposition; scene work: virtual_work; scene places: position;
+}
+
 declared! { ROCKER:
     mod rocker;
     units { mm, N }
@@ -312,6 +326,28 @@ fn stephenson_moved() {
         let expected = values_from_kept(&linkage, "place", &kept, &at(theta)).map(|all| all.1);
         assert_eq!(numbers(&emitted.place()), Interpreted::bits(expected), "at {theta}");
     }
+}
+
+#[test]
+fn fused_arithmetic() {
+    let interpreted = Interpreted::of_text(FUSED);
+    let force: Vector2<f64> = polar(50.0, 1.0);
+    let loads = fused::Loads { F: force };
+    for theta in angles() {
+        let arguments =
+            Arguments { drives: vec![theta], loads: vec![[force.x, force.y], [0.0; 2]], ..Arguments::default() };
+        let pose = fused::Pose::at(theta);
+        interpreted.check("held", &arguments, &fused::held_at(theta, &loads), &pose.and_then(|pose| pose.held(&loads)));
+        interpreted.check(
+            "parts",
+            &arguments,
+            &fused::parts_at(theta, &loads),
+            &pose.and_then(|pose| pose.parts(&loads)),
+        );
+        interpreted.check("work", &arguments, &fused::work_at(theta, &loads), &pose.and_then(|pose| pose.work(&loads)));
+        interpreted.check("places", &arguments, &fused::places_at(theta), &pose.and_then(|pose| pose.places()));
+    }
+    assert!(interpreted.linkage.functions.scenes[0].direct.counts().fused > 20);
 }
 
 #[test]

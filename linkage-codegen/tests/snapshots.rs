@@ -95,8 +95,17 @@ fn every_stage_of_every_example() {
 
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
 /// cylinders, slots, welds, gears, inner slides, unknowns elsewhere than at the drives, equations of motion, inverse scenes,
-/// derivatives.
-const OTHERS: [(&str, &str); 19] = [
+/// derivatives, fused arithmetic.
+const OTHERS: [(&str, &str); 20] = [
+    (
+        "fused",
+        "/// A crank-rocker in fused arithmetic.
+        pub mod fused; units { mm, N } arithmetic fused;
+        ground { A0: (0, 0), B0: (140mm, 0) } link crank { A0 -> A: 40mm } link coupler { A -> B: 100mm, C: (60mm, 35mm) }
+        link rocker { B0 -> B: 120mm }
+        revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+        drive theta: A0; assemble B: left(A -> B0); load F: force(coupler.C); scene held: equilibrium;",
+    ),
     (
         "bounded",
         "/// A slider-crank whose results come with bounds of their rounding errors.

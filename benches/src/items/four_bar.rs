@@ -8,6 +8,7 @@ use super::{Case, Extent, Item, Reactions, Start, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, Vector, equilibrium, in_frame, left, vector};
 use crate::expert::four_bar as expert;
 use crate::linkages::four_bar::{self, Loads, Pose};
+use crate::linkages::four_bar_fused;
 
 impl super::Loads for Loads {
     fn toward(first: f64, second: f64) -> Self {
@@ -60,6 +61,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 turn.competitor("expert", statics_at_expert),
                 turn.competitor("careful expert", statics_at_careful),
                 turn.competitor("generated", statics_at_generated),
+                turn.competitor("generated, fused", statics_at_fused),
                 turn.competitor("generated, by way of a pose", statics_at_pose),
                 turn.competitor("LU 9x9", statics_at_dense),
             ],
@@ -71,6 +73,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 turn.competitor("expert", torque_at_expert),
                 turn.competitor("careful expert", torque_at_careful),
                 turn.competitor("generated", torque_at_generated),
+                turn.competitor("generated, fused", torque_at_fused),
                 turn.competitor("LU 9x9", torque_at_dense),
             ],
         },
@@ -81,6 +84,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 parts.competitor("expert", parts_at_expert),
                 parts.competitor("careful expert", parts_at_careful),
                 parts.competitor("generated", parts_at_generated),
+                parts.competitor("generated, fused", parts_at_fused),
                 parts.competitor("LU 9x9", parts_at_dense),
             ],
         },
@@ -122,6 +126,45 @@ fn statics_at_generated(case: &At, out: &mut All) -> bool {
     match four_bar::statics_at(case.start, &case.loads) {
         Ok(all) => {
             *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+/// The loads, of the type of the linkage in fused arithmetic.
+fn fused_loads(loads: &Loads) -> four_bar_fused::Loads {
+    four_bar_fused::Loads { F13: loads.F13, F14: loads.F14 }
+}
+
+fn statics_at_fused(case: &At, out: &mut All) -> bool {
+    match four_bar_fused::statics_at(case.start, &fused_loads(&case.loads)) {
+        Ok(all) => {
+            *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+fn torque_at_fused(case: &At, out: &mut f64) -> bool {
+    match four_bar_fused::torque_at(case.start, &fused_loads(&case.loads)) {
+        Ok(torque) => {
+            *out = torque.T12;
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+fn parts_at_fused(case: &At, out: &mut [All; 2]) -> bool {
+    match four_bar_fused::parts_at(case.start, &fused_loads(&case.loads)) {
+        Ok(parts) => {
+            let (first, second) = (&parts.F13, &parts.F14);
+            *out = [
+                Reactions { torque: first.T12, forces: [first.A0, first.A, first.B, first.B0] },
+                Reactions { torque: second.T12, forces: [second.A0, second.A, second.B, second.B0] },
+            ];
             true
         }
         Err(_) => false,

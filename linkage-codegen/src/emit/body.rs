@@ -90,7 +90,7 @@ impl<'a> Body<'a> {
             let Step::Let(value) = step else { continue };
             let own = program.value(*value).label.is_some()
                 || uses[value.index()] > 1
-                || matches!(program.op(*value), Some(Op::Kernel { .. }))
+                || matches!(program.op(*value), Some(Op::Kernel { kernel, .. }) if *kernel != Kernel::MulAdd)
                 || program.outputs.iter().any(|(_, output)| output == value);
             if own {
                 let wanted = body.wanted_name(*value);
@@ -171,7 +171,9 @@ impl<'a> Body<'a> {
         if let Some((path, _)) = result {
             return path.replace('.', "_");
         }
-        if let Some(Op::Kernel { kernel, part, args }) = self.program.op(value) {
+        if let Some(Op::Kernel { kernel, part, args }) = self.program.op(value)
+            && *kernel != Kernel::MulAdd
+        {
             let of = args
                 .first()
                 .and_then(|arg| self.names.get(arg))
@@ -179,7 +181,7 @@ impl<'a> Body<'a> {
             return match (kernel, part) {
                 (Kernel::SinCos | Kernel::SinCosSum(_), 0) => format!("sin_{of}"),
                 (Kernel::SinCos | Kernel::SinCosSum(_), _) => format!("cos_{of}"),
-                (Kernel::Atan2, _) => format!("angle_{of}"),
+                (Kernel::Atan2 | Kernel::MulAdd, _) => format!("angle_{of}"),
                 (Kernel::Unit, part) => {
                     format!("unit_{}_{}", of.trim_end_matches("_x"), if *part == 0 { "x" } else { "y" })
                 }
@@ -298,7 +300,7 @@ impl<'a> Body<'a> {
             Op::Kernel { kernel, args, part } => {
                 let call = self.call(*kernel, args);
                 let part = proc_macro2::Literal::u8_unsuffixed(*part);
-                Code::atom(if matches!(kernel, Kernel::Atan2) { call } else { quote!(#call.#part) })
+                Code::atom(if kernel.parts() == 1 { call } else { quote!(#call.#part) })
             }
             Op::Symbol(_) | Op::Quantity(_) | Op::Held(_) | Op::Checked { .. } => Code::atom(quote!(0.0)),
         }
@@ -315,6 +317,7 @@ impl<'a> Body<'a> {
                 quote!(math::#function(#(#args),*, #high, #low))
             }
             Kernel::Atan2 => quote!(math::atan2(#(#args),*)),
+            Kernel::MulAdd => quote!(math::mul_add(#(#args),*)),
             Kernel::Unit => quote!(math::unit(#(#args),*)),
             Kernel::Solve2 | Kernel::Solve3 => {
                 let unknowns = usize::from(kernel.parts());
@@ -369,7 +372,7 @@ impl<'a> Body<'a> {
             // The first result that is read brings the statement for all.
             let Some(parts) = calls.remove(&(*kernel, args.clone())) else { return TokenStream::new() };
             let call = self.call(*kernel, args);
-            if matches!(kernel, Kernel::Atan2) {
+            if kernel.parts() == 1 {
                 return quote!(#docs let #name = #call;);
             }
             let part = |which: u8| {

@@ -38,7 +38,7 @@ pub(super) fn module(linkage: &Linkage) -> TokenStream {
     ));
     text.push_str("\n```text\n");
     text.push_str(&blocks(linkage));
-    text.push_str("```\n\nThe whole derivation is in [`EQUATIONS`].");
+    text.push_str("```\n\nThe whole derivation is in `EQUATIONS`.");
     lines(&text)
 }
 

@@ -162,6 +162,7 @@ impl<S> Formula<'_, S> {
                 format!("{function}({} {sign} {})", args[0], number_text(phase.abs()))
             }
             (Kernel::Atan2, _) => format!("atan2({}, {})", args[0], args[1]),
+            (Kernel::MulAdd, _) => format!("fma({}, {}, {})", args[0], args[1], args[2]),
             (Kernel::Solve2 | Kernel::Solve3, part) => {
                 let unknowns = usize::from(kernel.parts());
                 let rows = args[..unknowns * unknowns].chunks(unknowns).zip(&args[unknowns * unknowns..]);

@@ -71,6 +71,9 @@ impl Graph {
                 let (y, x) = (self.expr(args[0]), self.expr(args[1]));
                 (x * d(args[0]) - y * d(args[1])) / (x * x + y * y)
             }
+            Op::Kernel { kernel: Kernel::MulAdd, args, .. } => {
+                d(args[0]) * self.expr(args[1]) + self.expr(args[0]) * d(args[1]) + d(args[2])
+            }
             Op::Constant(_)
             // Constraints are smooth: they hold none of these.
             | Op::Abs(_)
@@ -177,6 +180,7 @@ impl Graph {
             Kernel::SinCos => pair(args[0].sin_cos()),
             Kernel::SinCosSum(phase) => pair(args[0].sin_cos_sum(&self.number(phase))),
             Kernel::Atan2 => vec![args[0].atan2(&args[1])],
+            Kernel::MulAdd => vec![args[0].mul_add(&args[1], &args[2])],
             Kernel::Unit => pair(args[0].unit(&args[1])),
             Kernel::Solve2 => pair(args[0].solve_2(&args[1], &args[2], &args[3], [&args[4], &args[5]])),
             Kernel::Solve3 => Real::solve_3(&args[..9], &args[9..]),

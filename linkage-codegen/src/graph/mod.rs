@@ -152,6 +152,8 @@ pub enum Kernel {
     SinCosSum(NumberId),
     /// Angle of the direction (second, first argument).
     Atan2,
+    /// Product of the first two arguments plus the third, rounded once. Only programs have it.
+    MulAdd,
     /// Direction of a vector: its two components over its size, zero for the zero vector.
     Unit,
     /// Solution of two linear equations, with row pivoting: coefficients row by row, then the right sides.
@@ -175,7 +177,7 @@ impl Kernel {
     #[must_use]
     pub fn parts(self) -> u8 {
         match self {
-            Self::Atan2 => 1,
+            Self::Atan2 | Self::MulAdd => 1,
             Self::SinCos | Self::SinCosSum(_) | Self::Unit | Self::Solve2 => 2,
             Self::Solve3 => 3,
             Self::Solve(unknowns) => unknowns.saturating_add(1),
@@ -478,6 +480,7 @@ struct Arena {
 pub struct Graph {
     arena: RefCell<Arena>,
     scalar: Scalar,
+    fused: bool,
 }
 
 impl Graph {
@@ -485,7 +488,19 @@ impl Graph {
     #[must_use]
     pub fn new(scalar: Scalar) -> Self {
         let arena = Arena { sections: vec![String::new()], ..Arena::default() };
-        Self { arena: RefCell::new(arena), scalar }
+        Self { arena: RefCell::new(arena), scalar, fused: false }
+    }
+
+    /// The same, for programs in which products are added without being rounded.
+    #[must_use]
+    pub fn with_fused(self, fused: bool) -> Self {
+        Self { fused, ..self }
+    }
+
+    /// Whether products are added without being rounded.
+    #[must_use]
+    pub fn is_fused(&self) -> bool {
+        self.fused
     }
 
     /// The number type.

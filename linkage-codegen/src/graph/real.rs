@@ -24,6 +24,11 @@ pub trait Real: Clone {
     /// Square root.
     #[must_use]
     fn sqrt(&self) -> Self;
+    /// Product with a factor, plus a summand: rounded once, by numbers that are rounded at every operation.
+    #[must_use]
+    fn mul_add(&self, factor: &Self, summand: &Self) -> Self {
+        self.mul(factor).add(summand)
+    }
     /// Whether `self > other`.
     fn above(&self, other: &Self) -> bool;
     /// Whether `self >= other`.
@@ -103,6 +108,9 @@ impl Real for f64 {
     }
     fn sqrt(&self) -> Self {
         f64::sqrt(*self)
+    }
+    fn mul_add(&self, factor: &Self, summand: &Self) -> Self {
+        f64::mul_add(*self, *factor, *summand)
     }
     fn above(&self, other: &Self) -> bool {
         self > other

@@ -314,6 +314,9 @@ impl<'g> Rounding<'g> {
                 let least = (size - error).where_above(size, error);
                 own + 2 * (error / least)
             }
+            Kernel::MulAdd => {
+                args[0].abs() * errors[1] + (args[1].abs() + errors[1]) * errors[0] + errors[2] + self.rounded(value)
+            }
             Kernel::Unit => {
                 let error = errors[0] + errors[1];
                 let own = 3 * self.rounded(value);

@@ -182,6 +182,7 @@ impl<'g> Tangent<'g> {
                 let change = x * self.of(y) - y * self.of(x);
                 if change.is_zero() { zero } else { change / (x * x + y * y) }
             }
+            Kernel::MulAdd => self.of(args[0]) * args[1] + args[0] * self.of(args[1]) + self.of(args[2]),
             Kernel::Unit => {
                 let vector = Vector::new(args[0], args[1]);
                 let change = self.of_vector(vector);

@@ -1055,7 +1055,7 @@ pub fn resolve(ast: &Ast, sink: &Sink) -> Model {
         units: options.units,
         runtime: options.runtime,
         emit_source: options.emit_source,
-        graph: Graph::new(options.scalar),
+        graph: Graph::new(options.scalar).with_fused(options.fused),
         params: Vec::new(),
         links: Vec::new(),
         joints: Vec::new(),

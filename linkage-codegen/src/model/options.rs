@@ -12,11 +12,13 @@ pub(super) struct Options {
     pub(super) units: Units,
     pub(super) scalar: Scalar,
     pub(super) runtime: Option<TokenStream>,
+    pub(super) fused: bool,
     pub(super) emit_source: bool,
 }
 
 pub(super) fn options(ast: &Ast, sink: &Sink) -> Options {
-    let mut options = Options { units: Units::default(), scalar: Scalar::F64, runtime: None, emit_source: false };
+    let mut options =
+        Options { units: Units::default(), scalar: Scalar::F64, runtime: None, fused: false, emit_source: false };
     for item in &ast.items {
         match item {
             Item::Units(names) => names.iter().for_each(|name| choose_unit(&mut options.units, name, sink)),
@@ -25,10 +27,8 @@ pub(super) fn options(ast: &Ast, sink: &Sink) -> Options {
                 None => sink.report(Diagnostic::new(name.place(), "the scalar is `f64` or `f32`")),
             },
             Item::Arithmetic(name) => match name.text.as_str() {
-                "plain" => {}
-                "fused" => sink.report(
-                    Diagnostic::new(name.place(), "fused arithmetic is not supported yet").help("leave it out"),
-                ),
+                "plain" => options.fused = false,
+                "fused" => options.fused = true,
                 _ => sink.report(Diagnostic::new(name.place(), "the arithmetic is `plain` or `fused`")),
             },
             Item::Crate(path) => options.runtime = Some(path.clone()),

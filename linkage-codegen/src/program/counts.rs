@@ -12,6 +12,8 @@ pub struct Counts {
     pub add: usize,
     /// Products.
     pub mul: usize,
+    /// Products that are added without being rounded.
+    pub fused: usize,
     /// Quotients.
     pub div: usize,
     /// Square roots.
@@ -54,6 +56,7 @@ impl Program {
                             match kernel {
                                 Kernel::SinCos | Kernel::SinCosSum(_) => counts.sin_cos += 1,
                                 Kernel::Atan2 => counts.atan2 += 1,
+                                Kernel::MulAdd => counts.fused += 1,
                                 Kernel::Unit => counts.unit += 1,
                                 Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_) => counts.solve += 1,
                                 Kernel::Search { .. } => counts.search += 1,
@@ -76,6 +79,7 @@ impl fmt::Display for Counts {
         let parts = [
             (self.add, "+−"),
             (self.mul, "×"),
+            (self.fused, "fma"),
             (self.div, "÷"),
             (self.sqrt, "√"),
             (self.sin_cos, "sin/cos"),

@@ -1,6 +1,6 @@
 //! Families of poses and the bars that they are held to.
 
-use super::linkages::Random;
+use super::linkages::{Class, Random, Sample, sample_with_forces};
 use super::measures::{Measures, measure};
 use super::numbers::{Double, Single};
 use super::{Arguments, Number, compile_if_it_closes};
@@ -107,6 +107,70 @@ pub fn boom([ground, boom, offset]: [f64; 3], random: &mut Random) -> String {
          prismatic lift: tube.P -> rod.S along 0deg of {carrier}; drive extension: lift; assemble Q: {side}(P -> O);
          load F: force({first}); load H: force({second}); {SCENES}"
     )
+}
+
+/// A lever with a slot that the crank's pin swings; the slot's line goes past the lever's pin.
+pub fn shaper([ground, crank, offset]: [f64; 3], random: &mut Random) -> String {
+    let angle = random.range(0.0, 360.0);
+    let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
+    let side = random.pick(&["ahead", "behind"]);
+    let line = random.range(0.0, 360.0);
+    let arrow = random.pick(&["lever.S -> crank.A", "crank.A -> lever.S"]);
+    format!(
+        "pub mod sample; ground {{ A0: (0, 0), P: {ground:?}m @ {angle:?}deg }} link crank {{ A0 -> A: {crank:?}m, C: ({x:?}m, {y:?}m) }}
+         link lever {{ P: (0, 0), S: {offset:?}m @ {line:?}deg + 90deg, D: ({y:?}m, {x:?}m) }}
+         slot S: {arrow} along {line:?}deg of lever; revolute P: ground -> lever;
+         {CRANK} assemble S: {side}(P); load F: force(crank.C); load H: force(lever.D); {SCENES}"
+    )
+}
+
+/// A link whose end runs in a slot of the crank, beside the crank's pin.
+pub fn slotted_crank([ground, rocker, offset]: [f64; 3], random: &mut Random) -> String {
+    let angle = random.range(0.0, 360.0);
+    let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
+    let side = random.pick(&["ahead", "behind"]);
+    let arrow = random.pick(&["crank.K -> rocker.S", "rocker.S -> crank.K"]);
+    format!(
+        "pub mod sample; ground {{ A0: (0, 0), P: {ground:?}m @ {angle:?}deg }} link crank {{ A0: (0, 0), K: (0, {offset:?}m), C: ({x:?}m, {y:?}m) }}
+         link rocker {{ P -> S: {rocker:?}m, D: ({y:?}m, {x:?}m) }}
+         slot S: {arrow} along 0deg of crank; revolute P: ground -> rocker;
+         {CRANK} assemble S: {side}(P); load F: force(crank.C); load H: force(rocker.D); {SCENES}"
+    )
+}
+
+/// A Scotch yoke whose slot holds the crank's pin.
+pub fn slotted_yoke([crank, offset, angle]: [f64; 3], random: &mut Random) -> String {
+    let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
+    let line = random.range(0.0, 360.0);
+    format!(
+        "pub mod sample; ground {{ A0: (0, 0), G: (0.25m, {offset:?}m) }} link crank {{ A0 -> A: {crank:?}m, C: ({x:?}m, {y:?}m) }}
+         link yoke {{ S: ({offset:?}m, 0), G: (0, 0), D: ({y:?}m, {x:?}m) }}
+         slot S: yoke.S -> crank.A along {line:?}deg + {angle:?}deg of yoke; prismatic G: yoke -> ground along {line:?}deg;
+         {CRANK} load F: force(crank.C); load H: force(yoke.D); {SCENES}"
+    )
+}
+
+/// A planet on a driven carrier, about a fixed sun or in a fixed ring.
+pub fn planet([sun, planet, phase]: [f64; 3], random: &mut Random) -> String {
+    let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
+    let (ring, carrier) = if random.chance(0.5) { ("", sun + planet) } else { (", internal", sun) };
+    let wheel = if ring.is_empty() { sun } else { sun + planet };
+    let teeth = random.pick(&["", ", pressure_angle 20deg, flank left", ", pressure_angle 25deg, flank right"]);
+    format!(
+        "pub mod sample; ground {{ A0: (0, 0) }} link carrier {{ A0 -> P: {carrier:?}m, C: ({x:?}m, {y:?}m) }}
+         link planet {{ P: (0, 0), D: ({y:?}m, {x:?}m) }}
+         revolute A0: ground -> carrier; drive theta: A0; unknown T: torque(ground -> carrier); revolute P: carrier -> planet;
+         gear G: ground.A0 -> planet.P, radii ({wheel:?}m, {planet:?}m), phase {phase:?}m{ring}{teeth}; load F: force(carrier.C); load H: force(planet.D); {SCENES}"
+    )
+}
+
+/// A linkage whose last group has no closed form, near where it starts.
+pub fn searched(seed: u64, class: Class, poses: usize) -> Family {
+    let Sample { text, arguments, longest, .. } = sample_with_forces(seed, class);
+    let mut random = Random(seed);
+    let begin = arguments.drives[0];
+    let drives = (0..poses).map(|_| begin + random.range(-0.3, 0.3)).collect();
+    Family { text, longest, drives, loads: arguments.loads }
 }
 
 /// The worst measures of a family, over the poses that assemble and are no dead centres; and how many those are.

@@ -128,6 +128,8 @@ struct Builder {
     sides: Vec<f64>,
     /// Radii, if dimensions are parameters.
     radii: Option<Vec<f64>>,
+    /// Whether the frames of links have their origins at joints.
+    framed: bool,
 }
 
 impl Builder {
@@ -148,6 +150,7 @@ impl Builder {
             either: kind.joints,
             sides: Vec::new(),
             radii: kind.params.then(Vec::new),
+            framed: false,
         }
     }
 
@@ -229,6 +232,77 @@ pub fn sample_with_search(seed: u64, kind: Kind) -> Sample {
     sample
 }
 
+/// Groups without a closed form.
+#[derive(Clone, Copy, Debug)]
+pub enum Class {
+    /// A triad.
+    Three,
+    /// A triad, one leg of which may be a slider.
+    ThreeWithSlider,
+    /// A ring of four links.
+    Four,
+}
+
+/// A crank and a group of this class, with forces on two of its links that are given at run time. All lengths are numbers that single
+/// precision holds too. Frames have their origins at joints, about which moments are then taken.
+pub fn sample_with_forces(seed: u64, class: Class) -> Sample {
+    let kind = Kind {
+        dyads: 0,
+        sliders: false,
+        joints: false,
+        unknown_anywhere: false,
+        moving: false,
+        params: false,
+        scalar: "f64",
+    };
+    let mut random = Random(seed);
+    let base = [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
+    let mut builder = Builder::new(random, base, kind);
+    builder.framed = true;
+    let drive = builder.driven_link(false);
+    builder.drives.push(drive);
+    match class {
+        Class::Three => builder.triad(false),
+        Class::ThreeWithSlider => builder.triad(true),
+        Class::Four => builder.ring(),
+    }
+    let loads = builder.forces();
+    let starts = builder.starts_of_drives(0.0);
+    let mut sample = builder.finish(loads, Vec::new(), kind);
+    sample.text.push_str(&starts);
+    sample.text = in_single_precision(&sample.text.replace("scalar f64;\n", ""));
+    sample
+}
+
+/// A declaration with all its decimals rounded to single precision.
+#[allow(clippy::cast_possible_truncation, reason = "that is the point")]
+fn in_single_precision(text: &str) -> String {
+    let mut rounded = String::new();
+    let mut rest = text;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_alphanumeric()) {
+        let (before, word) = rest.split_at(start);
+        rounded.push_str(before);
+        let decimal = |c: char| c.is_ascii_digit() || c == '.';
+        let end = if word.starts_with(decimal) {
+            let digits = word.find(|c: char| !decimal(c)).unwrap_or(word.len());
+            // Small numbers have an exponent.
+            let power = word[digits..].strip_prefix("e-");
+            power.map_or(digits, |power| digits + 2 + power.find(|c: char| !decimal(c)).unwrap_or(power.len()))
+        } else {
+            word.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(word.len())
+        };
+        let (word, after) = word.split_at(end);
+        match word.parse::<f64>() {
+            Ok(value) if word.contains('.') => {
+                let _ = write!(rounded, "{:?}", f64::from(value as f32));
+            }
+            _ => rounded.push_str(word),
+        }
+        rest = after;
+    }
+    rounded + rest
+}
+
 /// How far a force along a line through `at` is from one that the first two lines hold: the determinant of three unit forces.
 fn independence(lines: [(Place, Place); 3]) -> f64 {
     let row = |(at, along): (Place, Place)| {
@@ -240,6 +314,21 @@ fn independence(lines: [(Place, Place); 3]) -> f64 {
 }
 
 impl Builder {
+    /// Two forces on two links, anywhere.
+    fn forces(&mut self) -> Vec<[f64; 2]> {
+        let moving = self.bodies.len() - 1;
+        let first = 1 + self.random.below(moving);
+        let second = 1 + (first + self.random.below(moving - 1)) % moving;
+        [first, second]
+            .map(|link| {
+                let (point, at) = (self.fresh('p'), self.place());
+                let _ = writeln!(self.items, "load L{point}: force({}.{point});", self.bodies[link].name);
+                self.bodies[link].points.push((point, at));
+                [self.random.range(-50.0, 50.0), self.random.range(-50.0, 50.0)]
+            })
+            .to_vec()
+    }
+
     /// A link with points of its own.
     fn plate(&mut self, points: &[(&str, Place)]) -> usize {
         let link = self.link(points[0], points[1]);
@@ -359,7 +448,7 @@ impl Builder {
 
     fn link(&mut self, first: (&str, Place), second: (&str, Place)) -> usize {
         let name = self.fresh('l');
-        let framed = self.random.chance(0.5);
+        let framed = self.framed || self.random.chance(0.5);
         let arm = minus(second.1, first.1);
         let (origin, angle) =
             if framed { (first.1, arm[1].atan2(arm[0])) } else { (self.place(), self.random.range(-3.0, 3.0)) };

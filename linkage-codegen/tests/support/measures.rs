@@ -6,14 +6,14 @@ use linkage_codegen::Linkage;
 use linkage_codegen::equations::Source;
 use linkage_codegen::equations::joints::Component;
 use linkage_codegen::equations::loads::{self, Action};
-use linkage_codegen::graph::NodeId;
 use linkage_codegen::graph::real::Real;
+use linkage_codegen::graph::{Coordinate, NodeId, Symbol};
 use linkage_codegen::model::ids::{JointId, LinkId};
-use linkage_codegen::model::{LoadKind, UnknownKind};
+use linkage_codegen::model::{End, JointKind, LoadKind, UnknownKind};
 use linkage_codegen::program::Fault;
 use nalgebra::{DMatrix, DVector};
 
-use super::general::{General, equations_at};
+use super::general::{General, coordinates, equations_at};
 use super::numbers::Extended;
 use super::{Arguments, Number, from_pose, pose};
 
@@ -22,7 +22,7 @@ use super::{Arguments, Number, from_pose, pose};
 pub struct Measures {
     /// Largest deviation of a direction's size from one.
     pub unit: f64,
-    /// Largest constraint residual over the longest side of a loop: the longest link, or a travel that no length bounds.
+    /// Largest constraint residual over the longest side of a loop: the longest link, or a way that no length bounds.
     pub closure: f64,
     /// Normwise backward error of the equilibrium equations.
     pub backward: f64,
@@ -76,7 +76,7 @@ pub fn measure<T: Number>(
         kept.iter().map(|(node, value)| (*node, Extended::exactly(value.to_f64()))).collect();
     let general = equations_at(linkage, arguments, &extended);
     let unit = direction_error(linkage, &extended) / epsilon;
-    let side = longest.max(farthest(linkage, &extended));
+    let side = longest.max(farthest(linkage, arguments, &extended));
     let closure = general.residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs())) / (side * epsilon);
     let unit_pose = normalised(linkage, &extended);
     let general = equations_at(linkage, arguments, &unit_pose);
@@ -95,14 +95,25 @@ pub fn measure<T: Number>(
     Ok(Measures { unit, closure, backward, free_body, torque })
 }
 
-/// How far something slides where two slides alone hold a pin: that grows beyond all lengths as they become parallel, and is a number of
-/// the pose, with a rounding of its own.
-fn farthest(linkage: &Linkage, kept: &HashMap<NodeId, Extended>) -> f64 {
-    if !linkage.plan.motion_rules.contains(&"PRP dyad") {
-        return 0.0;
+/// Sides of loops that no length bounds, but numbers of the pose with a rounding of their own: how far something slides where two slides
+/// alone hold a pin, which grows beyond all lengths as they become parallel; and how far wheels have rolled.
+fn farthest(linkage: &Linkage, arguments: &Arguments, kept: &HashMap<NodeId, Extended>) -> f64 {
+    let model = &linkage.model;
+    let mut sides = Vec::new();
+    if linkage.plan.motion_rules.contains(&"PRP dyad") {
+        let travels = linkage.plan.pose.iter().filter(|found| found.name.starts_with("travel_"));
+        sides.extend(travels.map(|found| kept[&found.node].to_f64().abs()));
     }
-    let travels = linkage.plan.pose.iter().filter(|found| found.name.starts_with("travel_"));
-    travels.map(|found| kept[&found.node].to_f64().abs()).fold(0.0, f64::max)
+    let coordinates = coordinates(linkage, arguments, kept);
+    for joint in (0..model.joints.len()).map(JointId::new) {
+        let JointKind::Gear(gear) = model.joint(joint).kind else { continue };
+        for (end, radius) in model.joint(joint).ends().into_iter().zip(gear.radii) {
+            let radius = model.graph.expr(radius).value().expect("constant").to_f64();
+            let angle = coordinates.get(&Symbol::Coordinate(end.link, Coordinate::Angle)).map_or(0.0, Number::to_f64);
+            sides.push((radius * angle).abs());
+        }
+    }
+    sides.into_iter().fold(0.0, f64::max)
 }
 
 /// The pose with all directions brought to unit size.
@@ -181,6 +192,12 @@ fn backward_error(linkage: &Linkage, general: &General<Extended>, solution: &[Ex
     over(residual.norm(), matrix.singular_values().max() * x.norm() + b.norm())
 }
 
+/// A place in the frame of its link.
+fn local_place(linkage: &Linkage, end: End) -> [f64; 2] {
+    let local = linkage.model.local(end);
+    [local.x, local.y].map(|x| x.value().expect("constant").to_f64())
+}
+
 /// The lengths of the ways from a link's frame to the runner of a slide.
 fn slide_arm(
     linkage: &Linkage,
@@ -192,8 +209,16 @@ fn slide_arm(
     let model = &linkage.model;
     let data = model.joint(joint);
     let Some(end) = data.end_on(link) else { return 0.0 };
-    let local = model.local(end);
-    let local = [local.x, local.y].map(|x| x.value().expect("constant").to_f64());
+    if let JointKind::Slot { .. } = data.kind {
+        // The pin's place is known from the link that has the pin.
+        let (place, coordinates) = (data.place(), coordinates(linkage, arguments, kept));
+        let of = |link, which| coordinates.get(&Symbol::Coordinate(link, which)).map_or(0.0, Number::to_f64);
+        let [x, y] = local_place(linkage, place);
+        let (c, s) = (of(place.link, Coordinate::Cos), of(place.link, Coordinate::Sin));
+        let apart = [Coordinate::X, Coordinate::Y].map(|which| of(place.link, which) - of(link, which));
+        return (apart[0] + c * x - s * y).hypot(apart[1] + s * x + c * y);
+    }
+    let local = local_place(linkage, end);
     let name = format!("travel_{}", data.name);
     let found = linkage.plan.pose.iter().find(|kept| kept.name == name).map(|found| kept[&found.node].to_f64());
     // The travel of a driven slide is an argument.

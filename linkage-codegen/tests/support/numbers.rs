@@ -36,6 +36,9 @@ macro_rules! scalar {
             fn sqrt(&self) -> Self {
                 Self(math::$scalar::sqrt(self.0))
             }
+            fn mul_add(&self, factor: &Self, summand: &Self) -> Self {
+                Self(self.0.mul_add(factor.0, summand.0))
+            }
             fn above(&self, other: &Self) -> bool {
                 self.0 > other.0
             }

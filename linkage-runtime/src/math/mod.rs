@@ -33,4 +33,5 @@ macro_rules! estrin {
 
 pub mod f32;
 pub mod f64;
+mod fused;
 mod sqrt;

@@ -163,7 +163,8 @@ fn filling(model: &Model, id: JointId, gear: &Gear) -> [NodeId; 2] {
         "{}: the radii of its wheels must fill the distance of their centres to a hundredth",
         model.joint(id).name
     );
-    let ring = second.sign() == Some(-1);
+    // The wheel in a ring has the opposite of a positive radius, known or given.
+    let ring = model.graph.is_positive(-second);
     let [first, second] = [first, if ring { -second } else { second }].map(|radius| {
         let failure = Failure::Parameter { requirement: requirement.clone() };
         radius.require_at_least(distance, apart, failure).known_positive()

@@ -36,6 +36,8 @@ struct Member {
     near: JointId,
     /// The other end: a pin, or a slide.
     far: JointId,
+    /// Whether both ends are on links of the group.
+    within: bool,
 }
 
 /// What a column of the equations stands for.
@@ -367,12 +369,15 @@ fn members(model: &Model, group: &Group) -> Vec<Member> {
         if acted_on || ![a, b].into_iter().all(|joint| slides(joint) || pins(joint)) {
             continue;
         }
-        let (near, far) = if slides(a) { (*b, *a) } else { (*a, *b) };
+        // The force on the group comes from the moment about the end outside it. As what that end and the loads leave, it would have their
+        // rounding, however small it is.
+        let inner = |joint: &JointId| group.inner.contains(joint);
+        let (near, far) = if slides(a) || (pins(b) && inner(b) && !inner(a)) { (*b, *a) } else { (*a, *b) };
         let guide = model.joint(far).end_off(*link).map(|end| end.link);
         let guided_by_member = slides(&far) && members.iter().any(|m| Some(m.link) == guide);
         // A link between two slides stays a carrier.
         if !slides(&near) && !guided_by_member {
-            members.push(Member { link: *link, near, far });
+            members.push(Member { link: *link, near, far, within: inner(a) && inner(b) });
         }
     }
     members
@@ -544,6 +549,8 @@ fn power<'m>(motion: &Motion<'m, '_>, parts: &Parts<'_, 'm>, act: &Act<'m>) -> E
 struct MemberEnds<'m> {
     /// The force on the member at its near end.
     near: Framed<'m>,
+    /// The force on it at its far end, if that is not what the near end and the loads leave.
+    far: Option<Framed<'m>>,
     /// The sum of the loads on it.
     loads: Framed<'m>,
     /// What that does to its neighbours.
@@ -567,7 +574,7 @@ fn known_ends<'m>(balance: &Balance<'m, '_>, parts: &Parts<'_, 'm>, member: &Mem
             Act::Force(guide, parts.place(member.far, guide), held),
             Act::Couple(guide, moment + arm.x * total.y),
         ];
-        return MemberEnds { near, loads, acts };
+        return MemberEnds { near, far: None, loads, acts };
     }
     let (length, axes) = parts.rod(member);
     let about = parts.place(member.far, member.link);
@@ -575,9 +582,18 @@ fn known_ends<'m>(balance: &Balance<'m, '_>, parts: &Parts<'_, 'm>, member: &Mem
     let name = &parts.model.link(member.link).name;
     let across = across.named(balance.name(&format!("across_{name}")), format!("−ΣM/length of the loads on {name}"));
     let near = Framed { components: Vector::new(graph.zero(), across), axes };
-    let far = loads.plus(&near, ground).opposite();
+    // Where the far end is on a link of the group, too, its force comes from the moment about the near end.
+    let own = (member.within && !loads.components.is_zero()).then(|| {
+        let about = parts.place(member.near, member.link);
+        let across = balance.moment(member.link, about, graph.one() / length);
+        let far = parts.model.joint(member.far);
+        let name = balance.name(&format!("across_{name}_at_{}", far.name));
+        let across = across.named(name, format!("ΣM/length of the loads on {}", parts.model.link(member.link).name));
+        Framed { components: Vector::new(-loads.along(axes).x, across), axes }
+    });
+    let far = own.unwrap_or_else(|| loads.plus(&near, ground).opposite());
     let acts = vec![parts.passed_on(member.near, member.link, near), parts.passed_on(member.far, member.link, far)];
-    MemberEnds { near, loads, acts }
+    MemberEnds { near, far: own, loads, acts }
 }
 
 /// Records the forces at a member's ends.
@@ -602,7 +618,10 @@ fn put_member<'m>(
         super::slide::guide(balance, member.far, member.link, across, parts.place(member.near, member.link));
     } else {
         let near = put_pin(balance, parts, member.near, member.link, near);
-        let far = ends.loads.plus(&near, ground).opposite();
+        let far = ends.far.map_or_else(
+            || ends.loads.plus(&near, ground).opposite(),
+            |far| Framed { components: far.components - own, axes: far.axes },
+        );
         put_pin(balance, parts, member.far, member.link, far);
     }
 }

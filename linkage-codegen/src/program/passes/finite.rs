@@ -34,7 +34,11 @@ fn shown_by(program: &Program, groups: &[Vec<ValueId>]) -> BTreeSet<ValueId> {
     let inherited = |value: &ValueId| match program.op(*value) {
         Some(Op::Neg(a) | Op::Abs(a) | Op::Sqrt(a) | Op::Div(a, _)) => vec![*a],
         Some(Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b)) => vec![*a, *b],
-        Some(Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_) | Kernel::Atan2, args, .. }) => args.clone(),
+        Some(Op::Kernel {
+            kernel: Kernel::SinCos | Kernel::SinCosSum(_) | Kernel::Atan2 | Kernel::MulAdd,
+            args,
+            ..
+        }) => args.clone(),
         _ => Vec::new(),
     };
     let formed_from = |group: &Vec<ValueId>| match group.as_slice() {

@@ -3,6 +3,7 @@
 
 mod constants;
 mod finite;
+mod fused;
 mod pivots;
 mod reciprocals;
 mod signs;
@@ -14,7 +15,7 @@ use super::Program;
 pub type Pass = fn(Program, &crate::graph::Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 7] = [
+pub const PASSES: [(&str, Pass); 8] = [
     ("pivots", pivots::compare_directly),
     ("reciprocals", reciprocals::share),
     ("constants", constants::merge),
@@ -22,6 +23,7 @@ pub const PASSES: [(&str, Pass); 7] = [
     ("signs", signs::absorb),
     ("unused", unused::remove),
     ("finite", finite::check_once),
+    ("fused", fused::contract),
 ];
 
 /// A program after the passes that leave every bit of its results as it is.

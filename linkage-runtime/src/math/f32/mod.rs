@@ -5,6 +5,7 @@ mod large;
 mod sin_cos;
 mod vector;
 
+pub use super::fused::mul_addf as mul_add;
 pub use super::sqrt::sqrtf as sqrt;
 pub use atan2::atan2;
 pub use sin_cos::{is_short, short_sin_cos, short_sin_cos_sum, sin_cos, sin_cos_sum};

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use linkage_runtime::nalgebra::{SMatrix, Scalar};
-use linkage_runtime::{Error, SliderReaction, Vector2, WorkTerm};
+use linkage_runtime::{Error, SliderReaction, SweepError, Vector2, WorkTerm};
 
 /// A hash over the bits of everything put into it, and how many answers and refusals were among it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +40,24 @@ impl Digest {
                 self.put(value);
             }
             Err(error) => self.refusal(error),
+        }
+    }
+
+    /// Puts whether a sweep has all its results, or which one it lacks. The results are put by themselves.
+    pub fn sweep(&mut self, swept: Result<(), SweepError>) {
+        match swept {
+            Ok(()) => self.answers = self.answers.wrapping_add(1),
+            Err(SweepError::Position { index, error }) => {
+                self.bits(index as u64);
+                self.refusal(error);
+            }
+            Err(SweepError::Length { what, found, expected }) => {
+                self.refusals = self.refusals.wrapping_add(1);
+                self.bits(what.len() as u64);
+                self.bits(found as u64);
+                self.bits(expected as u64);
+            }
+            Err(_) => self.bits(10),
         }
     }
 
@@ -98,7 +116,7 @@ impl Output for f32 {
     }
 }
 
-impl<T: Output> Output for (T, T) {
+impl<T: Output, U: Output> Output for (T, U) {
     fn put(self, digest: &mut Digest) {
         self.0.put(digest);
         self.1.put(digest);

@@ -1,6 +1,6 @@
-//! METU Example 6.3, held by a torque on the crank.
+//! METU Example 6.3, held by a torque on the crank, at single positions and swept.
 
-use linkage_runtime::{Vector2, linkage};
+use linkage_runtime::{Series, Vector2, linkage};
 
 use crate::digest::{Digest, accessors, digest, outputs};
 
@@ -34,6 +34,7 @@ linkage! {
     scene torque:  virtual_work(F13, F14) -> (T12);
     scene place:   position;
     scene pin:     position -> (B);
+    scene cycle:   sweep(torque);
 }
 
 outputs! {
@@ -58,6 +59,15 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     digest.result(linkage::torque_at(theta, &loads));
     digest.result(linkage::place_at(theta));
     digest.result(linkage::pin_at(theta));
+    let thetas = [theta, theta + a, theta - b, b, c];
+    let inputs = linkage::CycleInputs { theta: Series::Each(&thetas), F13: Series::Constant(loads.F13) };
+    let mut torques = [0.0; 5];
+    digest.sweep(linkage::cycle(&inputs, linkage::Cycle { T12: &mut torques }));
+    let [t, u, v, w, x] = torques;
+    digest.put((((t, u), (v, w)), x));
+    // A slice of another length.
+    let inputs = linkage::CycleInputs { theta: Series::Each(&[theta, a]), F13: Series::Constant(loads.F13) };
+    digest.sweep(linkage::cycle(&inputs, linkage::Cycle { T12: &mut torques }));
     let pose = match linkage::Pose::at(theta) {
         Ok(pose) => pose,
         Err(error) => return digest.refusal(error),

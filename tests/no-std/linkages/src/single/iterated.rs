@@ -1,6 +1,6 @@
 //! A group of class IV with a slide, placed by iteration in single precision. One dimension is given at run time.
 
-use linkage_runtime::{Vector2, linkage};
+use linkage_runtime::{Series, Vector2, linkage};
 
 use crate::digest::{Digest, accessors, digest, outputs};
 
@@ -45,6 +45,7 @@ linkage! {
     scene statics: equilibrium;
     scene torque:  virtual_work -> (effort_theta, effort_x);
     scene place:   position -> (E, left.G, right.angle);
+    scene cycle:   sweep(torque);
 }
 
 outputs! {
@@ -67,6 +68,17 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     digest.result(linkage::statics_at(linkage, theta, x, &loads));
     digest.result(linkage::torque_at(linkage, theta, x, &loads));
     digest.result(linkage::place_at(linkage, theta, x));
+    let thetas = [theta, theta + 0.1 * a, theta - 0.1 * b];
+    let inputs = linkage::CycleInputs {
+        theta: Series::Each(&thetas),
+        x: Series::Constant(x),
+        L: Series::Each(&[loads.L, loads.L, Vector2::new(c, p)]),
+    };
+    let (mut of_theta, mut of_x) = ([0.0; 3], [0.0; 3]);
+    let results = linkage::Cycle { effort_theta: &mut of_theta, effort_x: &mut of_x };
+    digest.sweep(linkage::cycle(linkage, &inputs, results));
+    let ([t, u, v], [x1, x2, x3]) = (of_theta, of_x);
+    digest.put((((t, u), (v, x1)), (x2, x3)));
     let pose = match linkage::Pose::at(linkage, theta, x).and_then(|pose| pose.moved_to(theta + 0.1 * a, x)) {
         Ok(pose) => pose,
         Err(error) => return digest.refusal(error),

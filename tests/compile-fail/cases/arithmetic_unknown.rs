@@ -4,7 +4,7 @@ linkage! {
     pub mod four_bar;
 
     units { mm, N }
-    arithmetic fused;
+    arithmetic contracted;
 
     ground       { A0: (0, 0), B0: (140mm, 0) }
     link crank   { A0 -> A: 80mm }

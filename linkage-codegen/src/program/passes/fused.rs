@@ -1,0 +1,64 @@
+//! With `arithmetic fused;` a product that a sum reads is added without being rounded: `a·b + c` is one operation. What has a name of its own
+//! is a line of the derivation and stays a number of its own, rounded as such.
+
+use crate::graph::{Graph, Kernel, Op};
+use crate::program::{Definition, Program, Step, Value, ValueId};
+
+pub(super) fn contract(mut program: Program, graph: &Graph) -> Program {
+    if !graph.is_fused() {
+        return program;
+    }
+    let mut steps = Vec::new();
+    for step in core::mem::take(&mut program.steps) {
+        if let Step::Let(value) = step
+            && let Some([a, b, c]) = operands(&mut program, graph, value, &mut steps)
+        {
+            let op = Op::Kernel { kernel: Kernel::MulAdd, args: vec![a, b, c], part: 0 };
+            program.values[value.index()].definition = Definition::Computed(op);
+        }
+        steps.push(step);
+    }
+    program.steps = steps;
+    super::unused::remove(program, graph)
+}
+
+/// Factors and summand of a sum with a product.
+fn operands(program: &mut Program, graph: &Graph, sum: ValueId, steps: &mut Vec<Step>) -> Option<[ValueId; 3]> {
+    let (a, b, minus) = match program.op(sum)? {
+        Op::Add(a, b) => (*a, *b, false),
+        Op::Sub(a, b) => (*a, *b, true),
+        _ => return None,
+    };
+    let product = |value: ValueId| match program.op(value) {
+        Some(Op::Mul(x, y)) if program.value(value).label.is_none() => Some((*x, *y)),
+        _ => None,
+    };
+    Some(match (product(a), product(b), minus) {
+        (Some((x, y)), _, false) => [x, y, b],
+        (Some((x, y)), _, true) => [x, y, negative(program, graph, b, steps)],
+        (None, Some((x, y)), false) => [x, y, a],
+        (None, Some((x, y)), true) => [negative(program, graph, x, steps), y, a],
+        (None, None, _) => return None,
+    })
+}
+
+/// The negative of a value, which is exact.
+fn negative(program: &mut Program, graph: &Graph, value: ValueId, steps: &mut Vec<Step>) -> ValueId {
+    let op = match program.op(value) {
+        Some(Op::Neg(positive)) => return *positive,
+        Some(Op::Constant(number)) => match graph.constant(&graph.number(*number).neg()).op() {
+            Op::Constant(negated) => Some(Op::Constant(negated)),
+            _ => None,
+        },
+        _ => None,
+    };
+    let is_constant = op.is_some();
+    let definition = Definition::Computed(op.unwrap_or(Op::Neg(value)));
+    let section = program.value(value).section.clone();
+    program.values.push(Value { definition, label: None, section });
+    let negative = ValueId::new(program.values.len() - 1);
+    if !is_constant {
+        steps.push(Step::Let(negative));
+    }
+    negative
+}
