@@ -8,6 +8,7 @@ use linkage_codegen::model::Model;
 use linkage_codegen::model::ids::JointId;
 use linkage_codegen::topology::{Freedom, Group, Topology};
 use linkage_codegen::{Linkage, Refusal, analyse};
+use proc_macro2::LexError;
 
 use crate::declaration::{Declaration, joint_of};
 use crate::file::{Coordinate, End, File, Place};
@@ -21,21 +22,16 @@ pub(crate) struct Closed {
 
 /// Why a declaration was not taken.
 #[derive(Debug)]
-pub(crate) struct Refused {
-    /// What the compiler said.
-    pub(crate) messages: Vec<String>,
+pub(crate) enum Refused {
+    /// What the compiler said of it.
+    Declined(Vec<String>),
+    /// Nothing was said of it: its text cannot be read, or the compiler panics.
+    Broken(String),
 }
 
-impl Refused {
-    /// Whether all that stands in the way is what the compiler does not carry out yet.
-    pub(crate) fn is_unsupported(&self) -> bool {
-        self.messages.iter().all(|message| message.contains("not supported yet"))
-    }
-
-    /// The first message in one line, without its remarks.
-    pub(crate) fn summary(&self) -> String {
-        self.messages.first().and_then(|message| message.lines().next()).unwrap_or("refused").to_owned()
-    }
+/// The first line of what a compiler said: the message without its remarks.
+pub(crate) fn first_line(message: &str) -> &str {
+    message.lines().next().unwrap_or("refused")
 }
 
 /// Closes all groups of a declaration.
@@ -43,8 +39,8 @@ pub(crate) fn close(file: &File, declaration: &Declaration) -> Result<Closed, Re
     let guess = Guess { file, declaration };
     let mut closures: Vec<String> = Vec::new();
     loop {
-        match compile(declaration, &closures) {
-            Ok(closed) => return Ok(smooth(declaration, closures, &guess, closed)),
+        match compile(declaration, &closures)? {
+            Ok(closed) => return smooth(declaration, closures, &guess, closed),
             Err(refusal) => {
                 let messages: Vec<String> = refusal.errors.iter().map(|error| error.message().to_owned()).collect();
                 let before = closures.len();
@@ -55,21 +51,28 @@ pub(crate) fn close(file: &File, declaration: &Declaration) -> Result<Closed, Re
                 // What stands already and did not help is no way out.
                 let repeated = (before..closures.len()).any(|new| closures[..new].contains(&closures[new]));
                 if closures.len() == before || repeated {
-                    return Err(Refused { messages });
+                    return Err(Refused::Declined(messages));
                 }
             }
         }
     }
 }
 
-fn compile(declaration: &Declaration, closures: &[String]) -> Result<Closed, Refusal> {
+/// What the compiler says of a declaration, if that is text which it can read.
+fn compile(declaration: &Declaration, closures: &[String]) -> Result<Result<Closed, Refusal>, Refused> {
     let text = declaration.text(closures);
-    let tokens = text.parse().unwrap_or_default();
-    analyse(tokens).map(|linkage| Closed { text, linkage })
+    let tokens =
+        text.parse().map_err(|error: LexError| Refused::Broken(format!("no text of a declaration: {error}")))?;
+    Ok(analyse(tokens).map(|linkage| Closed { text, linkage }))
 }
 
 /// Lets each dyad that folds with its driver go smoothly through its folds.
-fn smooth(declaration: &Declaration, mut closures: Vec<String>, guess: &Guess<'_>, closed: Closed) -> Closed {
+fn smooth(
+    declaration: &Declaration,
+    mut closures: Vec<String>,
+    guess: &Guess<'_>,
+    closed: Closed,
+) -> Result<Closed, Refused> {
     let mut closed = closed;
     let sides: Vec<usize> = (0..closures.len()).filter(|index| closures[*index].starts_with("assemble ")).collect();
     for index in sides {
@@ -77,7 +80,7 @@ fn smooth(declaration: &Declaration, mut closures: Vec<String>, guess: &Guess<'_
             let Ok(at) = Number::new(&input.value, guess.file.number_mode) else { continue };
             let plain = closures[index].clone();
             closures[index] = format!("{} smooth at {};", plain.trim_end_matches(';'), at.in_unit("rad"));
-            match compile(declaration, &closures) {
+            match compile(declaration, &closures)? {
                 Ok(folding) => {
                     closed = folding;
                     break;
@@ -86,7 +89,7 @@ fn smooth(declaration: &Declaration, mut closures: Vec<String>, guess: &Guess<'_
             }
         }
     }
-    closed
+    Ok(closed)
 }
 
 /// The pose near which the wanted one lies.
@@ -216,4 +219,20 @@ fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Refused, compile};
+    use crate::declaration::Declaration;
+    use crate::file::File;
+
+    #[test]
+    fn text_that_cannot_be_read_is_no_refusal() {
+        let text = include_str!("../../tests/reference/neg_o5_over_driven.json");
+        let file = File::parse(text).expect("a file");
+        let declaration = Declaration::of(&file).expect("a declaration");
+        assert!(matches!(compile(&declaration, &[]), Ok(Err(_))));
+        assert!(matches!(compile(&declaration, &["assemble B: left(".into()]), Err(Refused::Broken(_))));
+    }
 }

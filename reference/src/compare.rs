@@ -7,8 +7,8 @@
 use std::collections::BTreeMap;
 
 use crate::declaration::{
-    ACCELERATIONS, ALL, CENTROID, CONTROL, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, POWERS, SHAKING,
-    SPEEDS, WEIGHT, WORK,
+    ACCELERATIONS, ALL, CENTROID, CONTROL, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, POWERS, RESOLVED,
+    SHAKING, SPEEDS, WEIGHT, WORK, point_of,
 };
 use crate::exact::{difference, difference_of_angles, nearest};
 use crate::file::{Answers, File, Limits, LinkMotion, Ordered, Reaction, Reduced};
@@ -23,13 +23,18 @@ const ROUNDINGS: f64 = 1e-13;
 pub(crate) struct Worst {
     pub(crate) ratio: f64,
     pub(crate) what: String,
-    /// The same against the closer limits.
-    pub(crate) tight: f64,
+    /// The same against the closer limits, if the file has some.
+    pub(crate) tight: Option<f64>,
 }
 
 impl Worst {
     pub(crate) fn new() -> Self {
-        Self { ratio: 0.0, what: String::new(), tight: 0.0 }
+        Self { ratio: 0.0, what: String::new(), tight: None }
+    }
+
+    /// Whether all numbers are within closer limits that the file has.
+    pub(crate) fn is_tight(&self) -> bool {
+        self.tight.is_some_and(|ratio| ratio <= 1.0)
     }
 
     fn see(&mut self, error: f64, [loose, tight]: [f64; 2], what: impl FnOnce() -> String) {
@@ -40,7 +45,7 @@ impl Worst {
         if ratio[0] > self.ratio || self.what.is_empty() {
             *self = Self { ratio: ratio[0], what: what(), tight: self.tight };
         }
-        self.tight = self.tight.max(ratio[1]);
+        self.tight = self.tight.map(|worst| worst.max(ratio[1]));
     }
 }
 
@@ -56,7 +61,10 @@ pub(crate) fn compare(
     worst: &mut Worst,
 ) -> Result<(), String> {
     let scales = Scales::of(file, answers)?;
-    let comparison = Comparison { declaration, answers, scales };
+    if answers.accept.as_ref().is_some_and(|accept| accept.tight.is_some()) {
+        worst.tight = worst.tight.or(Some(0.0));
+    }
+    let comparison = Comparison { file, declaration, answers, scales };
     let scene = |name: &str| {
         let value = results.get(name).ok_or_else(|| format!("the scene `{name}` printed nothing"))?;
         if let Value::Error(error) = value { Err(format!("{name}: {error}")) } else { Ok(value) }
@@ -83,6 +91,7 @@ pub(crate) fn compare(
         comparison.equation_of_motion(scene(CONTROL)?, reduced, worst)?;
     }
     comparison.equilibrium(scene(ALL)?, worst)?;
+    comparison.resolved(scene(ALL)?, results.get(RESOLVED), worst)?;
     comparison.work(scene(WORK)?, worst)?;
     comparison.parts(scene(PARTS)?, worst)
 }
@@ -101,7 +110,7 @@ impl Scales {
     fn of(file: &File, answers: &Answers) -> Result<Self, String> {
         let limit = |floor: &str| Ok::<f64, String>((64.0 * nearest(floor)?).max(ROUNDINGS));
         let limits = match (&answers.accept, &answers.f64_floor) {
-            (Some(accept), _) => [accept.loose.clone(), accept.tight.clone()],
+            (Some(accept), _) => [accept.loose.clone(), accept.tight.clone().unwrap_or_else(|| accept.loose.clone())],
             (None, Some(floor)) => {
                 let effort = floor.effort.iter().map(|floor| limit(floor)).collect::<Result<_, _>>()?;
                 let limits = Limits { effort, reaction: limit(&floor.reaction_normwise)? };
@@ -165,6 +174,7 @@ fn length_of(file: &File) -> Result<f64, String> {
 }
 
 struct Comparison<'a> {
+    file: &'a File,
     declaration: &'a Declaration,
     answers: &'a Answers,
     scales: Scales,
@@ -176,15 +186,24 @@ impl Comparison<'_> {
         for (link, [x, y, angle]) in self.answers.pose.iter() {
             let name = self.declaration.links.find(link)?;
             let missing = || format!("the pose has no `{link}`");
-            let at = own
-                .fields()
-                .iter()
-                .find(|(field, value)| field.starts_with(name) && field.ends_with(ORIGIN) && value.vector().is_some());
-            let at = at.and_then(|(_, value)| value.vector()).ok_or_else(missing)?;
+            let at = own.field(&format!("{name}_{ORIGIN}")).and_then(Value::vector).ok_or_else(missing)?;
             let turn = own.field(&format!("{name}_angle")).and_then(Value::number).ok_or_else(missing)?;
             let off = difference(at[0], x)?.hypot(difference(at[1], y)?);
             worst.see(off / self.scales.length, limit, || format!("place of {link}"));
             worst.see(difference_of_angles(turn, angle)?.abs(), limit, || format!("angle of {link}"));
+        }
+        let centroids = self.answers.centroid.iter().map(|(link, at)| (link, CENTROID, CENTROID.to_owned(), at));
+        let mut places: Vec<(&str, &str, String, &[String; 2])> = centroids.collect();
+        for (link, points) in self.answers.points.iter() {
+            for (point, at) in points.iter() {
+                places.push((link, point, point_of(self.file, link, point)?, at));
+            }
+        }
+        for (link, point, declared, [x, y]) in places {
+            let found = own.field(&format!("{}_{declared}", self.declaration.links.find(link)?));
+            let at = found.and_then(Value::vector).ok_or_else(|| format!("the pose has no `{point}` of `{link}`"))?;
+            let off = difference(at[0], x)?.hypot(difference(at[1], y)?);
+            worst.see(off / self.scales.length, limit, || format!("place of {point} of {link}"));
         }
         Ok(())
     }
@@ -342,6 +361,28 @@ impl Comparison<'_> {
                 let off = difference(size.ok_or_else(|| format!("there is no size of `{joint}`"))?, scalar)?.abs();
                 worst.see(off, limits, || format!("size of {joint}{of}"));
             }
+        }
+        Ok(())
+    }
+
+    /// Reactions along and across a link, both components at once; along the ground they are those that have been compared, as they are.
+    fn resolved(&self, all: &Value, resolved: Option<&Value>, worst: &mut Worst) -> Result<(), String> {
+        let limits = self.scales.limits.each_ref().map(|limits| limits.reaction * self.scales.reaction);
+        for (joint, answer) in self.answers.along.iter() {
+            let (name, link) = (self.declaration.joints.find(joint)?, &answer.link);
+            let found = if link == "ground" {
+                all.field(name).and_then(|own| own.vector().or_else(|| own.field("force")?.vector()))
+            } else {
+                let field = format!("{name}_along_{}", self.declaration.links.find(link)?);
+                let own = resolved.and_then(|own| own.field(&field));
+                own.and_then(|own| Some([own.field("axial")?.number()?, own.field("transverse")?.number()?]))
+            };
+            let [axial, transverse] = found.ok_or_else(|| match resolved {
+                Some(Value::Error(error)) => format!("{RESOLVED}: {error}"),
+                _ => format!("there is no reaction of `{joint}` along `{link}`"),
+            })?;
+            let off = difference(axial, &answer.axial)?.hypot(difference(transverse, &answer.transverse)?);
+            worst.see(off, limits, || format!("reaction {joint} along {link}"));
         }
         Ok(())
     }

@@ -27,6 +27,10 @@ pub(crate) const WORK: &str = "work";
 pub(crate) const CONTROL: &str = "control";
 /// Where the links are.
 pub(crate) const PLACES: &str = "places";
+/// Reactions along and across the links that the file says.
+pub(crate) const RESOLVED: &str = "resolved";
+/// All loads at once, at all positions of a sweep.
+pub(crate) const CYCLE: &str = "cycle";
 /// How the links move, of a file that moves.
 pub(crate) const SPEEDS: &str = "speeds";
 /// Their accelerations.
@@ -185,7 +189,7 @@ impl<'a> Writer<'a> {
             let of = |link: &str| points.iter().map(|point| format!("{link}.{point}")).collect::<Vec<_>>();
             self.links.0.iter().flat_map(|(_, link)| of(link)).collect::<Vec<_>>().join(", ")
         };
-        items.push(format!("scene {PLACES}: position -> ({});", results(&[ORIGIN, "angle"])));
+        items.push(self.places()?);
         if moves(self.file) {
             let moved = results(&[ORIGIN, CENTROID, "angle"]);
             items.push(format!("scene {SPEEDS}: velocity -> ({moved});"));
@@ -204,6 +208,10 @@ impl<'a> Writer<'a> {
             }
         }
         items.push(format!("scene {ALL}: equilibrium;"));
+        if self.file.sweep.is_some() {
+            items.push(format!("scene {CYCLE}: sweep({ALL});"));
+        }
+        items.extend(self.resolved()?);
         items.push(format!("scene {PARTS}: superposition;"));
         if moves(self.file) && self.file.include_inertia && self.file.links.iter().any(|(_, body)| body.mass.is_some())
         {
@@ -218,6 +226,31 @@ impl<'a> Writer<'a> {
         let motion = self.motion()?;
         let Self { links, joints, loads, .. } = self;
         Ok(Declaration { items: all, links, joints, loads, unknowns, positions, motion, run_time_loads })
+    }
+
+    /// Where the links are, and all of their points of which the file has answers.
+    fn places(&self) -> Result<String, String> {
+        let mut results = Vec::new();
+        for (link, name) in &self.links.0 {
+            results.extend([ORIGIN, CENTROID, "angle"].map(|point| format!("{name}.{point}")));
+            let known = self.file.answers().find_map(|answers| answers.points.get(link));
+            for (point, _) in known.iter().flat_map(|known| known.iter()) {
+                results.push(format!("{name}.{}", point_of(self.file, link, point)?));
+            }
+        }
+        Ok(format!("scene {PLACES}: position -> ({});", results.join(", ")))
+    }
+
+    /// The reactions that the file resolves along links; along the ground they are as they are.
+    fn resolved(&self) -> Result<Option<String>, String> {
+        let mut results: Vec<String> = Vec::new();
+        for (joint, resolved) in self.file.answers().flat_map(|answers| answers.along.iter()) {
+            let result = format!("{} along {}", self.joints.find(joint)?, self.link(&resolved.link)?);
+            if resolved.link != "ground" && !results.contains(&result) {
+                results.push(result);
+            }
+        }
+        Ok((!results.is_empty()).then(|| format!("scene {RESOLVED}: equilibrium -> ({});", results.join(", "))))
     }
 
     fn bodies(&self) -> Result<Vec<String>, String> {
@@ -551,6 +584,12 @@ fn is_damped(load: &LoadKind) -> bool {
 /// Whether anything moves.
 pub(crate) fn moves(file: &File) -> bool {
     file.inputs.iter().any(|input| !is_zero(input.rate.as_ref()) || !is_zero(input.acc.as_ref()))
+}
+
+/// The declared name of a link's point.
+pub(crate) fn point_of(file: &File, link: &str, point: &str) -> Result<String, String> {
+    let index = file.links.get(link).and_then(|body| body.points.iter().position(|(own, _)| own == point));
+    index.map(|index| declared('P', index, point)).ok_or_else(|| format!("`{link}` has no point `{point}`"))
 }
 
 /// The file's joint of this name.

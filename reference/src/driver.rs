@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use linkage_codegen::graph::Order;
+use linkage_codegen::model::Sweep;
 use linkage_codegen::program::Program;
 
 use crate::closure::Closed;
@@ -22,6 +23,16 @@ pub(crate) struct Case<'a> {
 
 /// The two functions of a scene.
 pub(crate) const FORMS: [&str; 2] = ["pose", "straight"];
+
+/// The form whose numbers a sweep has: links that are placed by iteration are searched from the pose before.
+pub(crate) fn form_of_sweep(closed: &Closed) -> &'static str {
+    FORMS[usize::from(closed.linkage.functions.near.is_none())]
+}
+
+/// The numbers of a sweep at a position.
+pub(crate) const SWEPT: &str = "swept";
+/// How many positions a sweep went through.
+pub(crate) const ANSWERED: &str = "answered";
 
 /// What the program printed for a mechanism.
 #[derive(Debug, Default)]
@@ -107,9 +118,10 @@ fn module(index: usize, case: &Case<'_>) -> String {
     let functions = &closed.linkage.functions.scenes;
     let scenes = &closed.linkage.model.scenes;
     let mut text = String::new();
-    let imports = if declaration.run_time_loads.is_empty() { "linkage" } else { "Vector2, linkage" };
-    let _ =
-        writeln!(text, "#![allow(dead_code, unused_imports, unused_variables)]\nuse linkage_runtime::{{{imports}}};");
+    let _ = writeln!(
+        text,
+        "#![allow(dead_code, unused_imports, unused_variables)]\nuse linkage_runtime::{{Series, SweepError, Vector2, linkage}};"
+    );
     let _ = writeln!(text, "\nlinkage! {{\n{}}}\n\npub fn run() {{", closed.text);
     let drives = declaration.positions.first().map_or(0, Vec::len);
     let _ = writeln!(
@@ -138,6 +150,9 @@ fn module(index: usize, case: &Case<'_>) -> String {
     let motion: Vec<String> = motion.collect();
     if !motion.is_empty() {
         let _ = writeln!(text, "    let motion = mechanism::Motion {{ {} }};", motion.join(", "));
+    }
+    for sweep in &model.sweeps {
+        swept(&mut text, index, case, sweep);
     }
     let arguments: Vec<String> = (0..drives).map(|drive| format!("at[{drive}]")).collect();
     let arguments = arguments.join(", ");
@@ -173,6 +188,55 @@ fn module(index: usize, case: &Case<'_>) -> String {
     }
     text.push_str("    }\n}\n");
     text
+}
+
+/// The function of a sweep, called once for all positions, and the numbers that it gives.
+fn swept(text: &mut String, index: usize, case: &Case<'_>, sweep: &Sweep) {
+    let Case { declaration, closed } = case;
+    let model = &closed.linkage.model;
+    let scene = &model.scenes[sweep.scene];
+    let count = declaration.positions.len();
+    let mut inputs = String::new();
+    for (place, drive) in model.drives.iter().enumerate() {
+        let name = &drive.name.text;
+        let _ = writeln!(text, "    let each_{name} = positions.map(|at| at[{place}]);");
+        let _ = write!(inputs, "{name}: Series::Each(&each_{name}), ");
+    }
+    for (drive, order) in model.swept_motion(scene) {
+        let name = drive.motion_name(order);
+        let _ = write!(inputs, "{name}: Series::Constant(motion.{name}), ");
+    }
+    for load in model.swept_loads(scene) {
+        let name = &model.load(load).name.text;
+        let _ = writeln!(text, "    let each_{name} = loads.map(|loads| loads.{name});");
+        let _ = write!(inputs, "{name}: Series::Each(&each_{name}), ");
+    }
+    let paths = closed.linkage.plan.scenes[sweep.scene].leaves();
+    let slices: Vec<String> = paths.into_iter().map(|(path, _)| path.replace('.', "_")).collect();
+    let (mut results, mut fields, mut values) = (String::new(), String::new(), String::new());
+    for (place, name) in slices.iter().enumerate() {
+        let _ = writeln!(text, "    let mut slice_{place} = [0.0f64; {count}];");
+        let _ = write!(results, "{name}: &mut slice_{place}, ");
+        let _ = write!(fields, "{name}: {{:?}}, ");
+        let _ = write!(values, "slice_{place}[position], ");
+    }
+    let name = &sweep.name.text;
+    let [inputs_type, results_type] = sweep.types();
+    let _ = writeln!(
+        text,
+        "    let inputs = mechanism::{inputs_type} {{ {inputs}}};\n    \
+             let outcome = mechanism::{name}(&inputs, mechanism::{results_type} {{ {results}}});\n    \
+             let (answered, said) = match outcome {{\n        \
+                 Ok(()) => ({count}, {count}.to_string()),\n        \
+                 Err(SweepError::Position {{ index, .. }}) => (index, index.to_string()),\n        \
+                 Err(error) => (0, error.to_string()),\n    \
+             }};\n    \
+             println!(\"{index} 0 {name} {ANSWERED} {{said}}\");\n    \
+             for position in 0..answered {{\n        \
+                 println!(\"{index} {{position}} {scene} {SWEPT} Ok(Swept {{{{ {fields}}}}})\", {values});\n    \
+             }}",
+        scene = scene.name.text,
+    );
 }
 
 fn collect(output: &str, printed: &mut [Printed]) {

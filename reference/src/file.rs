@@ -224,6 +224,14 @@ pub(crate) struct Answers {
     pub(crate) pose: Ordered<[String; 3]>,
     pub(crate) efforts: Vec<EffortAnswer>,
     pub(crate) reactions: Ordered<Reaction>,
+    /// The places of each link's points, and of its centre of mass.
+    #[serde(default)]
+    pub(crate) points: Ordered<Ordered<[String; 2]>>,
+    #[serde(default)]
+    pub(crate) centroid: Ordered<[String; 2]>,
+    /// Reactions along and across the x axis of a link.
+    #[serde(default)]
+    pub(crate) along: Ordered<Resolved>,
     #[serde(default)]
     pub(crate) velocity: Ordered<LinkMotion>,
     #[serde(default)]
@@ -278,6 +286,15 @@ pub(crate) struct Reaction {
     pub(crate) force: [String; 2],
     pub(crate) moment: Option<String>,
     pub(crate) scalar: Option<String>,
+}
+
+/// A reaction along and across the x axis of a link.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Resolved {
+    pub(crate) link: String,
+    pub(crate) axial: String,
+    pub(crate) transverse: String,
 }
 
 /// What one load brings.
@@ -355,7 +372,7 @@ pub(crate) struct Floor {
 #[derive(Debug, Deserialize)]
 pub(crate) struct Accept {
     pub(crate) loose: Limits,
-    pub(crate) tight: Limits,
+    pub(crate) tight: Option<Limits>,
     pub(crate) effort_scale: Vec<String>,
     pub(crate) reaction_scale: String,
 }
@@ -411,6 +428,12 @@ pub(crate) enum Outcome {
     Answers(Box<Answers>),
 }
 
+impl Outcome {
+    pub(crate) fn answers(&self) -> Option<&Answers> {
+        if let Self::Answers(answers) = self { Some(answers) } else { None }
+    }
+}
+
 /// A load that has another value at each position.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -435,8 +458,28 @@ pub(crate) struct Expected {
     pub(crate) stage: String,
 }
 
+impl Expected {
+    /// The stages at which it may turn out.
+    pub(crate) fn stages(&self) -> Result<Vec<&str>, String> {
+        if self.outcome != "error" {
+            return Err(format!("an outcome `{}` is not known", self.outcome));
+        }
+        let stages: Vec<&str> = self.stage.split(" or ").collect();
+        match stages.iter().find(|stage| !["mobility", "position", "equilibrium"].contains(stage)) {
+            Some(unknown) => Err(format!("a stage `{unknown}` is not known")),
+            None => Ok(stages),
+        }
+    }
+}
+
 impl File {
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         serde_json::from_str(text).map_err(|error| error.to_string())
+    }
+
+    /// The answers, at each position that has some.
+    pub(crate) fn answers(&self) -> impl Iterator<Item = &Answers> {
+        let swept = self.sweep.iter().flat_map(|sweep| &sweep.results);
+        self.reference.iter().chain(swept.filter_map(|position| position.outcome.answers()))
     }
 }

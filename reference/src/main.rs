@@ -70,7 +70,7 @@ fn prepare(path: &Path) -> Stage {
     };
     // A fault of the compiler in one file is that file's failure.
     let closed = std::panic::catch_unwind(|| closure::close(&file, &declaration))
-        .unwrap_or_else(|_| Err(Refused { messages: vec!["a panic of the compiler".into()] }));
+        .unwrap_or_else(|_| Err(Refused::Broken("the compiler panics".into())));
     match closed {
         Ok(closed) => Stage::Compiled(Box::new((file, declaration, closed))),
         Err(refused) => Stage::Decided(verdict::of_refusal(&file, &refused)),
@@ -122,7 +122,7 @@ fn run(options: &Options) -> Result<bool, String> {
             Stage::Decided(verdict) => (name, verdict),
             Stage::Compiled(case) => {
                 let printed = printed.next().unwrap_or_default();
-                (name, verdict::of_results(&case.0, &case.1, &printed))
+                (name, verdict::of_results(&case.0, &case.1, driver::form_of_sweep(&case.2), &printed))
             }
         })
         .collect();

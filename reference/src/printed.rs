@@ -44,6 +44,17 @@ impl Value {
         rows.get(*place.first()?)?.number()
     }
 
+    /// All numbers in it, each named by its path, as the slices of a sweep are: `B_x`.
+    pub(crate) fn numbers(&self, path: &str, all: &mut Vec<(String, f64)>) {
+        let of = |part: &str| if path.is_empty() { part.to_owned() } else { format!("{path}_{part}") };
+        match (self, self.vector()) {
+            (Self::Number(number), _) => all.push((path.to_owned(), *number)),
+            (Self::Record(fields), _) => fields.iter().for_each(|(name, value)| value.numbers(&of(name), all)),
+            (_, Some([x, y])) => all.extend([(of("x"), x), (of("y"), y)]),
+            _ => {}
+        }
+    }
+
     /// A vector's components.
     pub(crate) fn vector(&self) -> Option<[f64; 2]> {
         match self {
