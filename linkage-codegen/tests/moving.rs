@@ -179,8 +179,11 @@ impl<'a> Passing<'a> {
                 let [a, b] = [from, on].map(|link| now(self.coordinate(link, Coordinate::Angle)));
                 let turning = self.turning(on).sub(&self.turning(from));
                 let mut wound = b.sub(&a).sub(&now(free));
-                if self.linkage.model.driven_angle(from, on).is_none() {
-                    // The angle nearest to the free one.
+                let model = &self.linkage.model;
+                let geared = self.linkage.topology.geared(model);
+                let counted = geared.contains(&from) || geared.contains(&on);
+                if model.driven_angle(from, on).is_none() && !counted {
+                    // The angle nearest to the free one. That of a wheel counts all its turns.
                     let (sine, cosine) = wound.sin_cos();
                     wound = sine.atan2(&cosine);
                 }
