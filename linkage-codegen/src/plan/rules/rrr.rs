@@ -9,7 +9,8 @@
 //! ```
 //!
 //! each followed by one step `u ← u (3 − u·u)/2` towards unit size. `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near
-//! its zeros the closure knows it better than the directions do.
+//! its zeros the closure knows it better than the directions do. Where the lengths are constants of the same order, the vector along the
+//! longer link is that along the shorter one and d, `r₁u₁ − r₂u₂ = d`, and the step divides by the length too.
 //!
 //! Forces, by the textbooks' resolution along and across the links: with `m₁`, `m₂` the moments of the loads about P and Q, the
 //! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`.
@@ -278,22 +279,21 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     let sum = d2 + (lengths[short] - lengths[long]) * (lengths[short] + lengths[long]);
     let (mine, its) = (dyad.length_name(leg), dyad.length_name(&dyad.legs[long]));
     let sum = sum.named(format!("sum_{link}"), format!("D2_{name} + {mine}² − {its}²"));
-    let scale = (d2.graph().one() / (2 * d2)).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
+    let scale =
+        (d2.graph().constant(&Number::ratio(1, 2)) / d2).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
     let along = (sum * scale).named(format!("along_{link}"), format!("sum_{link} · scale_{name}, the part along d"));
     let across = (k * scale)
         .named(format!("across_{link}"), format!("{}K_{name} · scale_{name}, the part across d", closing.sign()));
     let (sense, minus) = if short == 0 { (1, "") } else { (-1, "−") };
     let mut vectors = [d; 2];
-    vectors[short] = (d.scaled(sense * along) + d.perp().scaled(across)).named_direction(
+    vectors[short] = (d.scaled(sense * along) + d.perp().scaled(across)).named(
         &format!("arm_{link}"),
         &format!("from {} to {name}: {minus}along_{link} d + across_{link} d⊥", dyad.joint_name(leg.outer)),
     );
     let (far, other) = (&dyad.legs[long], dyad.link_name(&dyad.legs[long]));
     let (sign, difference) = if short == 0 { ('−', vectors[short] - d) } else { ('+', vectors[short] + d) };
-    vectors[long] = difference.named_direction(
-        &format!("arm_{other}"),
-        &format!("from {} to {name}: arm_{link} {sign} d", dyad.joint_name(far.outer)),
-    );
+    vectors[long] = difference
+        .named(&format!("arm_{other}"), &format!("from {} to {name}: arm_{link} {sign} d", dyad.joint_name(far.outer)));
     let unit = |index: usize| {
         let (link, length) = (dyad.link_name(&dyad.legs[index]), dyad.length_name(&dyad.legs[index]));
         scaled_to_unit(vectors[index], lengths[index], &link, &length)
