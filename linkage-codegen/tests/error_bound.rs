@@ -10,7 +10,7 @@ use support::bounds::{ratios, with_bounds};
 use support::families::{boom, four_bar, length, oscillating_block, scotch_yoke, slider_crank, tangent_mechanism};
 use support::linkages::{Kind, Random, sample};
 use support::numbers::{Double, Extended, Single};
-use support::{Arguments, Number, compile_if_it_closes, from_pose, pose, scene};
+use support::{Arguments, Number, from_pose, pose, scene};
 
 /// The ratios of a scene from the drives and from a pose.
 fn check<T: Number>(linkage: &Linkage, arguments: &Arguments, context: &str) -> Vec<f64> {
