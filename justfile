@@ -15,6 +15,10 @@ test *arguments:
 long:
     cargo test --release --workspace --exclude linkage-compile-fail --all-features --tests -- --ignored
 
+# Of these the stress suite: every kind of group in every family of hard poses, with a table of the worst found.
+stress *arguments:
+    cargo test --release --package linkage-codegen --test stress -- --ignored --nocapture {{arguments}}
+
 # Looks at snapshots that have changed, and accepts or refuses them (`cargo install cargo-insta`).
 review:
     cargo insta test --workspace --all-features --review

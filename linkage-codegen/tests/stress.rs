@@ -318,7 +318,8 @@ fn singular(linkage: &Linkage, (low, high): (f64, f64), steps: u32) -> Vec<Singu
         }
         loop {
             let middle = 0.5 * (near + far);
-            if middle == near || middle == far {
+            // No double lies between.
+            if [near, far].map(f64::to_bits).contains(&middle.to_bits()) {
                 break;
             }
             if sense(middle) == kept { near = middle } else { far = middle }
@@ -658,7 +659,7 @@ impl Cell {
             kind.name, self.poses
         );
         let beyond = self.example.into_iter().flatten().filter(|(share, _)| *share > 1.0);
-        beyond.map(|(_, example)| format!("{}, {family}: {example}\n", kind.name)).collect()
+        beyond.map(|(_, example)| [kind.name, ", ", family, ": ", &example, "\n"].concat()).collect()
     }
 }
 
@@ -826,13 +827,10 @@ fn ends(kind: &Kind, members: usize) {
             let beyond = at(found.outside + sense * 0.01, &member.loads);
             if found.ends && equations(&linkage, &beyond).is_none() {
                 for name in ["all", "work"] {
-                    let fault = match scene::<Double>(&linkage, name, &beyond) {
-                        Err(fault) => fault,
+                    let Err(fault) = scene::<Double>(&linkage, name, &beyond) else {
                         // Of a cascade without the dyad that cannot be assembled, if no load reaches that.
-                        Ok(_) => {
-                            assert!(kind.is_cascade(), "{name}: nothing to solve\n{text}");
-                            continue;
-                        }
+                        assert!(kind.is_cascade(), "{name}: nothing to solve\n{text}");
+                        continue;
                     };
                     let typed = matches!(
                         fault,
