@@ -378,7 +378,8 @@ mod tests {
         }
     }
 
-    /// Next to the change point generated code keeps its digits, and plain formulas do not.
+    /// Next to the change point generated code keeps its digits, and plain formulas do not. Where loads nearly cancel there, all methods
+    /// lose two more.
     #[test]
     fn digits_next_to_the_change_point() {
         let poses = near();
@@ -386,7 +387,7 @@ mod tests {
             for Judged { name, worst, refused, .. } in &methods.judged {
                 match *name {
                     name if name.starts_with("generated") && !name.ends_with("f32") => {
-                        assert!(*refused == 0 && *worst <= 1e-14, "{name} is off by {worst:e}, {refused} refused");
+                        assert!(*refused == 0 && *worst <= 1e-13, "{name} is off by {worst:e}, {refused} refused");
                     }
                     "expert" | "textbook angles" => assert!(*worst > 1e-9, "{name} is off by {worst:e} only"),
                     _ => {}

@@ -138,8 +138,19 @@ pub(crate) fn drawn(panels: &[Panel], machine: &str) -> String {
         text(&mut svg, (x + 12.0, y), &format!("fill=\"{colour}\""), &format!("{}  {name}", index + 1));
     }
     let y = list + 22.0 * lines;
-    let _ = writeln!(svg, "<path d=\"M{} {2}H{}\" stroke=\"{FRONT}\" stroke-width=\"2\"/>", LEFT - 6.0, LEFT + 6.0, y - 4.0);
-    text(&mut svg, (LEFT + 12.0, y), "", "the front: no other method is both faster and more accurate than those on it");
+    let _ = writeln!(
+        svg,
+        "<path d=\"M{} {2}H{}\" stroke=\"{FRONT}\" stroke-width=\"2\"/>",
+        LEFT - 6.0,
+        LEFT + 6.0,
+        y - 4.0
+    );
+    text(
+        &mut svg,
+        (LEFT + 12.0, y),
+        "",
+        "the front: no other method is both faster and more accurate than those on it",
+    );
     svg.push_str("</svg>\n");
     svg
 }

@@ -74,7 +74,8 @@ fn linkage(name: &str) -> Linkage {
     let source = source.replace("$name", "four_bar").replace("$scalar", "f64").replace("$arithmetic", "plain");
     let mut declarations = Vec::new();
     find(source.parse().expect("tokens"), &mut declarations);
-    let linkages = declarations.into_iter().map(|declaration| linkage_codegen::analyse(declaration).expect("a linkage"));
+    let linkages =
+        declarations.into_iter().map(|declaration| linkage_codegen::analyse(declaration).expect("a linkage"));
     linkages.into_iter().find(|linkage| linkage.model.name.text == name).expect("a linkage of this name")
 }
 
@@ -113,7 +114,7 @@ fn difference(linkage: &Linkage, theta: f64, loads: &[[f64; 2]], joints: &[&str]
             compared += 1;
         }
     };
-    let torque = linkage.model.unknowns[0].name.text.clone();
+    let torque = linkage.model.unknowns[0].name.clone();
     compare(&torque, &exact.torque);
     for (joint, force) in joints.iter().zip(&exact.forces) {
         for (part, exact) in ["x", "y"].into_iter().zip(force) {
