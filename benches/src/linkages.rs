@@ -104,3 +104,22 @@ linkage! {
 
     scene statics: equilibrium;
 }
+
+#[cfg(test)]
+mod tests {
+    /// What the items P1, P2 and P3 cost, whatever the machine: `statics` is P1a from the pose and P1b from the angle, P2b and P3b;
+    /// `torque` is P1c, `parts` P1d.
+    #[test]
+    fn operations_are_pinned() {
+        let of = [
+            ("P1, four-bar", super::four_bar::OPERATIONS),
+            ("P1, four-bar, fused", super::four_bar_fused::OPERATIONS),
+            ("P2, six-bar", super::six_bar::OPERATIONS),
+            ("P3, slider-crank", super::slider_crank::OPERATIONS),
+        ];
+        let text = of.map(|(title, operations)| format!("{title}\n{operations}\n")).join("\n");
+        insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
+            insta::assert_snapshot!("operations", text);
+        });
+    }
+}
