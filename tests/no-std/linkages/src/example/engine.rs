@@ -17,7 +17,8 @@ pub fn solve(pose: u16, digest: &mut Digest) {
     let (theta, loads) = (angle(pose), engine::Loads { gas: load(pose, 0, 9000.0) });
     digest.result(engine::forces_at(theta, &loads));
     digest.result(engine::shakes_at(theta));
-    let thetas = [0, 1, 2, 3, 4].map(|next| angle(pose.wrapping_add(next)));
+    let next = |number: u16| angle(pose.wrapping_add(number));
+    let thetas = [theta, next(1), next(2), next(3), next(4)];
     let mut columns = [[0.0; 5]; 15];
     let [t, ox, oy, ax, ay, bx, by, sx, sy, sn, sc, power, gx, gy, gm] = &mut columns;
     let results = engine::Cycle {

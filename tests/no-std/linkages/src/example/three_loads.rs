@@ -15,8 +15,7 @@ outputs! {
 /// Every scene at a pose.
 pub fn solve(pose: u16, digest: &mut Digest) {
     let theta = angle(pose);
-    let [on_crank, on_coupler, on_rocker] = [0, 1, 2].map(|number| load(pose, number, 80.0));
-    let loads = three_loads::Loads { F12: on_crank, F13: on_coupler, F14: on_rocker };
+    let loads = three_loads::Loads { F12: load(pose, 0, 80.0), F13: load(pose, 1, 80.0), F14: load(pose, 2, 80.0) };
     digest.result(three_loads::parts_at(theta, &loads));
     digest.result(three_loads::whole_at(theta, &loads));
     digest.result(three_loads::torque_at(theta, &loads));
