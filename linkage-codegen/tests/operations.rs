@@ -267,7 +267,7 @@ const WEIGHTS: [f64; 3] = [3.2 * G, 0.62 * G, 0.48 * G];
 const OF_ROD: f64 = 45.0 / 142.0;
 const OF_CRANK: f64 = 9.0 / 42.0;
 
-/// sin θ, A_x, and the rod's vector (−g, h).
+/// sin θ, the x of A, and the rod's vector (−g, h).
 fn slider_crank_pose(theta: f64) -> (N, N, N, N) {
     let (sin, cos) = N(theta).sin_cos();
     let a = 42.0 * cos;
@@ -367,7 +367,7 @@ fn hold(
         for ((path, _), value) in program.outputs.iter().zip(&values) {
             let Some((_, own)) = found.iter().find(|(own, _)| own == path) else {
                 // Constants, and what is given, take no formula.
-                assert!(value.0 == theta || value.0 == 0.0 || value.0 == 140.0, "{scene} finds no {path}");
+                assert!([theta, 0.0, 140.0].contains(&value.0), "{scene} finds no {path}");
                 continue;
             };
             compared += 1;
