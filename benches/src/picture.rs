@@ -115,7 +115,7 @@ pub(crate) fn drawn(panels: &[Panel], machine: &str) -> String {
         "font-size=\"16\" font-weight=\"bold\"",
         "Run time against error: the four-bar of METU Example 6.3",
     );
-    text(&mut svg, (LEFT, 46.0), "fill=\"#555\"", machine);
+    text(&mut svg, (LEFT, 46.0), "fill=\"#555\"", &format!("{machine}; the lower left is best"));
     for (index, panel) in panels.iter().enumerate() {
         #[allow(clippy::cast_precision_loss, reason = "few")]
         let (column, row) = ((index / 2) as f64, (index % 2) as f64);
