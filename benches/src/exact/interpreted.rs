@@ -72,8 +72,10 @@ impl Real for Big {
 
 /// A linkage that is measured, from the very text that declares it.
 fn linkage(name: &str) -> Linkage {
-    let source = include_str!("../linkages.rs");
-    let source = source.replace("$name", "four_bar").replace("$scalar", "f64").replace("$arithmetic", "plain");
+    // Each in a macro of its name.
+    let source = include_str!("../linkages.rs").replace("$scalar", "f64").replace("$arithmetic", "plain");
+    let named = |part: &str| part.replace("$name", part.split_whitespace().next().expect("a name"));
+    let source = source.split("macro_rules! ").map(named).collect::<Vec<_>>().join("macro_rules! ");
     let mut declarations = Vec::new();
     find(source.parse().expect("tokens"), &mut declarations);
     let linkages =

@@ -35,6 +35,12 @@ impl Start for Pose {
     }
 }
 
+impl Start for four_bar_fused::Pose {
+    fn depend(&mut self, _: f64) -> bool {
+        false
+    }
+}
+
 impl Start for expert::Pose {
     fn depend(&mut self, _: f64) -> bool {
         false
@@ -49,6 +55,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     let turn = Turn::new(extent, 80.0, |theta, loads| vec![exact(theta, loads)]);
     let parts = Turn::new(extent, 80.0, exact_parts);
     let pose = |theta| Pose::at(theta).expect("a pose");
+    let fused_pose = |theta| four_bar_fused::Pose::at(theta).expect("a pose");
     let careful_pose = |theta| expert::careful_pose(theta).expect("a pose");
     let mut items = vec![
         Item {
@@ -58,6 +65,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 turn.prepared("expert", expert::pose, statics_expert),
                 turn.prepared("careful expert", careful_pose, statics_careful),
                 turn.prepared("generated", pose, statics_generated),
+                turn.prepared("generated, fused", fused_pose, statics_fused),
                 turn.prepared("LU 9x9", pose, statics_dense),
                 turn.prepared("LU 9x9, full pivoting", pose, statics_full),
                 turn.prepared("LU 9x9, dynamic", pose, statics_dynamic),
@@ -124,6 +132,16 @@ fn statics_careful(case: &Case<expert::Pose, Loads>, out: &mut All) -> bool {
 
 fn statics_generated(case: &Posed, out: &mut All) -> bool {
     match case.start.statics(&case.loads) {
+        Ok(all) => {
+            *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+fn statics_fused(case: &Case<four_bar_fused::Pose, Loads>, out: &mut All) -> bool {
+    match case.start.statics(&fused_loads(&case.loads)) {
         Ok(all) => {
             *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
             true

@@ -9,6 +9,7 @@ use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, in_frame, left, v
 use crate::expert::six_bar as expert;
 use crate::generators;
 use crate::linkages::six_bar::{self, Loads, Pose};
+use crate::linkages::six_bar_fused;
 
 impl super::Loads for Loads {
     fn toward(first: f64, second: f64) -> Self {
@@ -28,6 +29,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     let mut competitors = vec![
         turn.competitor("expert", statics_at_expert),
         turn.competitor("generated", statics_at_generated),
+        turn.competitor("generated, fused", statics_at_fused),
         turn.competitor("LU 15x15", statics_at_dense),
         turn.competitor("LU 15x15, faer", statics_at_faer),
     ];
@@ -46,6 +48,17 @@ fn statics_at_expert(case: &At, out: &mut All) -> bool {
 
 fn statics_at_generated(case: &At, out: &mut All) -> bool {
     match six_bar::statics_at(case.start, &case.loads) {
+        Ok(all) => {
+            *out = Reactions { torque: all.T, forces: [all.A0, all.A, all.B, all.B0, all.C, all.D, all.D0] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+fn statics_at_fused(case: &At, out: &mut All) -> bool {
+    let Loads { F, G } = case.loads;
+    match six_bar_fused::statics_at(case.start, &six_bar_fused::Loads { F, G }) {
         Ok(all) => {
             *out = Reactions { torque: all.T, forces: [all.A0, all.A, all.B, all.B0, all.C, all.D, all.D0] };
             true

@@ -9,6 +9,7 @@ use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, vector};
 use crate::expert::slider_crank as expert;
 use crate::generators;
 use crate::linkages::slider_crank::{self, Loads, Pose};
+use crate::linkages::slider_crank_fused;
 
 impl super::Loads for Loads {
     fn toward(first: f64, _: f64) -> Self {
@@ -27,6 +28,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     let mut competitors = vec![
         turn.competitor("expert", statics_at_expert),
         turn.competitor("generated", statics_at_generated),
+        turn.competitor("generated, fused", statics_at_fused),
         turn.competitor("LU 9x9", statics_at_dense),
         turn.competitor("LU 9x9, faer", statics_at_faer),
     ];
@@ -41,6 +43,16 @@ fn statics_at_expert(case: &At, out: &mut All) -> bool {
 
 fn statics_at_generated(case: &At, out: &mut All) -> bool {
     match slider_crank::statics_at(case.start, &case.loads) {
+        Ok(all) => {
+            *out = Reactions { torque: all.T, forces: [all.O, all.A, all.B, all.P.force] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+fn statics_at_fused(case: &At, out: &mut All) -> bool {
+    match slider_crank_fused::statics_at(case.start, &slider_crank_fused::Loads { gas: case.loads.gas }) {
         Ok(all) => {
             *out = Reactions { torque: all.T, forces: [all.O, all.A, all.B, all.P.force] };
             true
