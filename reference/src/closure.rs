@@ -10,7 +10,7 @@ use linkage_codegen::topology::{Freedom, Group, Topology};
 use linkage_codegen::{Linkage, Refusal, analyse};
 use proc_macro2::LexError;
 
-use crate::declaration::{Declaration, joint_of};
+use crate::declaration::{Declaration, is_pure_couple, joint_of, line_of};
 use crate::file::{Coordinate, End, File, Place};
 use crate::number::{Number, Raw};
 
@@ -38,12 +38,17 @@ pub(crate) fn first_line(message: &str) -> &str {
 pub(crate) fn close(file: &File, declaration: &Declaration) -> Result<Closed, Refused> {
     let guess = Guess { file, declaration };
     let mut closures: Vec<String> = Vec::new();
+    let mut without: Vec<String> = Vec::new();
     loop {
-        match compile(declaration, &closures)? {
-            Ok(closed) => return smooth(declaration, closures, &guess, closed),
+        match compile(declaration, &closures, &without)? {
+            Ok(closed) => return smooth(declaration, closures, &without, &guess, closed),
             Err(refusal) => {
                 let messages: Vec<String> = refusal.errors.iter().map(|error| error.message().to_owned()).collect();
-                let before = closures.len();
+                let (before, passed) = (closures.len(), without.len());
+                without.extend(messages.iter().filter_map(|message| guess.without_line(message)));
+                if without.len() > passed {
+                    continue;
+                }
                 for message in &messages {
                     closures.extend(guess.choose(message, refusal.model.as_deref()));
                     closures.extend(guess.starts(message));
@@ -59,8 +64,12 @@ pub(crate) fn close(file: &File, declaration: &Declaration) -> Result<Closed, Re
 }
 
 /// What the compiler says of a declaration, if that is text which it can read.
-fn compile(declaration: &Declaration, closures: &[String]) -> Result<Result<Closed, Refusal>, Refused> {
-    let text = declaration.text(closures);
+fn compile(
+    declaration: &Declaration,
+    closures: &[String],
+    without: &[String],
+) -> Result<Result<Closed, Refusal>, Refused> {
+    let text = declaration.text(closures, without);
     let tokens =
         text.parse().map_err(|error: LexError| Refused::Broken(format!("no text of a declaration: {error}")))?;
     Ok(analyse(tokens).map(|linkage| Closed { text, linkage }))
@@ -70,6 +79,7 @@ fn compile(declaration: &Declaration, closures: &[String]) -> Result<Result<Clos
 fn smooth(
     declaration: &Declaration,
     mut closures: Vec<String>,
+    without: &[String],
     guess: &Guess<'_>,
     closed: Closed,
 ) -> Result<Closed, Refused> {
@@ -80,7 +90,7 @@ fn smooth(
             let Ok(at) = Number::new(&input.value, guess.file.number_mode) else { continue };
             let plain = closures[index].clone();
             closures[index] = format!("{} smooth at {};", plain.trim_end_matches(';'), at.in_unit("rad"));
-            match compile(declaration, &closures)? {
+            match compile(declaration, &closures, without)? {
                 Ok(folding) => {
                     closed = folding;
                     break;
@@ -122,6 +132,15 @@ impl Guess<'_> {
             Some(format!("start {name}: ({x}, {y}), angle {angle};"))
         };
         offers(message, "start ").filter_map(start).collect()
+    }
+
+    /// The scene of a line that the compiler refuses because there is none, where the file knows of none either.
+    fn without_line(&self, message: &str) -> Option<String> {
+        let of = first_line(message).strip_prefix("the acceleration of the centre of mass of ")?;
+        let name = of.strip_suffix(" vanishes at every pose: it has no direction")?;
+        let link = self.declaration.links.original(name)?;
+        let none = self.file.answers().all(|answers| is_pure_couple(self.file, answers, link));
+        none.then(|| line_of(name))
     }
 
     /// Whether an offered side is that of the guess: `assemble B: left(A -> B0);`.
@@ -232,7 +251,7 @@ mod tests {
         let text = include_str!("../../tests/reference/neg_o5_over_driven.json");
         let file = File::parse(text).expect("a file");
         let declaration = Declaration::of(&file).expect("a declaration");
-        assert!(matches!(compile(&declaration, &[]), Ok(Err(_))));
-        assert!(matches!(compile(&declaration, &["assemble B: left(".into()]), Err(Refused::Broken(_))));
+        assert!(matches!(compile(&declaration, &[], &[]), Ok(Err(_))));
+        assert!(matches!(compile(&declaration, &["assemble B: left(".into()], &[]), Err(Refused::Broken(_))));
     }
 }

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use crate::declaration::{
     ACCELERATIONS, ALL, CENTROID, CONTROL, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, POWERS, RESOLVED,
-    SHAKING, SPEEDS, WEIGHT, WORK, point_of,
+    SHAKING, SPEEDS, WEIGHT, WORK, is_pure_couple, point_of,
 };
 use crate::exact::{difference, difference_of_angles, nearest};
 use crate::file::{Answers, File, Limits, LinkMotion, Ordered, Reaction, Reduced};
@@ -81,6 +81,7 @@ pub(crate) fn compare(
         let own = scene(&format!("{OFFSET}{name}"))?.field(&field).ok_or_else(|| format!("no line of `{link}`"))?;
         comparison.line(own, (link, line), worst)?;
     }
+    comparison.pure_couples(results)?;
     if let Some(power) = &answers.power {
         comparison.power(scene(POWERS)?, power, worst)?;
     }
@@ -251,6 +252,19 @@ impl Comparison<'_> {
         worst.see(difference(distance, &answer.h)?.abs(), limits, || format!("offset of {link}"));
         let off = difference(x, &answer.offset[0])?.hypot(difference(y, &answer.offset[1])?);
         worst.see(off, limits, || format!("line of {link}"));
+        Ok(())
+    }
+
+    /// Where inertia is a couple alone, its line must be an error; if that is so at every pose, the compiler has refused it.
+    fn pure_couples(&self, results: &Results) -> Result<(), String> {
+        for (link, _) in self.file.links.iter().filter(|(link, _)| is_pure_couple(self.file, self.answers, link)) {
+            match results.get(&format!("{OFFSET}{}", self.declaration.links.find(link)?)) {
+                None => {}
+                Some(Value::Error(error)) if error.starts_with("NoDirection") => {}
+                Some(Value::Error(error)) => return Err(format!("the line of `{link}` fails otherwise: {error}")),
+                Some(_) => return Err(format!("the inertia of `{link}` is a couple alone, and was given a line")),
+            }
+        }
         Ok(())
     }
 

@@ -1036,8 +1036,11 @@ impl Builder {
         arguments
     }
 
-    /// An unknown that acts anywhere.
+    /// An unknown that acts anywhere; of several, some at a drive.
     fn unknown(&mut self, number: usize) -> String {
+        if self.drives.len() > 1 && self.random.chance(0.4) {
+            return format!("unknown E{number}: effort(q{number});\n");
+        }
         let moving = self.bodies.len() - 1;
         let link = 1 + self.random.below(moving);
         let name = self.bodies[link].name.clone();
