@@ -11,6 +11,7 @@ use linkage_codegen::{Linkage, Refusal, analyse};
 use proc_macro2::LexError;
 
 use crate::declaration::{Declaration, is_pure_couple, joint_of, line_of};
+use crate::exact::nearest;
 use crate::file::{Coordinate, End, File, Place};
 use crate::number::{Number, Raw};
 
@@ -36,7 +37,7 @@ pub(crate) fn first_line(message: &str) -> &str {
 
 /// Closes all groups of a declaration.
 pub(crate) fn close(file: &File, declaration: &Declaration) -> Result<Closed, Refused> {
-    let guess = Guess { file, declaration };
+    let guess = Guess { file, declaration, from: From::Guess };
     let mut closures: Vec<String> = Vec::new();
     let mut without: Vec<String> = Vec::new();
     loop {
@@ -102,17 +103,31 @@ fn smooth(
     Ok(closed)
 }
 
+/// Where a pose is taken from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum From {
+    Guess,
+    Answer,
+}
+
 /// The pose near which the wanted one lies.
+#[derive(Clone, Copy)]
 struct Guess<'a> {
     file: &'a File,
     declaration: &'a Declaration,
+    from: From,
 }
 
 impl Guess<'_> {
-    /// One of the sides that the compiler offers in a message.
+    /// One of the sides that the compiler offers in a message. A guess whose joints are further apart than they lie from the fold says
+    /// nothing of the side: then the pose does that the file knows.
     fn choose(&self, message: &str, model: Option<&Model>) -> Option<String> {
         let offers: Vec<&str> = offers(message, "assemble ").collect();
-        let chosen = offers.iter().find(|offer| self.holds(offer, model) == Some(true));
+        let open =
+            |offer: &&&str| self.margin(offer, model).zip(self.gap(offer)).is_some_and(|(by, gap)| by.abs() <= gap);
+        let known = self.file.reference.is_some() && offers.iter().any(|offer| open(&offer));
+        let by = if known { Self { from: From::Answer, ..*self } } else { *self };
+        let chosen = offers.iter().find(|offer| by.margin(offer, model).is_some_and(|by| by > 0.0));
         // At a guess that is on neither side, where there is no answer to come, either will do.
         chosen.or(offers.first()).map(|offer| (*offer).to_owned())
     }
@@ -143,20 +158,33 @@ impl Guess<'_> {
         none.then(|| line_of(name))
     }
 
-    /// Whether an offered side is that of the guess: `assemble B: left(A -> B0);`.
-    fn holds(&self, offer: &str, model: Option<&Model>) -> Option<bool> {
+    /// How far a joint lies on the side that is offered: `assemble B: left(A -> B0);`.
+    fn margin(&self, offer: &str, model: Option<&Model>) -> Option<f64> {
         let (inner, side) = offer.strip_prefix("assemble ")?.split_once(':')?;
         let (word, of) = side.trim().split_once('(')?;
         let of: Vec<[f64; 2]> =
             of.split_once(')')?.0.split("->").map(|joint| self.place(joint.trim())).collect::<Option<_>>()?;
         let at = self.place(inner)?;
         Some(match (word, &of[..]) {
-            ("left", [p, q]) => cross(from(*p, *q), from(*p, at)) > 0.0,
-            ("right", [p, q]) => cross(from(*p, *q), from(*p, at)) < 0.0,
-            ("ahead", [_]) => self.ahead(offer, model?)? > 0.0,
-            ("behind", [_]) => self.ahead(offer, model?)? < 0.0,
+            ("left", [p, q]) => across(from(*p, *q), from(*p, at)),
+            ("right", [p, q]) => -across(from(*p, *q), from(*p, at)),
+            ("ahead", [_]) => self.ahead(offer, model?)?,
+            ("behind", [_]) => -self.ahead(offer, model?)?,
             _ => return None,
         })
+    }
+
+    /// How far the two points of the pins of an offer are apart: of an answer not at all.
+    fn gap(&self, offer: &str) -> Option<f64> {
+        let (inner, side) = offer.strip_prefix("assemble ")?.split_once(':')?;
+        let of = side.split_once('(')?.1.split_once(')')?.0.split("->");
+        let pin = |joint: &str| {
+            let joint = joint_of(self.file, &self.declaration.joints, joint.trim())?;
+            let apart = from(self.end(&joint.a)?, self.end(&joint.b)?);
+            let holds = matches!(joint.kind, crate::file::JointKind::Revolute | crate::file::JointKind::Weld);
+            Some(if holds { apart[0].hypot(apart[1]) } else { 0.0 })
+        };
+        std::iter::once(inner).chain(of).map(pin).sum()
     }
 
     /// How far ahead of the pin in an offer the inner joint of its group lies along the slide or slot, of an inner slide the other pin.
@@ -208,8 +236,16 @@ impl Guess<'_> {
         if link == "ground" {
             return Some([0.0; 3]);
         }
-        let [x, y, angle] = self.file.guess.get(link)?;
-        Some([self.value(x)?, self.value(y)?, self.value(angle)?])
+        match self.from {
+            From::Guess => {
+                let [x, y, angle] = self.file.guess.get(link)?;
+                Some([self.value(x)?, self.value(y)?, self.value(angle)?])
+            }
+            From::Answer => {
+                let [x, y, angle] = self.file.reference.as_ref()?.pose.get(link)?;
+                Some([nearest(x).ok()?, nearest(y).ok()?, nearest(angle).ok()?])
+            }
+        }
     }
 
     fn value(&self, raw: &Raw) -> Option<f64> {
@@ -232,8 +268,9 @@ fn from(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [b[0] - a[0], b[1] - a[1]]
 }
 
-fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
+/// How far b lies to the left of a line along a.
+fn across(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] * b[1] - a[1] * b[0]) / a[0].hypot(a[1])
 }
 
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {

@@ -86,10 +86,18 @@ pub(crate) fn compare(
         comparison.power(scene(POWERS)?, power, worst)?;
     }
     if let Some(shaking) = &answers.shaking {
-        comparison.shaking(scene(SHAKING)?, shaking, worst)?;
+        if declaration.shakes {
+            comparison.shaking(scene(SHAKING)?, shaking, worst)?;
+        } else if [&shaking.force[0], &shaking.force[1], &shaking.moment].into_iter().any(|number| number != "0") {
+            return Err("without any mass something shakes".into());
+        }
     }
     if let Some(reduced) = &answers.reduced {
-        comparison.equation_of_motion(scene(CONTROL)?, reduced, worst)?;
+        if declaration.shakes {
+            comparison.equation_of_motion(scene(CONTROL)?, reduced, worst)?;
+        } else {
+            comparison.without_mass(scene(ALL)?, reduced, worst)?;
+        }
     }
     comparison.equilibrium(scene(ALL)?, worst)?;
     comparison.resolved(scene(ALL)?, results.get(RESOLVED), worst)?;
@@ -332,6 +340,18 @@ impl Comparison<'_> {
         for (row, value) in answer.bias.iter().enumerate() {
             let scale = self.scales.effort.get(row).copied().unwrap_or(0.0).max(nearest(value)?.abs());
             worst.see(difference(part("h", &[row])?, value)?.abs(), limits(row, scale), || format!("h {row}"));
+        }
+        Ok(())
+    }
+
+    /// Without any mass nothing resists an acceleration: the equation of motion is that of equilibrium.
+    fn without_mass(&self, own: &Value, answer: &Reduced, worst: &mut Worst) -> Result<(), String> {
+        if answer.mass.iter().chain(&answer.kinetic).flatten().any(|number| number != "0") {
+            return Err("without any mass something resists an acceleration".into());
+        }
+        for (row, value) in answer.bias.iter().enumerate() {
+            let off = difference(self.effort(own, row)?, value)?.abs();
+            worst.see(off, self.scales.effort_limits(row), || format!("h {row}"));
         }
         Ok(())
     }

@@ -89,6 +89,8 @@ pub(crate) struct Declaration {
     pub(crate) positions: Vec<Vec<f64>>,
     /// Rate and acceleration of each drive.
     pub(crate) motion: Vec<[f64; 2]>,
+    /// Whether there is a resultant of inertia: whether anything that moves has a mass.
+    pub(crate) shakes: bool,
     /// The loads that are given at run time, as expressions for each position.
     pub(crate) run_time_loads: Vec<(String, Vec<String>)>,
 }
@@ -184,6 +186,7 @@ impl<'a> Writer<'a> {
             items.push(self.joint(joint)?);
         }
         let unknowns = self.inputs(&mut items)?;
+        let shakes = moves(self.file) && self.weighty()?;
         let run_time_loads = self.loads(&mut items)?;
         self.masses(&mut items)?;
         let results = |points: &[&str]| {
@@ -205,7 +208,7 @@ impl<'a> Writer<'a> {
         if moves(self.file) {
             let powers: Vec<String> = unknowns.iter().map(|unknown| format!("power({unknown})")).collect();
             items.push(format!("scene {POWERS}: equilibrium -> ({}, power);", powers.join(", ")));
-            if self.weighty()? {
+            if shakes {
                 items.push(format!("scene {SHAKING}: acceleration -> (shaking(ground.{GROUND_ORIGIN}));"));
             }
         }
@@ -215,8 +218,7 @@ impl<'a> Writer<'a> {
         }
         items.extend(self.resolved()?);
         items.push(format!("scene {PARTS}: superposition;"));
-        if moves(self.file) && self.file.include_inertia && self.file.links.iter().any(|(_, body)| body.mass.is_some())
-        {
+        if shakes && self.file.include_inertia {
             items.push(format!("scene {CONTROL}: motion -> (M, h, rounding, M_kinetic);"));
         }
         items.push(format!("scene {WORK}: virtual_work;"));
@@ -227,7 +229,7 @@ impl<'a> Writer<'a> {
         let positions = self.positions()?;
         let motion = self.motion()?;
         let Self { links, joints, loads, .. } = self;
-        Ok(Declaration { items: all, links, joints, loads, unknowns, positions, motion, run_time_loads })
+        Ok(Declaration { items: all, links, joints, loads, unknowns, positions, motion, shakes, run_time_loads })
     }
 
     /// Where the links are, and all of their points of which the file has answers.
