@@ -37,7 +37,7 @@ pub(crate) fn first_line(message: &str) -> &str {
 
 /// Closes all groups of a declaration.
 pub(crate) fn close(file: &File, declaration: &Declaration) -> Result<Closed, Refused> {
-    let guess = Guess { file, declaration, from: From::Guess };
+    let guess = Guess { file, declaration, source: Source::Guess };
     let mut closures: Vec<String> = Vec::new();
     let mut without: Vec<String> = Vec::new();
     loop {
@@ -105,7 +105,7 @@ fn smooth(
 
 /// Where a pose is taken from.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum From {
+enum Source {
     Guess,
     Answer,
 }
@@ -115,7 +115,7 @@ enum From {
 struct Guess<'a> {
     file: &'a File,
     declaration: &'a Declaration,
-    from: From,
+    source: Source,
 }
 
 impl Guess<'_> {
@@ -123,10 +123,12 @@ impl Guess<'_> {
     /// nothing of the side: then the pose does that the file knows.
     fn choose(&self, message: &str, model: Option<&Model>) -> Option<String> {
         let offers: Vec<&str> = offers(message, "assemble ").collect();
-        let open =
-            |offer: &&&str| self.margin(offer, model).zip(self.gap(offer)).is_some_and(|(by, gap)| by.abs() <= gap);
-        let known = self.file.reference.is_some() && offers.iter().any(|offer| open(&offer));
-        let by = if known { Self { from: From::Answer, ..*self } } else { *self };
+        let open = |offer: &&str| {
+            let (margin, gap) = (self.margin(offer, model), self.gap(offer));
+            margin.zip(gap).is_some_and(|(margin, gap)| margin.abs() <= gap)
+        };
+        let known = self.file.reference.is_some() && offers.iter().any(open);
+        let by = if known { Self { source: Source::Answer, ..*self } } else { *self };
         let chosen = offers.iter().find(|offer| by.margin(offer, model).is_some_and(|by| by > 0.0));
         // At a guess that is on neither side, where there is no answer to come, either will do.
         chosen.or(offers.first()).map(|offer| (*offer).to_owned())
@@ -236,12 +238,12 @@ impl Guess<'_> {
         if link == "ground" {
             return Some([0.0; 3]);
         }
-        match self.from {
-            From::Guess => {
+        match self.source {
+            Source::Guess => {
                 let [x, y, angle] = self.file.guess.get(link)?;
                 Some([self.value(x)?, self.value(y)?, self.value(angle)?])
             }
-            From::Answer => {
+            Source::Answer => {
                 let [x, y, angle] = self.file.reference.as_ref()?.pose.get(link)?;
                 Some([nearest(x).ok()?, nearest(y).ok()?, nearest(angle).ok()?])
             }
