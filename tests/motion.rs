@@ -193,7 +193,7 @@ fn inertia_that_is_a_couple_alone_has_no_line() -> Result<(), Error> {
     let pose = carriage::Pose::at(0.3, core::f64::consts::FRAC_PI_2)?;
     let inertia = pose.inertia(&motion(4.0))?;
     assert!(inertia.arm_inertia.acceleration.norm() < 1e-15 && inertia.arm_inertia.force.norm() < 2e-15);
-    assert!(inertia.arm_angle == 8.0 && inertia.arm_inertia.couple == -2.0);
+    assert_eq!([inertia.arm_angle, inertia.arm_inertia.couple].map(f64::to_bits), [8.0f64, -2.0].map(f64::to_bits));
     let of = "the acceleration of the centre of mass of arm";
     assert_eq!(pose.line(&motion(4.0)), Err(Error::NoDirection { of }));
     assert_eq!(carriage::line_at(0.3, core::f64::consts::FRAC_PI_2, &motion(4.0)), Err(Error::NoDirection { of }));
@@ -203,7 +203,7 @@ fn inertia_that_is_a_couple_alone_has_no_line() -> Result<(), Error> {
     let work = pose.work(&motion(4.0))?;
     assert!((work.effort_turn - 2.0).abs() < 1e-15 && (work.effort_travel - 12.0).abs() < 1e-14);
     let parts = pose.parts(&motion(4.0))?;
-    assert!((parts.I.arm.effort_turn - 2.0).abs() < 1e-15 && parts.I.carriage.effort_turn == 0.0);
+    assert!((parts.I.arm.effort_turn - 2.0).abs() < 1e-15 && parts.I.carriage.effort_turn.abs() < 1e-300);
     // A little off, and there is a line, far away.
     let line = pose.line(&motion(4.001))?.arm_offset;
     assert!((line.distance - 0.25 * 8.0 / (2.0 * 0.001)).abs() < 1e-9, "{line:?}");

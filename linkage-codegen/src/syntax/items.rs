@@ -414,9 +414,11 @@ fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         }
         "effort" => {
             let drive = name(&content)?;
-            optional_comma(&content)?;
+            if content.peek(Token![,]) {
+                content.parse::<Token![,]>()?;
+            }
             if !content.is_empty() {
-                return Err(content.error("expected `)`\nhelp: one drive, as in `effort(theta)`"));
+                return Err(content.error(format!("an effort is that of one drive\nhelp: write `effort({drive})`")));
             }
             Effort::Drive(drive)
         }

@@ -40,10 +40,6 @@ linkage! {
     scene h: derivative(moving) by (theta.speed);
     scene i: derivative(moving) by (rocker);
     scene j: derivative(statics) by (I);
-    scene reduced: motion;
-    scene k: derivative(reduced) by (theta.acceleration);
-    scene shaken: motion -> (rounding);
-    scene l: derivative(shaken) by (theta);
 }
 
 fn main() -> Result<(), Error> {
