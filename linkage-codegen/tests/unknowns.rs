@@ -31,6 +31,7 @@ fn solved(unknowns: &str, efforts: &str) -> [HashMap<String, f64>; 4] {
     })
 }
 
+#[track_caller]
 fn near(found: f64, expected: f64) {
     assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1e4), "{found} and not {expected}");
 }
@@ -69,8 +70,12 @@ fn efforts_at_the_drives_have_names_of_their_own_in_any_order() {
 #[test]
 fn an_effort_at_a_drive_stands_beside_one_elsewhere() {
     let [plain, _, _, put_in] = solved("", "effort_turn, effort_reach");
-    let [own, work, control, own_put_in] =
-        solved("unknown lift: thrust(ground.C, boom.Q); unknown thrust: effort(reach);", "lift, thrust");
+    let declared = ["unknown lift: thrust(ground.C, boom.Q);", "unknown thrust: effort(reach);"];
+    let [reversed, ..] = solved(&[declared[1], declared[0]].concat(), "thrust, lift");
+    let [own, work, control, own_put_in] = solved(&declared.concat(), "lift, thrust");
+    for (path, value) in &own {
+        near(reversed[path], *value);
+    }
     // The cylinder on the boom does not know what holds the boom.
     near(own["thrust"], plain["effort_reach"]);
     near(work["thrust"], own["thrust"]);

@@ -1035,7 +1035,12 @@ impl Model {
     /// The unknown that is the effort at the drive of a joint's angle, or of its travel.
     #[must_use]
     pub fn effort_of(&self, joint: JointId, turns: bool) -> Option<UnknownId> {
-        let drive = self.drive_of(joint, turns)?;
+        self.effort_at(self.drive_of(joint, turns)?)
+    }
+
+    /// The unknown that is the effort at a drive.
+    #[must_use]
+    pub fn effort_at(&self, drive: DriveId) -> Option<UnknownId> {
         let effort = |unknown: &Unknown| matches!(unknown.kind, UnknownKind::Drive(own) if own == drive);
         self.unknowns.iter().position(effort).map(UnknownId::new)
     }

@@ -226,13 +226,7 @@ impl Topology {
 /// The groups of motion as groups of forces: the drives' efforts are the unknowns.
 fn as_forces(model: &Model, motion: &[Group]) -> Vec<Group> {
     let effort = |input: &Input| match input {
-        Input::Drive(drive) => {
-            let of = model
-                .unknowns
-                .iter()
-                .position(|unknown| matches!(unknown.kind, UnknownKind::Drive(own) if own == *drive));
-            of.map_or(*input, |unknown| Input::Unknown(UnknownId::new(unknown)))
-        }
+        Input::Drive(drive) => model.effort_at(*drive).map_or(*input, Input::Unknown),
         Input::Unknown(_) => *input,
     };
     motion.iter().map(|group| Group { inputs: group.inputs.iter().map(effort).collect(), ..group.clone() }).collect()
