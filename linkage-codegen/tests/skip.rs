@@ -213,6 +213,38 @@ fn derivatives_cost_nothing_elsewhere_and_share_what_they_have_in_common() {
     assert!(matches!(value("F12.x.B.x").definition, Definition::Computed(Op::Constant(_))));
 }
 
+/// From a crank's pin on the ground to its other pin leads the crank, on whatever link that pin is named and in whatever order the joints
+/// stand: all other ways are longer, and have the rounding of longer links.
+#[test]
+fn a_way_between_two_points_is_through_the_pin_at_one_of_them() {
+    let joints = [
+        "revolute A0: ground -> crank;",
+        "revolute A: crank -> coupler;",
+        "revolute B: coupler -> rocker;",
+        "revolute B0: ground -> rocker;",
+    ];
+    let mut orders = vec![vec![]];
+    for joint in joints {
+        let further = |order: &Vec<&'static str>| {
+            (0..=order.len()).map(|at| [&order[..at], &[joint], &order[at..]].concat()).collect::<Vec<_>>()
+        };
+        orders = orders.iter().flat_map(further).collect();
+    }
+    assert_eq!(orders.len(), 24);
+    for order in orders {
+        let linkage = compile(&format!(
+            "pub mod four_bar; units {{ mm, N }} ground {{ A0: (0, 0), B0: (140mm, 0) }} link crank {{ A0 -> A: 80mm }}
+             link coupler {{ A -> B: 100mm }} link rocker {{ B0 -> B: 120mm }} {} drive theta: A0; assemble B: left(A -> B0);
+             load K: spring(coupler.A, ground.A0) {{ rate: 2N/mm, free: 10mm }}; scene held: equilibrium -> (effort_theta, A0);",
+            order.concat()
+        ));
+        let held = program(&linkage, "held");
+        let labels = held.values.iter().filter_map(|value| value.label.as_ref()).map(|label| label.name.as_str());
+        let read: Vec<&str> = labels.filter(|name| name.starts_with("coupler") || name.starts_with("rocker")).collect();
+        assert!(read.is_empty(), "{read:?} with {order:?}");
+    }
+}
+
 /// Every value of every program is read by a later step, or is a result.
 #[test]
 fn no_program_computes_what_nothing_reads() {
