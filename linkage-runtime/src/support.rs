@@ -16,14 +16,14 @@ macro_rules! support {
         #[inline]
         #[must_use]
         pub fn all_finite<const N: usize>(values: [$scalar; N]) -> bool {
-            let (mut sum, mut rest) = (0.0, values.as_slice());
-            // By patterns: neither an index nor an iterator, which keep a way to panic in unoptimised builds. The difference is zero, but
-            // for what is infinite or NaN: then it is NaN, and so is the sum.
+            let (mut finite, mut rest) = (true, values.as_slice());
+            // By patterns: neither an index nor an iterator, which keep a way to panic in unoptimised builds. Each by itself:
+            // a sum would wait for all of them.
             while let [value, others @ ..] = rest {
-                sum += value - value;
+                finite &= value.is_finite();
                 rest = others;
             }
-            sum == 0.0
+            finite
         }
 
         /// A gap for an error message: in single precision, at most its largest number.

@@ -9,7 +9,8 @@
 //! ```
 //!
 //! each followed by one step `u ← u (3 − u·u)/2` towards unit size. `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near
-//! its zeros the closure knows it better than the directions do.
+//! its zeros the closure knows it better than the directions do. Where the lengths are constants of the same order, the vector along the
+//! longer link is that along the shorter one and d, `r₁u₁ − r₂u₂ = d`, and the step divides by the length too.
 //!
 //! Forces, by the textbooks' resolution along and across the links: with `m₁`, `m₂` the moments of the loads about P and Q, the
 //! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`.
@@ -212,25 +213,14 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     };
     let (r1, r2) = (dyad.length(first), dyad.length(second));
     let name = dyad.joint_name(dyad.inner);
-    let difference = (r1 - r2) * (r1 + r2);
-    let inverse = (assembly.graph().one() / closing.d2).named(format!("inverse_D2_{name}"), "");
-    let legs = [(first, r1, r2, closing.d2 + difference, 1), (second, r2, r1, closing.d2 - difference, -1)];
+    let rough = if constant_lengths(r1, r2).is_some() && ratio_is_at_most(8, r1, r2) {
+        arms(dyad, &closing)
+    } else {
+        rough_directions(dyad, &closing)
+    };
     let (mut directions, mut closed) = ([closing.d; 2], Vec::new());
-    for (found, (leg, own, other, sum, sense)) in directions.iter_mut().zip(legs) {
+    for ((found, leg), direction) in directions.iter_mut().zip(&dyad.legs).zip(rough) {
         let link = dyad.link_name(leg);
-        let (mine, its) = (dyad.length_name(leg), dyad.length_name(dyad.other(leg)));
-        let sum = sum.named(format!("sum_{link}"), format!("D2_{name} + {mine}² − {its}²"));
-        let scale = (inverse / (2 * own)).named(format!("scale_{link}"), format!("1/(2 {mine} D2_{name})"));
-        let along = (sum * scale)
-            .named(format!("along_{link}"), format!("sum_{link} · scale_{link}, the part of the direction along d"));
-        let across = (closing.k * scale)
-            .named(format!("across_{link}"), format!("{}K_{name} · scale_{link}, the part across d", closing.sign()));
-        let rough = closing.d.scaled(sense * along) + closing.d.perp().scaled(across);
-        let rough = rough.named_direction(
-            &format!("rough_{link}"),
-            &format!("{}along_{link} d + across_{link} d⊥", if sense < 0 { "−" } else { "" }),
-        );
-        let direction = normalised(rough, own, other, &link);
         let meaning = format!("direction of {link} from {} to {name}", dyad.joint_name(leg.outer));
         let direction = direction.named_direction(&link, &meaning);
         closed.push(direction);
@@ -275,6 +265,66 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     assembly.pivots.state(u1, u2, Some(pivot), None);
     assembly.dyads.push(DyadPivot::sine(dyad.model, dyad.inner, pivot));
     Ok(())
+}
+
+/// The directions of both legs from the vectors along them, P → B and Q → B, of which the longer one is the shorter one and d.
+///
+/// Both vectors have the rounding of the shorter link and of d, which is at most twice as long as the longer link.
+fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
+    let lengths = dyad.lengths();
+    let Closing { d, d2, k, .. } = *closing;
+    let name = dyad.joint_name(dyad.inner);
+    let [short, long] = if (lengths[0] - lengths[1]).sign() == Some(1) { [1, 0] } else { [0, 1] };
+    let (leg, link) = (&dyad.legs[short], dyad.link_name(&dyad.legs[short]));
+    let sum = d2 + (lengths[short] - lengths[long]) * (lengths[short] + lengths[long]);
+    let (mine, its) = (dyad.length_name(leg), dyad.length_name(&dyad.legs[long]));
+    let sum = sum.named(format!("sum_{link}"), format!("D2_{name} + {mine}² − {its}²"));
+    let scale =
+        (d2.graph().constant(&Number::ratio(1, 2)) / d2).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
+    let along = (sum * scale).named(format!("along_{link}"), format!("sum_{link} · scale_{name}, the part along d"));
+    let across = (k * scale)
+        .named(format!("across_{link}"), format!("{}K_{name} · scale_{name}, the part across d", closing.sign()));
+    let (sense, minus) = if short == 0 { (1, "") } else { (-1, "−") };
+    let mut vectors = [d; 2];
+    vectors[short] = (d.scaled(sense * along) + d.perp().scaled(across)).named(
+        &format!("arm_{link}"),
+        &format!("from {} to {name}: {minus}along_{link} d + across_{link} d⊥", dyad.joint_name(leg.outer)),
+    );
+    let (far, other) = (&dyad.legs[long], dyad.link_name(&dyad.legs[long]));
+    let (sign, difference) = if short == 0 { ('−', vectors[short] - d) } else { ('+', vectors[short] + d) };
+    vectors[long] = difference
+        .named(&format!("arm_{other}"), &format!("from {} to {name}: arm_{link} {sign} d", dyad.joint_name(far.outer)));
+    let unit = |index: usize| {
+        let (link, length) = (dyad.link_name(&dyad.legs[index]), dyad.length_name(&dyad.legs[index]));
+        scaled_to_unit(vectors[index], lengths[index], &link, &length)
+    };
+    [unit(0), unit(1)]
+}
+
+/// The directions of both legs, each by itself: for lengths that are not known before run time, or that differ by far.
+fn rough_directions<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
+    let [r1, r2] = dyad.lengths();
+    let Closing { d, d2, k, .. } = *closing;
+    let name = dyad.joint_name(dyad.inner);
+    let difference = (r1 - r2) * (r1 + r2);
+    let inverse = (d2.graph().one() / d2).named(format!("inverse_D2_{name}"), "");
+    let [first, second] = &dyad.legs;
+    [(first, r1, r2, d2 + difference, 1), (second, r2, r1, d2 - difference, -1)].map(|(leg, own, other, sum, sense)| {
+        let link = dyad.link_name(leg);
+        let (mine, its) = (dyad.length_name(leg), dyad.length_name(dyad.other(leg)));
+        let sum = sum.named(format!("sum_{link}"), format!("D2_{name} + {mine}² − {its}²"));
+        let scale = (inverse / (2 * own)).named(format!("scale_{link}"), format!("1/(2 {mine} D2_{name})"));
+        let along = (sum * scale)
+            .named(format!("along_{link}"), format!("sum_{link} · scale_{link}, the part of the direction along d"));
+        let across = (k * scale)
+            .named(format!("across_{link}"), format!("{}K_{name} · scale_{link}, the part across d", closing.sign()));
+        let rough = d.scaled(sense * along) + d.perp().scaled(across);
+        let rough = rough.named_direction(
+            &format!("rough_{link}"),
+            &format!("{}along_{link} d + across_{link} d⊥", if sense < 0 { "−" } else { "" }),
+        );
+        normalised(rough, own, other, &link)
+    })
 }
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {
@@ -423,16 +473,16 @@ fn by_half_angle<'m>(
         (false, _) => (margin.value.non_negative(), graph.one()),
     };
     let ((from_p, p_factor), (from_q, q_factor)) = (root_of(p, c), root_of(q, s));
-    let root = match (p.folds, q.folds) {
-        (true, true) => from_p * from_q,
-        (true, false) => from_p * from_q.sqrt(),
-        (false, true) => from_q * from_p.sqrt(),
-        (false, false) => (from_p * from_q).sqrt(),
-    };
+    // What is at hand before the root is multiplied first.
     let factor = (p_factor * q_factor).sqrt();
-    let root = root.named(format!("root_{joint}"), format!("√(p_{joint} q_{joint}) but for constant factors"));
+    let root = match (p.folds, q.folds) {
+        (true, true) => (factor * from_p) * from_q,
+        (true, false) => (factor * from_p) * from_q.sqrt(),
+        (false, true) => (factor * from_q) * from_p.sqrt(),
+        (false, false) => factor * (from_p * from_q).sqrt(),
+    };
     let sign = side_sign(dyad, (closure, side), arms, [p.folds, q.folds])?;
-    let k = sign.of((factor * root).named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})")));
+    let k = sign.of(root.named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})")));
     let significant = [(p, c), (q, s)].map(|(margin, half)| {
         if margin.folds {
             (half.abs().named(format!("fold_{joint}"), "distance from the fold"), angle_rounding)
@@ -532,6 +582,13 @@ fn reach<'m>(way: &Way<'m>) -> (Option<Expr<'m>>, Option<Expr<'m>>) {
     let least = longest.mul(&Number::integer(2)).sub(&sum);
     let least = if least.signum() < 0 { Number::zero() } else { least };
     (Some(graph.constant(&least)), Some(graph.constant(&sum)))
+}
+
+/// One step towards unit size of a vector that has nearly the given length: `u = v (3 − v·v/r²)/(2r)`.
+fn scaled_to_unit<'m>(arm: Vector<'m>, length: Expr<'m>, link: &str, name: &str) -> Vector<'m> {
+    let half = |n: i64| arm.graph().constant(&Number::ratio(n, 2));
+    let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
+    arm.scaled(factor.named(format!("unit_{link}"), format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}")))
 }
 
 /// One step towards unit size, which squares the error; for legs so different that this does not suffice, by root and division.

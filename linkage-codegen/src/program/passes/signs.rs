@@ -1,22 +1,73 @@
 //! A change of sign that an operand can take on costs nothing: `−(a − b) = b − a`, `−(k x) = (−k) x`.
+//!
+//! That of a sum goes to one of its terms, `−(a + b) = −a − b`: nothing then waits for it, and the formula ends as that of the other
+//! component of a vector does, so that a compiler can work at both at once.
 
 use crate::graph::{Graph, Op};
-use crate::program::{Definition, Program, Step, ValueId};
+use crate::program::{Definition, Program, Step, Value, ValueId};
 
 pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
     let uses = program.uses();
-    let order: Vec<ValueId> =
-        program.steps.iter().filter_map(|step| if let Step::Let(value) = step { Some(*value) } else { None }).collect();
-    for value in order {
-        let Some(Op::Neg(inner)) = program.op(value).cloned() else { continue };
-        if uses[inner.index()] != 1 || program.value(inner).label.is_some() {
-            continue;
+    let depths = depths(&program);
+    let mut steps = Vec::with_capacity(program.steps.len());
+    for step in core::mem::take(&mut program.steps) {
+        if let Step::Let(value) = step
+            && let Some(Op::Neg(inner)) = program.op(value).cloned()
+            && is_own(&program, inner, &uses)
+        {
+            let op = match program.op(inner).cloned() {
+                Some(Op::Add(a, b)) => Some(negative_sum(&mut program, graph, [a, b], (&uses, &depths), &mut steps)),
+                _ => negative(&mut program, graph, inner, &uses),
+            };
+            if let Some(op) = op {
+                program.values[value.index()].definition = Definition::Computed(op);
+            }
         }
-        if let Some(op) = negative(&mut program, graph, inner, &uses) {
-            program.values[value.index()].definition = Definition::Computed(op);
+        steps.push(step);
+    }
+    program.steps = steps;
+    program
+}
+
+/// Whether only one other value reads this one, and no reader knows it by name.
+fn is_own(program: &Program, value: ValueId, uses: &[usize]) -> bool {
+    uses.get(value.index()) == Some(&1) && program.value(value).label.is_none()
+}
+
+/// The longest way from the inputs to each value, in operations.
+fn depths(program: &Program) -> Vec<usize> {
+    let mut depths = vec![0; program.values.len()];
+    for step in &program.steps {
+        if let Step::Let(value) = step {
+            let below = program.operands_of(step).into_iter().map(|operand| depths[operand.index()]).max();
+            depths[value.index()] = 1 + below.unwrap_or(0);
         }
     }
-    program
+    depths
+}
+
+/// `−(a + b)`: the sign goes to the term that takes it for nothing, or else to that which is known first.
+fn negative_sum(
+    program: &mut Program,
+    graph: &Graph,
+    [a, b]: [ValueId; 2],
+    (uses, depths): (&[usize], &[usize]),
+    steps: &mut Vec<Step>,
+) -> Op<ValueId> {
+    let [first, second] = if depths[b.index()] < depths[a.index()] { [b, a] } else { [a, b] };
+    for (term, other) in [(first, second), (second, first)] {
+        if is_own(program, term, uses)
+            && let Some(op) = negative(program, graph, term, uses)
+        {
+            program.values[term.index()].definition = Definition::Computed(op);
+            return Op::Sub(term, other);
+        }
+    }
+    let section = program.value(first).section.clone();
+    program.values.push(Value { definition: Definition::Computed(Op::Neg(first)), label: None, section });
+    let negated = ValueId::new(program.values.len() - 1);
+    steps.push(Step::Let(negated));
+    Op::Sub(negated, second)
 }
 
 /// The operation that gives the negative of a value that nothing else reads.
@@ -30,13 +81,12 @@ fn negative(program: &mut Program, graph: &Graph, value: ValueId, uses: &[usize]
             {
                 let section = program.value(value).section.clone();
                 let constant = Definition::Computed(Op::Constant(negated));
-                program.values.push(crate::program::Value { definition: constant, label: None, section });
+                program.values.push(Value { definition: constant, label: None, section });
                 return Some(Op::Mul(ValueId::new(program.values.len() - 1), x));
             }
             // The sign passes on to a factor that nothing else reads.
             for factor in [k, x] {
-                let single = uses.get(factor.index()) == Some(&1) && program.value(factor).label.is_none();
-                if let (true, Some(Op::Sub(a, b))) = (single, program.op(factor).cloned()) {
+                if let (true, Some(Op::Sub(a, b))) = (is_own(program, factor, uses), program.op(factor).cloned()) {
                     program.values[factor.index()].definition = Definition::Computed(Op::Sub(b, a));
                     return Some(Op::Mul(k, x));
                 }

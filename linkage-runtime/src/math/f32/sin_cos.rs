@@ -127,7 +127,7 @@ impl Reduced {
         let s = horner!(z; 0.16666646, -0.008331764, 0.00019471647);
         let c = horner!(z; 0.041666646, -0.001388731, 2.4432327e-5);
         let sin = y - (z * y * s + t * w);
-        let cos = w + (((1.0 - w) - half) + (z * z * c + sin * t));
+        let cos = w + (((1.0 - w) - half) + (z * z * c + y * t));
 
         let (sin, cos) = (sin.to_bits(), cos.to_bits());
         let exchange = (sin ^ cos) & (quadrant & 1).wrapping_neg();

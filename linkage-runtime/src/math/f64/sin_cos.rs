@@ -129,7 +129,7 @@ impl Reduced {
         let c = estrin!(z; 0.041666666666666595, -0.0013888888888873342, 2.4801587289002052e-5,
             -2.755731421702115e-7, 2.0875705392259066e-9, -1.135874897753106e-11);
         let sin = y - (z * y * s + t * w);
-        let cos = w + (((1.0 - w) - half) + (z * z * c + sin * t));
+        let cos = w + (((1.0 - w) - half) + (z * z * c + y * t));
 
         let (sin, cos) = (sin.to_bits(), cos.to_bits());
         let exchange = (sin ^ cos) & (quadrant & 1).wrapping_neg();
