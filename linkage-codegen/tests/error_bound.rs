@@ -3,40 +3,14 @@
 
 mod support;
 
-use std::collections::HashMap;
-
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::program::Fault;
+use support::bounds::{ratios, with_bounds};
 use support::families::{boom, four_bar, length, oscillating_block, scotch_yoke, slider_crank, tangent_mechanism};
 use support::linkages::{Kind, Random, sample};
 use support::numbers::{Double, Extended, Single};
-use support::{Arguments, Number, compile_if_it_closes, from_pose, pose, scene};
-
-/// A scene `bounded` with all that equilibrium gives, and the bounds; a scene `alone` without them.
-fn with_bounds(text: &str) -> Option<Linkage> {
-    let linkage = compile_if_it_closes(text)?;
-    let unknowns = linkage.model.unknowns.iter().map(|unknown| unknown.name.clone());
-    let joints = linkage.model.joints.iter().map(|joint| joint.name.text.clone());
-    let results: Vec<String> = unknowns.chain(joints).collect();
-    let results = results.join(", ");
-    compile_if_it_closes(&format!(
-        "{text} scene bounded: equilibrium -> ({results}, error_bound); scene alone: equilibrium -> ({results});"
-    ))
-}
-
-/// The ratios of all bounds to the true errors, over those that rounding has reached at all; panics where a bound is too small.
-fn ratios<T: Number>(linkage: &Linkage, arguments: &Arguments, found: &HashMap<String, T>, context: &str) -> Vec<f64> {
-    let exact = scene::<Extended>(linkage, "alone", arguments).expect("regular where doubles are");
-    let results = found.iter().filter(|(path, _)| !path.starts_with("error_bound."));
-    let ratios = results.filter_map(|(path, value)| {
-        let error = Extended::exactly(value.to_f64()).sub(&exact[path]).to_f64().abs();
-        let bound = found[&format!("error_bound.{path}")].to_f64();
-        assert!(error <= bound, "{path} = {} is off by {error:e}, bound {bound:e}\n{context}", value.to_f64());
-        (error > 0.0).then(|| bound / error)
-    });
-    ratios.collect()
-}
+use support::{Arguments, Number, from_pose, pose, scene};
 
 /// The ratios of a scene from the drives and from a pose.
 fn check<T: Number>(linkage: &Linkage, arguments: &Arguments, context: &str) -> Vec<f64> {

@@ -150,6 +150,24 @@ pub fn slotted_yoke([crank, offset, angle]: [f64; 3], random: &mut Random) -> St
     )
 }
 
+/// A four-bar with a coupler of two welded links and an arm welded to its rocker.
+pub fn welded([ground, crank, rocker]: [f64; 3], random: &mut Random) -> String {
+    let angle = random.range(0.0, 360.0);
+    let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
+    let (b, w, turn) = (length(random, 0.1, 2.0), length(random, -0.5, 0.5), random.range(-180.0, 180.0));
+    let side = random.pick(&["left", "right"]);
+    let (first, second) =
+        random.pick(&[("near.C", "tip.D"), ("near.C", "arm.K"), ("tip.D", "arm.K"), ("tip.D", "rocker.E")]);
+    format!(
+        "pub mod sample; ground {{ A0: (0, 0), B0: {ground:?}m @ {angle:?}deg }} link crank {{ A0 -> A: {crank:?}m }}
+         link near {{ A: (0, 0), W: (0.5m, {w:?}m), C: ({x:?}m, {y:?}m) }} link tip {{ W: (0, 0), B: ({b:?}m, 0), D: ({y:?}m, {x:?}m) }}
+         link rocker {{ B0 -> B: {rocker:?}m, V: ({w:?}m, 0.25m), E: ({x:?}m, {y:?}m) }} link arm {{ V: (0, 0), K: ({y:?}m, {w:?}m) }}
+         revolute A: crank -> near; weld W: near -> tip, angle {turn:?}deg; revolute B: tip -> rocker; revolute B0: ground -> rocker;
+         weld V: rocker -> arm, angle {angle:?}deg;
+         {CRANK} assemble B: {side}(A -> B0); load F: force({first}); load H: force({second}); {SCENES}"
+    )
+}
+
 /// A planet on a driven carrier, about a fixed sun or in a fixed ring.
 pub fn planet([sun, planet, phase]: [f64; 3], random: &mut Random) -> String {
     let (x, y) = (length(random, -1.0, 1.0), length(random, -1.0, 1.0));
@@ -207,7 +225,7 @@ pub fn check(families: impl Iterator<Item = Family>, what: &str) -> usize {
 
 /// The same with single-precision arguments.
 #[allow(clippy::cast_possible_truncation, reason = "that is the point")]
-fn rounded(family: &Family) -> Family {
+pub fn rounded(family: &Family) -> Family {
     let round = |x: &f64| f64::from(*x as f32);
     let drives = family.drives.iter().map(round).collect();
     let loads = family.loads.iter().map(|load| [round(&load[0]), round(&load[1])]).collect();
@@ -215,9 +233,14 @@ fn rounded(family: &Family) -> Family {
 }
 
 /// A length that single precision holds too.
-#[allow(clippy::cast_possible_truncation, reason = "that is the point")]
 pub fn length(random: &mut Random, low: f64, high: f64) -> f64 {
-    f64::from(random.range(low, high) as f32)
+    single(random.range(low, high))
+}
+
+/// The nearest number that single precision holds too.
+#[allow(clippy::cast_possible_truncation, reason = "that is the point")]
+pub fn single(x: f64) -> f64 {
+    f64::from(x as f32)
 }
 
 pub fn loads(random: &mut Random) -> Vec<[f64; 2]> {

@@ -241,9 +241,11 @@ pub enum Class {
     ThreeWithSlider,
     /// A ring of four links.
     Four,
+    /// Six dyads that follow each other, of pins and slides.
+    Cascade,
 }
 
-/// A crank and a group of this class, with forces on two of its links that are given at run time. All lengths are numbers that single
+/// A crank and groups of this class, with forces on two of its links that are given at run time. All lengths are numbers that single
 /// precision holds too. Frames have their origins at joints, about which moments are then taken.
 pub fn sample_with_forces(seed: u64, class: Class) -> Sample {
     let kind = Kind {
@@ -265,9 +267,16 @@ pub fn sample_with_forces(seed: u64, class: Class) -> Sample {
         Class::Three => builder.triad(false),
         Class::ThreeWithSlider => builder.triad(true),
         Class::Four => builder.ring(),
+        Class::Cascade => (0..6).for_each(|_| match builder.random.below(9) {
+            0 | 1 => builder.slider_dyad(),
+            2 => builder.sliding_pair(),
+            3 => builder.pinned_sliders(),
+            4 => builder.slider_on_slider(),
+            _ => builder.pinned_dyad(),
+        }),
     }
     let loads = builder.forces();
-    let starts = builder.starts_of_drives(0.0);
+    let starts = if matches!(class, Class::Cascade) { String::new() } else { builder.starts_of_drives(0.0) };
     let mut sample = builder.finish(loads, Vec::new(), kind);
     sample.text.push_str(&starts);
     sample.text = in_single_precision(&sample.text.replace("scalar f64;\n", ""));
@@ -276,7 +285,7 @@ pub fn sample_with_forces(seed: u64, class: Class) -> Sample {
 
 /// A declaration with all its decimals rounded to single precision.
 #[allow(clippy::cast_possible_truncation, reason = "that is the point")]
-fn in_single_precision(text: &str) -> String {
+pub fn in_single_precision(text: &str) -> String {
     let mut rounded = String::new();
     let mut rest = text;
     while let Some(start) = rest.find(|c: char| c.is_ascii_alphanumeric()) {

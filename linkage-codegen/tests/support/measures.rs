@@ -7,15 +7,19 @@ use linkage_codegen::equations::Source;
 use linkage_codegen::equations::joints::Component;
 use linkage_codegen::equations::loads::{self, Action};
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{Coordinate, NodeId, Symbol};
-use linkage_codegen::model::ids::{JointId, LinkId};
-use linkage_codegen::model::{End, JointKind, LoadKind, UnknownKind};
+use linkage_codegen::graph::{Coordinate, Expr, NodeId, Symbol};
+use linkage_codegen::model::ids::{GROUND, JointId, LinkId};
+use linkage_codegen::model::{JointKind, LoadKind, UnknownKind};
 use linkage_codegen::program::Fault;
+use linkage_codegen::topology::Group;
 use nalgebra::{DMatrix, DVector};
 
 use super::general::{General, coordinates, equations_at};
 use super::numbers::Extended;
 use super::{Arguments, Number, from_pose, pose};
+
+/// What a pose keeps.
+type Kept = HashMap<NodeId, Extended>;
 
 /// The measures of the acceptance bars, in epsilons of the scalar.
 #[derive(Clone, Copy, Debug, Default)]
@@ -76,7 +80,7 @@ pub fn measure<T: Number>(
         kept.iter().map(|(node, value)| (*node, Extended::exactly(value.to_f64()))).collect();
     let general = equations_at(linkage, arguments, &extended);
     let unit = direction_error(linkage, &extended) / epsilon;
-    let side = longest.max(farthest(linkage, arguments, &extended));
+    let side = (longest * sides(linkage) / 4.0).max(farthest(linkage, arguments, &extended));
     let closure = general.residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs())) / (side * epsilon);
     let unit_pose = normalised(linkage, &extended);
     let general = equations_at(linkage, arguments, &unit_pose);
@@ -87,20 +91,64 @@ pub fn measure<T: Number>(
         .moving_links()
         .map(|link| free_body(linkage, arguments, (&general, &unit_pose), &solution, link))
         .collect();
-    let free_body = bodies.iter().map(|body| body.residual).fold(0.0, f64::max) / epsilon;
-    // The unknown acts on the first moving link: there equilibrium takes its terms from, virtual work from the loads.
-    let terms = bodies[0].moments + work_terms(linkage, arguments, &unit_pose);
-    let name = &linkage.model.unknowns[0].name;
-    let torque = over((all[name].to_f64() - work[name].to_f64()).abs(), terms) / epsilon;
+    let free_body = free_bodies(linkage, &bodies) / epsilon;
+    // Where the unknown acts equilibrium takes its terms from, virtual work from the loads.
+    let unknown = &linkage.model.unknowns[0];
+    let held = match unknown.kind {
+        UnknownKind::Drive(drive) => {
+            let ends = linkage.model.joint(linkage.model.drive(drive).joint).ends().map(|end| end.link);
+            bodies.iter().find(|body| ends.contains(&body.link)).expect("a link that moves")
+        }
+        _ => &bodies[0],
+    };
+    let terms = if is_moment(linkage, &unknown.name) { held.moments } else { held.forces }
+        + work_terms(linkage, arguments, &unit_pose)
+        + passed_power(linkage, &general, &solution);
+    let torque = over((all[&unknown.name].to_f64() - work[&unknown.name].to_f64()).abs(), terms) / epsilon;
     Ok(Measures { unit, closure, backward, free_body, torque })
 }
 
+/// The sides of the longest loop, at least four: a leg's, and those of the ways over links that are placed before.
+#[allow(clippy::cast_precision_loss, reason = "few")]
+fn sides(linkage: &Linkage) -> f64 {
+    let model = &linkage.model;
+    let mut placed = vec![GROUND];
+    let mut most = 4;
+    for group in &linkage.topology.motion {
+        let outside = |joint: &JointId| {
+            let ends = model.joint(*joint).ends().map(|end| end.link);
+            ends.into_iter().find(|link| !group.links.contains(link)).expect("an outer joint")
+        };
+        let mut ends = group.outer.iter().map(outside);
+        if let (Some(from), Some(to)) = (ends.next(), ends.next()) {
+            // Links in the order of their distance from one end.
+            let mut reached = vec![(from, 1)];
+            let mut next = 0;
+            while let Some(&(link, distance)) = reached.get(next) {
+                for joint in
+                    model.joint_ids().map(|joint| model.joint(joint)).filter(|joint| joint.end_on(link).is_some())
+                {
+                    let other = joint.end_off(link).expect("another link").link;
+                    if placed.contains(&other) && !reached.iter().any(|(known, _)| *known == other) {
+                        reached.push((other, distance + 1));
+                    }
+                }
+                next += 1;
+            }
+            let way = reached.iter().find(|(link, _)| *link == to).map_or(2, |(_, distance)| *distance);
+            most = most.max(way + group.links.len());
+        }
+        placed.extend(&group.links);
+    }
+    most as f64
+}
+
 /// Sides of loops that no length bounds, but numbers of the pose with a rounding of their own: how far something slides where two slides
-/// alone hold a pin, which grows beyond all lengths as they become parallel; and how far wheels have rolled.
+/// are all that a pin leaves, which grows beyond all lengths as they become parallel; and how far wheels have rolled.
 fn farthest(linkage: &Linkage, arguments: &Arguments, kept: &HashMap<NodeId, Extended>) -> f64 {
     let model = &linkage.model;
     let mut sides = Vec::new();
-    if linkage.plan.motion_rules.contains(&"PRP dyad") {
+    if ["PRP dyad", "RPP dyad", "slot and slide"].iter().any(|rule| linkage.plan.motion_rules.contains(rule)) {
         let travels = linkage.plan.pose.iter().filter(|found| found.name.starts_with("travel_"));
         sides.extend(travels.map(|found| kept[&found.node].to_f64().abs()));
     }
@@ -192,46 +240,40 @@ fn backward_error(linkage: &Linkage, general: &General<Extended>, solution: &[Ex
     over(residual.norm(), matrix.singular_values().max() * x.norm() + b.norm())
 }
 
-/// A place in the frame of its link.
-fn local_place(linkage: &Linkage, end: End) -> [f64; 2] {
-    let local = linkage.model.local(end);
-    [local.x, local.y].map(|x| x.value().expect("constant").to_f64())
-}
-
-/// The lengths of the ways from a link's frame to the runner of a slide.
-fn slide_arm(
+/// Where a slide or the pin in a slot acts on a link, in the link's frame: the runner's own place, and on the link that carries the line
+/// the place of the slide's point with the travel from there, as the pose has it.
+fn runner_on(
     linkage: &Linkage,
     arguments: &Arguments,
-    kept: &HashMap<NodeId, Extended>,
+    kept: &Kept,
     joint: JointId,
     link: LinkId,
-) -> f64 {
+) -> Option<[Extended; 2]> {
     let model = &linkage.model;
     let data = model.joint(joint);
-    let Some(end) = data.end_on(link) else { return 0.0 };
-    if let JointKind::Slot { .. } = data.kind {
-        // The pin's place is known from the link that has the pin.
-        let (place, coordinates) = (data.place(), coordinates(linkage, arguments, kept));
-        let of = |link, which| coordinates.get(&Symbol::Coordinate(link, which)).map_or(0.0, Number::to_f64);
-        let [x, y] = local_place(linkage, place);
-        let (c, s) = (of(place.link, Coordinate::Cos), of(place.link, Coordinate::Sin));
-        let apart = [Coordinate::X, Coordinate::Y].map(|which| of(place.link, which) - of(link, which));
-        return (apart[0] + c * x - s * y).hypot(apart[1] + s * x + c * y);
+    let (carrier, axis) = data.kind.line()?;
+    let exact = |x: Expr<'_>| Extended::from_number(&x.value().expect("constant"));
+    let local = model.local(data.end_on(link)?);
+    let local = [exact(local.x), exact(local.y)];
+    if link != carrier {
+        return Some(local);
     }
-    let local = local_place(linkage, end);
     let name = format!("travel_{}", data.name);
-    let found = linkage.plan.pose.iter().find(|kept| kept.name == name).map(|found| kept[&found.node].to_f64());
+    let found = linkage.plan.pose.iter().find(|kept| kept.name == name).map(|found| kept[&found.node].clone());
     // The travel of a driven slide is an argument.
-    let travel = found.or(model.drive_of(joint, false).map(|drive| arguments.drives[drive.index()])).unwrap_or(0.0);
-    let runner_elsewhere = data.place() != end;
-    local[0].hypot(local[1]) + if runner_elsewhere { travel.abs() } else { 0.0 }
+    let drive = || model.drive_of(joint, false).map(|drive| Extended::exactly(arguments.drives[drive.index()]));
+    let travel = found.or_else(drive)?;
+    let ahead = if data.from.link == carrier { travel } else { travel.neg() };
+    let axis = axis.vector(&model.graph);
+    Some([local[0].add(&exact(axis.x).mul(&ahead)), local[1].add(&exact(axis.y).mul(&ahead))])
 }
 
 fn over(value: f64, size: f64) -> f64 {
     if size > 0.0 { value / size } else { value }
 }
 
-fn is_moment(linkage: &Linkage, name: &str) -> bool {
+/// Whether an unknown is a couple.
+pub fn is_moment(linkage: &Linkage, name: &str) -> bool {
     let unknown = linkage.model.unknowns.iter().find(|u| u.name == name);
     name.ends_with(".couple")
         || unknown.is_some_and(|unknown| match unknown.kind {
@@ -242,22 +284,29 @@ fn is_moment(linkage: &Linkage, name: &str) -> bool {
 }
 
 struct FreeBody {
-    /// `|ΣF|/Σ|F|` and `|ΣM|/Σ|r||F|`, whichever is larger.
-    residual: f64,
-    /// `Σ|r||F|`.
+    link: LinkId,
+    /// `|ΣF|`
+    force: f64,
+    /// `Σ|F|`
+    forces: f64,
+    /// `|ΣM|`
+    moment: f64,
+    /// `Σ|r||F|`
     moments: f64,
 }
 
-/// The check that an engineer makes on paper.
+/// The check that an engineer makes on paper. Moments are about the origin of the link's frame.
 fn free_body(
     linkage: &Linkage,
     arguments: &Arguments,
-    (general, kept): (&General<Extended>, &HashMap<NodeId, Extended>),
+    (general, kept): (&General<Extended>, &Kept),
     solution: &[Extended],
     link: LinkId,
 ) -> FreeBody {
     let first = 3 * (link.index() - 1);
     let coefficient = |offset: usize, column: usize| &general.matrix[first + offset][column];
+    let coordinates = coordinates(linkage, arguments, kept);
+    let [cos, sin] = [Coordinate::Cos, Coordinate::Sin].map(|which| &coordinates[&Symbol::Coordinate(link, which)]);
     let mut sums = [Extended::zero(), Extended::zero(), Extended::zero()];
     let (mut forces, mut moments) = (0.0, 0.0);
     // Reactions: the components of a pin belong together, with the arm that their moments have.
@@ -272,19 +321,23 @@ fn free_body(
             }
         }
         let force = part[0].to_f64().hypot(part[1].to_f64());
-        let arm = match general.sources[column] {
-            // The runner is at the end of two ways: to the slide's point on the link, and along the slide.
-            Source::Joint(joint, Component::Normal) => slide_arm(linkage, arguments, kept, joint, link),
-            Source::Unknown(unknown) if force > 0.0 => {
-                // The effort along a slide acts at its runner.
-                match linkage.model.unknown(unknown).kind {
-                    UnknownKind::Drive(drive) => {
-                        slide_arm(linkage, arguments, kept, linkage.model.drive(drive).joint, link)
-                    }
-                    _ => coefficient(2, column).to_f64().abs(),
-                }
-            }
-            _ => columns.clone().map(|c| coefficient(2, c).to_f64()).fold(0.0, f64::hypot),
+        // What acts at a runner acts where the travel says that it is: its distance over the other links has their rounding.
+        let slide = match general.sources[column] {
+            Source::Joint(joint, Component::Normal) => Some(joint),
+            Source::Unknown(unknown) => match linkage.model.unknown(unknown).kind {
+                UnknownKind::Drive(drive) if force > 0.0 => Some(linkage.model.drive(drive).joint),
+                _ => None,
+            },
+            _ => None,
+        };
+        let runner = slide.filter(|_| force > 0.0).and_then(|joint| runner_on(linkage, arguments, kept, joint, link));
+        let arm = if let Some([x, y]) = runner {
+            let along = cos.mul(&part[0]).add(&sin.mul(&part[1]));
+            let across = cos.mul(&part[1]).sub(&sin.mul(&part[0]));
+            part[2] = x.mul(&across).sub(&y.mul(&along));
+            x.to_f64().hypot(y.to_f64())
+        } else {
+            columns.clone().map(|c| coefficient(2, c).to_f64()).fold(0.0, f64::hypot)
         };
         forces += force;
         moments += if force > 0.0 { arm * force } else { part[2].to_f64().abs() };
@@ -310,7 +363,60 @@ fn free_body(
         }
     }
     let [x, y, moment] = sums.map(|sum| sum.to_f64());
-    FreeBody { residual: over(x.hypot(y), forces).max(over(moment.abs(), moments)), moments }
+    FreeBody { link, force: x.hypot(y), forces, moment: moment.abs(), moments }
+}
+
+/// The largest residual of the free bodies: `|ΣF|/Σ|F|`, and `|ΣM|/Σ|r||F|`. What holds a couple has its rounding from the moments on either
+/// side: those of links that a weld joins count together.
+fn free_bodies(linkage: &Linkage, bodies: &[FreeBody]) -> f64 {
+    let model = &linkage.model;
+    let welded = |a: LinkId, b: LinkId| {
+        model.joint_ids().map(|joint| model.joint(joint)).any(|joint| {
+            matches!(joint.kind, JointKind::Weld { .. }) && joint.end_on(a).is_some() && joint.end_on(b).is_some()
+        })
+    };
+    let residuals = bodies.iter().map(|body| {
+        let others = bodies.iter().filter(|other| other.link != body.link && welded(body.link, other.link));
+        let moments = others.fold(body.moments, |sum, other| sum + other.moments);
+        over(body.force, body.forces).max(over(body.moment, moments))
+    });
+    residuals.fold(0.0, f64::max)
+}
+
+/// The power that passes between groups at the joints that are on neither the ground nor the driven link, where all its terms are counted
+/// already: `Σ|F||v|` at unit rate of the unknown's coordinate.
+fn passed_power(linkage: &Linkage, general: &General<Extended>, solution: &[Extended]) -> f64 {
+    let topology = &linkage.topology;
+    let links = |group: &Group, joint: JointId| {
+        linkage.model.joint(joint).ends().map(|end| end.link).into_iter().find(|link| !group.links.contains(link))
+    };
+    let between: Vec<(JointId, LinkId)> = topology
+        .motion
+        .iter()
+        .flat_map(|group| group.outer.iter().filter_map(|joint| Some((*joint, links(group, *joint)?))))
+        .filter(|(_, link)| link.index() > 1)
+        .collect();
+    if between.is_empty() {
+        return 0.0;
+    }
+    // Virtual velocities: what the unknown does to all links has the power one, and what each reaction does none.
+    let n = general.matrix.len();
+    let effort = general.sources.iter().position(|source| matches!(source, Source::Unknown(_))).expect("an unknown");
+    let matrix = DMatrix::from_fn(n, n, |column, line| general.matrix[line][column].to_f64());
+    let unit = DVector::from_fn(n, |column, _| if column == effort { 1.0 } else { 0.0 });
+    let Some(velocities) = matrix.lu().solve(&unit) else { return 0.0 };
+    let power = |(joint, link): &(JointId, LinkId)| {
+        let first = 3 * (link.index() - 1);
+        let columns = (0..n).filter(|c| matches!(general.sources[*c], Source::Joint(own, _) if own == *joint));
+        columns
+            .map(|c| {
+                let rate: f64 =
+                    (first..first + 3).map(|line| general.matrix[line][c].to_f64() * velocities[line]).sum();
+                (rate * solution[c].to_f64()).abs()
+            })
+            .sum::<f64>()
+    };
+    between.iter().map(power).sum()
 }
 
 /// The sum of `|F||v|`, at unit rate of the unknown's coordinate.

@@ -2,6 +2,7 @@
 #![allow(dead_code, unreachable_pub, reason = "each test uses its own part")]
 #![allow(clippy::missing_panics_doc, clippy::must_use_candidate, reason = "tests panic where something is wrong")]
 
+pub mod bounds;
 pub mod examples;
 pub mod families;
 pub mod general;

@@ -298,6 +298,11 @@ impl<'a> Dyad<'a> {
         super::checked_length(self.model, self.constant_arm(leg).size(), &leg.links, [leg.outer, self.inner])
     }
 
+    /// The vector between a leg's joints, along and across what its first link carries, if its length is not constant.
+    pub(super) fn driven_arm(&self, leg: &Leg) -> Option<Vector<'a>> {
+        (!leg.is_constant(self.model)).then(|| self.arm(leg).along)
+    }
+
     /// What the rounding of a leg's length is proportional to: nothing if the length is constant.
     pub(super) fn slack(&self, leg: &Leg) -> Expr<'a> {
         if leg.is_constant(self.model) {

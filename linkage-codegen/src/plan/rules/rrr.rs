@@ -172,6 +172,8 @@ struct Closing<'m> {
     d: Vector<'m>,
     /// Its square.
     d2: Expr<'m>,
+    /// `D² ± (r₁² − r₂²)`, where these are not best made of the difference of the lengths.
+    sums: Option<[Expr<'m>; 2]>,
     /// `K = ±√(p q)`.
     k: Expr<'m>,
     /// The sign of that root.
@@ -208,7 +210,11 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
                     "its outer joints do not hang on the two links of one driven pin",
                 ));
             }
-            by_distance(dyad, side, &assembly.placement.way(p, q))
+            let way = assembly.placement.way(p, q);
+            match driven(dyad, &way) {
+                Some(driven) => by_driven_length(dyad, side, &way, &driven),
+                None => by_distance(dyad, side, &way),
+            }
         }
     };
     let (r1, r2) = (dyad.length(first), dyad.length(second));
@@ -306,10 +312,11 @@ fn rough_directions<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 
     let [r1, r2] = dyad.lengths();
     let Closing { d, d2, k, .. } = *closing;
     let name = dyad.joint_name(dyad.inner);
-    let difference = (r1 - r2) * (r1 + r2);
+    let difference = if closing.sums.is_some() { d2 } else { (r1 - r2) * (r1 + r2) };
     let inverse = (d2.graph().one() / d2).named(format!("inverse_D2_{name}"), "");
+    let sums = closing.sums.unwrap_or_else(|| [d2 + difference, d2 - difference]);
     let [first, second] = &dyad.legs;
-    [(first, r1, r2, d2 + difference, 1), (second, r2, r1, d2 - difference, -1)].map(|(leg, own, other, sum, sense)| {
+    [(first, r1, r2, sums[0], 1), (second, r2, r1, sums[1], -1)].map(|(leg, own, other, sum, sense)| {
         let link = dyad.link_name(leg);
         let (mine, its) = (dyad.length_name(leg), dyad.length_name(dyad.other(leg)));
         let sum = sum.named(format!("sum_{link}"), format!("D2_{name} + {mine}² − {its}²"));
@@ -490,7 +497,7 @@ fn by_half_angle<'m>(
             (margin.value, margin.rounding)
         }
     });
-    Ok(Closing { d, d2, k, sign, significant: significant.to_vec() })
+    Ok(Closing { d, d2, sums: None, k, sign, significant: significant.to_vec() })
 }
 
 /// The failure to assemble, with the gap: how much too far apart (`p < 0`) or too close together (`q < 0`) the outer pins are.
@@ -567,7 +574,83 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     };
     let root =
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
-    Closing { d, d2, k: sign.of(root), sign, significant: vec![(p, p_rounding), (q, q_rounding)] }
+    let significant = vec![(p, p_rounding), (q, q_rounding)];
+    Closing { d, d2, sums: None, k: sign.of(root), sign, significant }
+}
+
+/// A leg whose length a drive gives, between pins that a constant distance separates; the other leg is constant.
+struct Driven<'m> {
+    /// Which leg it is.
+    leg: usize,
+    /// `D`, the distance of the outer pins.
+    distance: Expr<'m>,
+    /// The length of the other leg.
+    other: Expr<'m>,
+    /// `x`: of the driven leg's arm, the part along the drive.
+    along: Expr<'m>,
+    /// `y`: the constant part across it.
+    across: Expr<'m>,
+}
+
+/// The dyad as one of these.
+fn driven<'m>(dyad: &Dyad<'m>, way: &Way<'m>) -> Option<Driven<'m>> {
+    let (leg, arm) = match dyad.legs.each_ref().map(|leg| dyad.driven_arm(leg)) {
+        [Some(arm), None] => (0, arm),
+        [None, Some(arm)] => (1, arm),
+        _ => return None,
+    };
+    let (first, others) = way.segments.split_first()?;
+    if others.iter().any(|segment| segment.direction != first.direction) {
+        return None;
+    }
+    let distance = others.iter().fold(first.along, |sum, segment| sum + segment.along).size();
+    let other = dyad.lengths()[1 - leg];
+    let constant = [distance, other, arm.y].iter().all(|size| size.value().is_some());
+    (constant && !distance.is_zero()).then_some(Driven { leg, distance, other, along: arm.x, across: arm.y })
+}
+
+/// The closure where a drive gives the length `L` of one leg, `L² = x² + y²` with a constant y, the other leg r and D are constants:
+/// `p q = ((D + r)² − L²)(L² − (D − r)²)`. So the constants fold, and little is lost near the ends of the motion.
+fn by_driven_length<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>, driven: &Driven<'m>) -> Closing<'m> {
+    let joint = dyad.joint_name(dyad.inner);
+    let Driven { leg, distance, other, along: x, across: y } = *driven;
+    let graph = distance.graph();
+    let length = dyad.lengths()[leg];
+    let (name, rest) = (dyad.length_name(&dyad.legs[leg]), dyad.length_name(&dyad.legs[1 - leg]));
+    let d = way.vector().named(&format!("d_{joint}"), &dyad.separation_meaning());
+    let d2 = distance.squared().named(format!("D2_{joint}"), "d·d");
+    let (most, least) = (distance + other, (distance - other).abs());
+    // x² − k, by its factors where it has any.
+    let beyond = |limit: Expr<'m>| {
+        let k = limit.squared() - y.squared();
+        if k.sign() == Some(1) { (x - k.sqrt()) * (x + k.sqrt()) } else { x.squared() - k }
+    };
+    let p = (-beyond(most)).named(format!("p_{joint}"), format!("(D + {rest})² − {name}²"));
+    let q = beyond(least).named(format!("q_{joint}"), format!("{name}² − (D − {rest})²"));
+    let slack = way.length() + dyad.slack(&dyad.legs[leg]);
+    let rounding = |of: &str, limit: Expr<'m>| {
+        let value = graph.epsilons(2) * (limit.squared() + limit * slack);
+        value.named(format!("rounding_{of}_{joint}"), format!("what rounding makes of {of}_{joint} = 0"))
+    };
+    let failure =
+        |gap: Expr<'m>| Failure::CannotAssemble { group: dyad.group_name(), joint: joint.into(), gap: gap.id() };
+    let mut significant = Vec::new();
+    let mut reached = |margin: Expr<'m>, rounding: Expr<'m>, gap: Expr<'m>| {
+        significant.push((margin, rounding));
+        margin.require_at_least(margin, -rounding, failure(gap)).non_negative()
+    };
+    let p = reached(p, rounding("p", most), length - most);
+    // Across the drive the leg may be long enough by itself.
+    let q = if (y.abs() - least).sign() == Some(1) {
+        q.known_positive()
+    } else {
+        reached(q, rounding("q", least), least - length)
+    };
+    let root = (p * q).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
+    let (constant, square) = (d2 + other.squared(), d2 - other.squared());
+    let own = [(constant - y.squared()) - x.squared(), (square + y.squared()) + x.squared()];
+    let sums = if leg == 1 { own } else { [own[1], own[0]] };
+    Closing { d, d2, sums: Some(sums), k: sign.of(root), sign, significant }
 }
 
 /// The least and the largest distance that constant parts of a way can make up.

@@ -356,7 +356,8 @@ impl Rule for SlotAndSlide {
         let equation = format!("ΣF/(n·m) of what acts on {} along the slide {}", parts.name(), parts.joint_name(slide));
         parts.react(balance, normal, &equation);
         let across = balance.total(link).along(direction).y;
-        guide(balance, slide, link, across, balance.placement.slide_point(parts.slot, link));
+        // About the guide's own place on the link: the pin in the slot may be far away from the other forces.
+        guide(balance, slide, link, across, balance.placement.point(balance.end(slide, link)));
         Ok(())
     }
 

@@ -1,0 +1,942 @@
+//! The stress suite: kinds of groups in families of poses that break weak implementations, held to the bars, in both scalars; with
+//! `error_bound`, which no error may exceed. A reduced size is among the quick tests; all of it is
+//!
+//! ```text
+//! just stress
+//! ```
+//!
+//! with 10⁶ random poses of four-bars and slider-cranks, and 10⁴ poses of each other kind. It prints, for each kind and family, the worst
+//! measure as a part of its bar. The bars are `BARS` of `support/families.rs`, the measures explained in `support/measures.rs`.
+//!
+//! | family | where | for which kinds |
+//! |---|---|---|
+//! | 1 pivots of 10⁻¹ to 10⁻⁷ | here: distances from where the motion ends or the determinant of all equations changes its sign; slides inclined by 10⁻¹ to 10⁻⁶ | all that have such poses: not planets |
+//! | 2 the same, loads compatible | here: without what the virtual displacement of the singular pose sees | as 1 |
+//! | 3 folds | here: dimensions with which pivots meet or links lie on each other, 1 to 10⁻⁷ from there; digits of four-bars in `families.rs` | those that fold: pins and slides in closed loops of equal lengths |
+//! | 4 lengths that differ by 10² to 10⁸ | here, each set of lengths small; of three-pin dyads in `families.rs` too; triads under 9 | all by dimensions; f32 as far as it tells lengths apart, 10⁴ |
+//! | 5, 14 along the axes, collinear, in line | here: directions by quarter turns, drives too; `families.rs` | all by dimensions |
+//! | 6 far from the origin: the same bits | here | all |
+//! | 7 loads 10⁸ apart, a single load | here | all |
+//! | 8 units that differ by powers of two: the same bits | here | all but iterated groups, whose steps are decided by lengths and angles together |
+//! | 9 triads nearly concurrent, nearly parallel, third pin on the first line, tiny or huge ternary | here | triads |
+//! | 10 loads that cancel to 10⁻¹⁰ | here: of the effort | all |
+//! | 11 where the motion ends, one ulp and one percent beyond it; NaN and infinities | here; exact cases in `families.rs` | all |
+//! | 12 cascades of six dyads of all kinds, any of them near its dead centre | here, as a kind | |
+//! | 13 the same bits everywhere | `tests/no-std`, `tests/bits.rs` | all examples |
+//! | 15 ground lines at any angle | here: of every linkage but those of 5; folds in `families.rs` | all |
+
+mod support;
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::fmt::Write as _;
+
+use linkage_codegen::Linkage;
+use linkage_codegen::graph::Failure;
+use linkage_codegen::program::Fault;
+use nalgebra::{DMatrix, DVector};
+use support::bounds::{ratios, with_bounds};
+use support::families::{
+    BARS, Family, boom, four_bar, length, loads, oscillating_block, planet, rounded, scotch_yoke, shaper, single,
+    slider_crank, slotted_crank, slotted_yoke, tangent_mechanism, welded,
+};
+use support::general::equations_at;
+use support::linkages::{Class, Place, Random, in_single_precision, sample_with_forces};
+use support::measures::{Measures, is_moment, measure};
+use support::numbers::{Double, Single};
+use support::{Arguments, Number, compile_if_it_closes, pose, scene};
+
+/// How the linkages of a kind are made.
+enum Drawn {
+    /// By dimensions, the first of them lengths, and an angle in degrees if `angle` is set.
+    ByDimensions { text: fn(&[f64], &mut Random) -> String, dimensions: &'static [(f64, f64)], angle: bool },
+    /// By places.
+    ByPlaces(Class),
+}
+
+/// A kind of linkage, named by its groups.
+struct Kind {
+    name: &'static str,
+    drawn: Drawn,
+    /// The drive's range, about where the linkage starts if it is iterated.
+    range: (f64, f64),
+    /// Dimensions with which it folds.
+    folds: &'static [&'static [f64]],
+    /// Dimensions with which links come to lie along one line, and the axes.
+    aligned: &'static [&'static [f64]],
+}
+
+const TURN: (f64, f64) = (-7.0, 7.0);
+
+const KINDS: [Kind; 15] = [
+    Kind {
+        name: "RRR: four-bars",
+        drawn: Drawn::ByDimensions {
+            text: |d, random| four_bar([d[0], d[1], d[2], d[3]], random),
+            dimensions: &[(0.1, 2.0); 4],
+            angle: false,
+        },
+        range: TURN,
+        folds: &[
+            &[1.0, 0.5, 1.0, 0.5],
+            &[0.5, 1.0, 0.5, 1.0],
+            &[1.0, 1.0, 1.0, 1.0],
+            &[1.0, 1.0, 0.5, 0.5],
+            &[0.5, 1.0, 1.0, 0.5],
+            &[1.75, 1.0, 1.25, 1.5],
+            &[1.5, 0.5, 1.25, 0.75],
+        ],
+        aligned: &[&[2.0, 0.5, 1.75, 1.0], &[0.5, 1.0, 1.25, 1.0], &[1.0, 1.0, 1.0, 1.0], &[1.25, 0.5, 0.75, 1.0]],
+    },
+    Kind {
+        name: "RRR with welds: four-bars",
+        drawn: Drawn::ByDimensions {
+            text: |d, random| welded([d[0], d[1], d[2]], random),
+            dimensions: &[(0.1, 2.0); 3],
+            angle: false,
+        },
+        range: TURN,
+        folds: &[],
+        aligned: &[&[1.0, 0.5, 1.0], &[0.5, 1.0, 1.0]],
+    },
+    Kind {
+        name: "RRP: slider-cranks",
+        drawn: Drawn::ByDimensions {
+            text: |d, random| slider_crank([d[0], d[1], d[2]], random),
+            dimensions: &[(0.1, 1.0), (0.3, 3.0), (-0.5, 0.5)],
+            angle: false,
+        },
+        range: TURN,
+        folds: &[&[1.0, 1.0, 0.0], &[0.75, 1.0, 0.25]],
+        aligned: &[&[0.5, 1.5, 0.0], &[0.5, 1.0, 0.5], &[1.0, 1.25, 0.75]],
+    },
+    Kind {
+        name: "RPR: oscillating blocks",
+        drawn: Drawn::ByDimensions {
+            text: |d, random| oscillating_block([d[0], d[1], d[2]], random),
+            dimensions: &[(0.3, 2.0), (0.1, 2.0), (-0.5, 0.5)],
+            angle: false,
+        },
+        range: TURN,
+        folds: &[&[1.0, 1.0, 0.0], &[1.0, 0.75, 0.25]],
+        aligned: &[&[1.5, 0.5, 0.0], &[1.0, 0.5, 0.25], &[1.0, 1.0, 0.5]],
+    },
+    Kind {
+        name: "RPR with its slide driven: booms on cylinders",
+        drawn: Drawn::ByDimensions {
+            text: |d, random| boom([d[0], d[1], d[2]], random),
+            dimensions: &[(0.5, 2.0), (0.5, 2.0), (-0.2, 0.2)],
+            angle: false,
+        },
+        range: (0.5, 3.0),
+        folds: &[&[1.0, 1.0, 0.0]],
+        aligned: &[&[1.5, 2.0, 0.0], &[1.0, 1.0, 0.0]],
+    },
+    Kind {
+        name: "PRP: tangent mechanisms",
+        drawn: Drawn::ByDimensions {
+            text: |d, random| tangent_mechanism([d[0], d[1], d[2]], random),
+            dimensions: &[(0.3, 2.0), (-0.5, 0.5), (60.0, 120.0)],
+            angle: true,
+        },
+        range: (-1.0, 1.0),
+        folds: &[],
+        aligned: &[&[1.0, 0.0, 90.0], &[1.0, 0.5, 90.0]],
+    },
+    Kind {
+        name: "RPP: Scotch yokes",
+        drawn: Drawn::ByDimensions {
+            text: |d, random| scotch_yoke([d[0], d[1], d[2]], random),
+            dimensions: &[(0.3, 2.0), (-0.5, 0.5), (45.0, 135.0)],
+            angle: true,
+        },
+        range: TURN,
+        folds: &[],
+        aligned: &[&[1.0, 0.0, 90.0], &[1.0, 0.5, 90.0]],
+    },
+    Kind {
+        name: "slot and pin: levers with slots",
+        drawn: Drawn::ByDimensions {
+            text: |d, random| shaper([d[0], d[1], d[2]], random),
+            dimensions: &[(0.3, 2.0), (0.1, 2.0), (-0.5, 0.5)],
+            angle: false,
+        },
+        range: TURN,
+        folds: &[&[1.0, 1.0, 0.0], &[1.0, 0.75, 0.25]],
+        aligned: &[&[1.5, 0.5, 0.0], &[1.0, 0.5, 0.25]],
+    },
+    Kind {
+        name: "slot and pin: links in a crank's slot",
+        drawn: Drawn::ByDimensions {
+            text: |d, random| slotted_crank([d[0], d[1], d[2]], random),
+            dimensions: &[(0.3, 2.0), (0.5, 2.0), (-0.5, 0.5)],
+            angle: false,
+        },
+        range: TURN,
+        folds: &[&[1.0, 1.0, 0.0]],
+        aligned: &[&[1.0, 1.5, 0.0], &[1.0, 2.0, 0.5]],
+    },
+    Kind {
+        name: "slot and slide: yokes",
+        drawn: Drawn::ByDimensions {
+            text: |d, random| slotted_yoke([d[0], d[1], d[2]], random),
+            dimensions: &[(0.3, 2.0), (-0.5, 0.5), (45.0, 135.0)],
+            angle: true,
+        },
+        range: TURN,
+        folds: &[],
+        aligned: &[&[1.0, 0.0, 90.0], &[1.0, 0.5, 90.0]],
+    },
+    Kind {
+        name: "gear and pin: planets",
+        drawn: Drawn::ByDimensions {
+            text: |d, random| planet([d[0], d[1], d[2]], random),
+            dimensions: &[(0.3, 2.0), (0.1, 2.0), (-0.5, 0.5)],
+            angle: false,
+        },
+        range: TURN,
+        folds: &[],
+        aligned: &[&[1.0, 0.5, 0.0]],
+    },
+    Kind {
+        name: "six dyads: cascades",
+        drawn: Drawn::ByPlaces(Class::Cascade),
+        range: (-1.0, 1.0),
+        folds: &[],
+        aligned: &[],
+    },
+    Kind { name: "Newton: triads", drawn: Drawn::ByPlaces(Class::Three), range: (-0.3, 0.3), folds: &[], aligned: &[] },
+    Kind {
+        name: "Newton: triads, some with a slider",
+        drawn: Drawn::ByPlaces(Class::ThreeWithSlider),
+        range: (-0.3, 0.3),
+        folds: &[],
+        aligned: &[],
+    },
+    Kind {
+        name: "Newton: class IV",
+        drawn: Drawn::ByPlaces(Class::Four),
+        range: (-0.3, 0.3),
+        folds: &[],
+        aligned: &[],
+    },
+];
+
+/// A linkage of a kind.
+struct Member {
+    text: String,
+    longest: f64,
+    range: (f64, f64),
+    loads: Vec<[f64; 2]>,
+}
+
+impl Kind {
+    fn slides(&self) -> bool {
+        self.name.contains("booms")
+    }
+
+    fn drawn(&self, random: &mut Random) -> Member {
+        match &self.drawn {
+            Drawn::ByDimensions { dimensions, .. } => {
+                let sizes: Vec<f64> = dimensions.iter().map(|(low, high)| length(random, *low, *high)).collect();
+                self.with(&sizes, random).expect("dimensions")
+            }
+            Drawn::ByPlaces(class) => {
+                let sample = sample_with_forces(random.next(), *class);
+                let begin = sample.arguments.drives[0];
+                let range = (begin + self.range.0, begin + self.range.1);
+                Member { text: sample.text, longest: sample.longest, range, loads: sample.arguments.loads }
+            }
+        }
+    }
+
+    fn is_cascade(&self) -> bool {
+        matches!(self.drawn, Drawn::ByPlaces(Class::Cascade))
+    }
+
+    /// Whether its groups are placed by iteration.
+    fn is_iterated(&self) -> bool {
+        matches!(self.drawn, Drawn::ByPlaces(_)) && !self.is_cascade()
+    }
+
+    /// A turn of the drive, or any length of a cylinder.
+    fn widely(&self, member: &Member) -> (f64, f64) {
+        let middle = member.range.0.midpoint(member.range.1);
+        if self.slides() { (0.01, 5.0) } else { (middle - PI, middle + PI) }
+    }
+
+    /// One of given dimensions.
+    fn with(&self, sizes: &[f64], random: &mut Random) -> Option<Member> {
+        let Drawn::ByDimensions { text, angle, .. } = &self.drawn else { return None };
+        let lengths = &sizes[..sizes.len() - usize::from(*angle)];
+        let longest = lengths.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        Some(Member { text: text(sizes, random), longest, range: self.range, loads: loads(random) })
+    }
+}
+
+impl Member {
+    fn poses(self, drives: Vec<f64>) -> Family {
+        Family { text: self.text, longest: self.longest, drives, loads: self.loads }
+    }
+
+    fn drives(&self, random: &mut Random, count: usize) -> Vec<f64> {
+        (0..count).map(|_| random.range(self.range.0, self.range.1)).collect()
+    }
+}
+
+fn at(drive: f64, loads: &[[f64; 2]]) -> Arguments {
+    Arguments { drives: vec![drive], loads: loads.to_vec(), ..Arguments::default() }
+}
+
+/// The equations of all free bodies, in doubles; nothing where the linkage cannot be assembled.
+fn equations(linkage: &Linkage, arguments: &Arguments) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    let kept = pose::<Double>(linkage, arguments).ok()?;
+    let general = equations_at(linkage, arguments, &kept);
+    let right = DVector::from_vec(general.right_side(&|_| true).iter().map(|x| x.0).collect());
+    let (lines, columns) = (right.len(), general.matrix[0].len());
+    Some((DMatrix::from_fn(lines, columns, |i, j| general.matrix[i][j].0), right))
+}
+
+/// Where the drive comes to a singular pose: where the linkage ends, or the determinant of all its equations changes its sign. On
+/// each side the nearest doubles.
+fn singular(linkage: &Linkage, (low, high): (f64, f64), steps: u32) -> Vec<Singular> {
+    let sense = |drive: f64| {
+        let (matrix, _) = equations(linkage, &at(drive, &vec![[0.0; 2]; linkage.model.loads.len()]))?;
+        Some(matrix.determinant() > 0.0)
+    };
+    let place = |step: u32| low + (high - low) * f64::from(step) / f64::from(steps);
+    let senses: Vec<Option<bool>> = (0..=steps).map(|step| sense(place(step))).collect();
+    let mut found = Vec::new();
+    for step in 0..steps {
+        let (first, second) = (senses[step as usize], senses[step as usize + 1]);
+        if first == second {
+            continue;
+        }
+        let (mut near, mut far) = (place(step), place(step + 1));
+        let (kept, other) = if first.is_some() { (first, second) } else { (second, first) };
+        if first.is_none() {
+            core::mem::swap(&mut near, &mut far);
+        }
+        loop {
+            let middle = 0.5 * (near + far);
+            if middle == near || middle == far {
+                break;
+            }
+            if sense(middle) == kept { near = middle } else { far = middle }
+        }
+        found.push(Singular { inside: near, outside: far, ends: other.is_none() });
+    }
+    found
+}
+
+#[derive(Clone, Copy)]
+struct Singular {
+    inside: f64,
+    outside: f64,
+    /// Whether there is nothing beyond.
+    ends: bool,
+}
+
+impl Singular {
+    /// At which the pivot is about 10^-k of what it is elsewhere.
+    fn near(self) -> impl Iterator<Item = f64> {
+        let sense = (self.inside - self.outside).signum();
+        // At an end the pivot grows with the root of the distance.
+        let (power, last) = if self.ends { (-2, 6) } else { (-1, 7) };
+        (1..=last).map(move |k| self.inside + sense * 10f64.powi(power * k))
+    }
+}
+
+/// Loads without the part that the coefficients see, but for so much of it.
+fn without(loads: &[[f64; 2]], coefficients: &[[f64; 2]], but: f64) -> Vec<[f64; 2]> {
+    let dot = |a: &[[f64; 2]], b: &[[f64; 2]]| a.iter().zip(b).map(|(a, b)| a[0] * b[0] + a[1] * b[1]).sum::<f64>();
+    let size = dot(coefficients, coefficients);
+    let factor = if size > 0.0 { (1.0 - but) * dot(loads, coefficients) / size } else { 0.0 };
+    let less = |(load, c): (&[f64; 2], &[f64; 2])| [load[0] - factor * c[0], load[1] - factor * c[1]];
+    loads.iter().zip(coefficients).map(less).collect()
+}
+
+/// A function of the loads by its values for unit loads.
+fn coefficients(count: usize, of: &dyn Fn(&[[f64; 2]]) -> Option<f64>) -> Option<Vec<[f64; 2]>> {
+    let unit = |load: usize, part: usize| {
+        let mut loads = vec![[0.0; 2]; count];
+        loads[load][part] = 1.0;
+        of(&loads)
+    };
+    (0..count).map(|load| Some([unit(load, 0)?, unit(load, 1)?])).collect()
+}
+
+/// Numbers of a declaration, each with what follows it, replaced.
+fn with_numbers(text: &str, new: &dyn Fn(&str, &str) -> Option<String>) -> String {
+    let bytes = text.as_bytes();
+    let (mut out, mut i) = (String::new(), 0);
+    while i < bytes.len() {
+        let word = |b: u8| b.is_ascii_alphanumeric() || b == b'_';
+        if bytes[i].is_ascii_digit() && (i == 0 || !word(bytes[i - 1])) {
+            let digits = |from: usize| (from..bytes.len()).find(|j| !(bytes[*j].is_ascii_digit() || bytes[*j] == b'.'));
+            let mut end = digits(i).unwrap_or(bytes.len());
+            if text[end..].starts_with("e-") {
+                end = digits(end + 2).unwrap_or(bytes.len());
+            }
+            let unit = (end..bytes.len()).find(|j| !word(bytes[*j])).unwrap_or(bytes.len());
+            match new(&text[i..end], &text[end..unit]) {
+                Some(other) => out.push_str(&other),
+                None => out.push_str(&text[i..unit]),
+            }
+            i = unit;
+        } else if word(bytes[i]) {
+            let end = (i..bytes.len()).find(|j| !word(bytes[*j])).unwrap_or(bytes.len());
+            out.push_str(&text[i..end]);
+            i = end;
+        } else {
+            out.push(char::from(bytes[i]));
+            i += 1;
+        }
+    }
+    out
+}
+
+/// All directions along the axes.
+fn along_the_axes(text: &str) -> String {
+    with_numbers(text, &|number, unit| {
+        let degrees: f64 = number.parse().ok()?;
+        (unit == "deg").then(|| format!("{:?}deg", 90.0 * (degrees / 90.0).round()))
+    })
+}
+
+/// Families by their numbers.
+type Make = fn(&Kind, &mut Random) -> Vec<Family>;
+
+const FAMILIES: [(&str, Make); 9] = [
+    ("random", |kind, random| {
+        let member = kind.drawn(random);
+        let drives = member.drives(random, 20);
+        vec![member.poses(drives)]
+    }),
+    ("1 dead centres", |kind, random| near_dead_centres(kind, random, false)),
+    ("2 compatible", |kind, random| near_dead_centres(kind, random, true)),
+    ("3 folds", |kind, random| {
+        if kind.folds.is_empty() {
+            return Vec::new();
+        }
+        let Some(member) = kind.with(random.pick::<&[f64]>(kind.folds), random) else { return Vec::new() };
+        let Some(linkage) = compile_if_it_closes(&member.text) else { return Vec::new() };
+        let found = singular(&linkage, (member.range.0, member.range.0.midpoint(member.range.1) + 0.1), 90);
+        let drives = found.into_iter().flat_map(Singular::near).collect();
+        // Pins that meet at no dead centre.
+        let near = |about: f64| (0..=7).flat_map(move |k| [1.0, -1.0].map(|sign| about + sign * 10f64.powi(-k)));
+        let text = along_the_axes(&member.text);
+        let longest = member.longest;
+        let other = Member { text, longest, range: member.range, loads: member.loads.clone() };
+        let others = (-2..=2).flat_map(|k| near(f64::from(k) * FRAC_PI_2)).collect();
+        vec![member.poses(drives), other.poses(others)]
+    }),
+    ("4 ratios", lengths_apart),
+    ("5, 14 aligned", |kind, random| {
+        if kind.aligned.is_empty() {
+            return Vec::new();
+        }
+        let Some(member) = kind.with(random.pick::<&[f64]>(kind.aligned), random) else { return Vec::new() };
+        let text = along_the_axes(&member.text);
+        let drives = (-4..=4).map(|k| f64::from(k) * FRAC_PI_2).chain([0.5, 1.0, 1.5, 2.5]).collect();
+        vec![Member { text, ..member }.poses(drives)]
+    }),
+    ("7 loads", |kind, random| {
+        let mut member = kind.drawn(random);
+        let factor = *random.pick(&[0.0, 1e-8, 1e8, -1e8]);
+        let which = random.below(member.loads.len());
+        member.loads[which] = member.loads[which].map(|x| single(x * factor));
+        let drives = member.drives(random, 20);
+        vec![member.poses(drives)]
+    }),
+    ("10 cancelling", |kind, random| {
+        let member = kind.drawn(random);
+        let Some(linkage) = compile_if_it_closes(&member.text) else { return Vec::new() };
+        let drives = member.drives(random, 20);
+        let name = &linkage.model.unknowns[0].name;
+        let families = drives.into_iter().filter_map(|drive| {
+            let torque = |loads: &[[f64; 2]]| Some(scene::<Double>(&linkage, "work", &at(drive, loads)).ok()?[name].0);
+            let loads = without(&member.loads, &coefficients(member.loads.len(), &torque)?, 1e-10);
+            Some(Family { text: member.text.clone(), longest: member.longest, drives: vec![drive], loads })
+        });
+        families.collect()
+    }),
+    ("9 triads", |kind, random| if kind.name == "Newton: triads" { special_triads(random) } else { Vec::new() }),
+];
+
+fn near_dead_centres(kind: &Kind, random: &mut Random, compatible: bool) -> Vec<Family> {
+    let mut members = vec![kind.drawn(random)];
+    if let Drawn::ByDimensions { dimensions, angle: true, .. } = &kind.drawn {
+        // Slides that are nearly parallel.
+        let mut sizes: Vec<f64> = dimensions.iter().map(|(low, high)| length(random, *low, *high)).collect();
+        let last = sizes.len() - 1;
+        sizes[last] = single(10f64.powi(-1 - i32::try_from(random.below(6)).expect("small")).to_degrees());
+        members.extend(kind.with(&sizes, random));
+    }
+    let mut families = Vec::new();
+    for member in members {
+        let Some(linkage) = compile_if_it_closes(&member.text) else { continue };
+        let steps = if matches!(kind.drawn, Drawn::ByPlaces(..)) { 40 } else { 90 };
+        let mut drives: Vec<f64> =
+            singular(&linkage, kind.widely(&member), steps).into_iter().flat_map(Singular::near).collect();
+        if matches!(kind.drawn, Drawn::ByDimensions { angle: true, .. }) {
+            drives.extend(member.drives(random, 4));
+        }
+        if !compatible {
+            families.push(member.poses(drives));
+            continue;
+        }
+        for drive in drives {
+            let Some((matrix, _)) = equations(&linkage, &at(drive, &member.loads)) else { continue };
+            let n = matrix.nrows();
+            let Some(u) = matrix.svd(true, false).u else { continue };
+            let virtual_displacement = u.column(n - 1).into_owned();
+            let work = |loads: &[[f64; 2]]| Some(equations(&linkage, &at(drive, loads))?.1.dot(&virtual_displacement));
+            let Some(seen) = coefficients(member.loads.len(), &work) else { continue };
+            let loads = without(&member.loads, &seen, 0.0);
+            families.push(Family { text: member.text.clone(), longest: member.longest, drives: vec![drive], loads });
+        }
+    }
+    families
+}
+
+/// Lengths that differ by up to 10⁸, and so legs that are much longer than the distance between their pins.
+fn lengths_apart(kind: &Kind, random: &mut Random) -> Vec<Family> {
+    let Drawn::ByDimensions { dimensions, angle, .. } = &kind.drawn else { return Vec::new() };
+    let lengths = dimensions.len() - usize::from(*angle);
+    let small = 10f64.powi(-2 - i32::try_from(random.below(7)).expect("small"));
+    let which = 1 + random.below((1 << lengths) - 2);
+    // Those that are large are equal, as often as not.
+    let equal = random.chance(0.5);
+    let sizes: Vec<f64> = dimensions
+        .iter()
+        .enumerate()
+        .map(|(index, (low, high))| {
+            let size = if equal && index < lengths { 1.0 } else { length(random, *low, *high) };
+            if index < lengths && which >> index & 1 == 1 { single(length(random, 0.3, 1.0) * small) } else { size }
+        })
+        .collect();
+    let Some(member) = kind.with(&sizes, random) else { return Vec::new() };
+    let near = (0..=8).flat_map(|k| [0.0, PI].map(|about| about + random.range(-1.0, 1.0) * 10f64.powi(-k)));
+    let mut drives: Vec<f64> = near.collect();
+    drives.extend(member.drives(random, 6));
+    vec![member.poses(drives)]
+}
+
+/// A ternary link on three legs, by its pins and the ways along the legs to them, where it starts.
+fn triad(pins: [Place; 3], legs: [Place; 3], random: &mut Random) -> Member {
+    let feet: Vec<Place> = pins.iter().zip(legs).map(|(p, l)| [p[0] - l[0], p[1] - l[1]]).collect();
+    let (crank, q) = (length(random, 0.3, 1.0), random.range(-3.0, 3.0));
+    let o = [feet[0][0] - crank * q.cos(), feet[0][1] - crank * q.sin()];
+    let own = |p: Place| [p[0] - pins[0][0], p[1] - pins[0][1]];
+    let size = |a: Place| a[0].hypot(a[1]);
+    let lengths = legs.map(size);
+    let [angle_b, angle_c, angle_d] = legs.map(|leg| leg[1].atan2(leg[0]));
+    let (x, y) = (random.range(-1.0, 1.0), random.range(-1.0, 1.0));
+    let point = |p: Place| format!("({:?}m, {:?}m)", p[0], p[1]);
+    let text = format!(
+        "pub mod sample; ground {{ O: {}, F: {}, G: {} }} link crank {{ O -> A: {crank:?}m }} link b {{ A -> P: {:?}m }}
+         link t {{ P: (0, 0), Q: {}, R: {}, T: {} }} link c {{ F -> Q: {:?}m, S: ({x:?}m, {y:?}m) }} link d {{ G -> R: {:?}m }}
+         revolute O: ground -> crank; revolute A: crank -> b; revolute P: b -> t; revolute F: ground -> c; revolute Q: c -> t;
+         revolute G: ground -> d; revolute R: d -> t; drive q: O; start q: {q:?}rad;
+         start b: {}, angle {angle_b:?}rad; start t: {}, angle 0rad; start c: {}, angle {angle_c:?}rad; start d: {}, angle {angle_d:?}rad;
+         load L: force(t.T); load H: force(c.S); scene all: equilibrium; scene work: virtual_work;",
+        point(o), point(feet[1]), point(feet[2]), lengths[0],
+        point(own(pins[1])), point(own(pins[2])), point([x, y]), lengths[1], lengths[2],
+        point(feet[0]), point(pins[0]), point(feet[1]), point(feet[2]),
+    );
+    let ternary = [size(own(pins[1])), size(own(pins[2])), size([pins[2][0] - pins[1][0], pins[2][1] - pins[1][1]])];
+    let longest = lengths.into_iter().chain(ternary).chain([crank]).fold(0.0, f64::max);
+    let text = in_single_precision(&text);
+    Member { text, longest, range: (q - 0.1, q + 0.1), loads: loads(random) }
+}
+
+/// Legs whose lines nearly meet in one point, or that are nearly parallel; the third pin on the first line; a tiny or a huge ternary.
+fn special_triads(random: &mut Random) -> Vec<Family> {
+    let distance = 10f64.powi(-1 - i32::try_from(random.below(4)).expect("small"));
+    let sign = |random: &mut Random| if random.chance(0.5) { 1.0 } else { -1.0 };
+    let at = |random: &mut Random| [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
+    let along = |angle: f64, size: f64| [size * angle.cos(), size * angle.sin()];
+    let which = random.below(5);
+    let mut pins = [at(random), at(random), at(random)];
+    let sizes = [(); 3].map(|()| random.range(0.5, 2.0) * sign(random));
+    let begin = random.range(-3.0, 3.0);
+    let mut angles = [begin, begin + random.range(0.7, 1.5), begin - random.range(0.7, 1.5)];
+    match which {
+        0 => {
+            let meet = at(random);
+            angles = pins.map(|p| (meet[1] - p[1]).atan2(meet[0] - p[0]));
+            angles[2] += distance * sign(random);
+        }
+        1 => angles = [begin, begin + distance * sign(random), begin - 0.7 * distance],
+        2 => {
+            let along = along(angles[0], random.range(0.4, 1.5));
+            pins[2] = [pins[0][0] + along[0], pins[0][1] + along[1]];
+        }
+        _ => {
+            let factor = if which == 3 { distance } else { 1.0 / distance };
+            pins = pins.map(|p| p.map(|x| x * factor));
+        }
+    }
+    let legs = [0, 1, 2].map(|i| along(angles[i], sizes[i]));
+    let member = triad(pins, legs, random);
+    let middle = member.range.0.midpoint(member.range.1);
+    let reach = if which < 2 { distance } else { 1.0 } * 0.1;
+    let drives = (0..6).map(|_| middle + random.range(-reach, reach)).collect();
+    vec![member.poses(drives)]
+}
+
+/// What a family gave: the worst of each measure in either scalar, how many poses, and the worst pose of each scalar.
+#[derive(Default)]
+struct Cell {
+    worst: [Measures; 2],
+    poses: usize,
+    example: [Option<(f64, String)>; 2],
+    /// Ratios of bounds to errors.
+    bounds: Vec<f64>,
+}
+
+/// Whether a pivot is zero to rounding: of such a pose there are no forces, and directions at the very end of a motion are those that
+/// are nearest to closing.
+fn at_its_dead_centre<T: Number>(linkage: &Linkage, arguments: &Arguments) -> bool {
+    let Ok(kept) = pose::<T>(linkage, arguments) else { return true };
+    let pivots =
+        linkage.plan.pose.iter().filter(|kept| kept.name.starts_with("sin_mu_") || kept.name.starts_with("arm_"));
+    pivots.map(|pivot| kept[&pivot.node].to_f64()).any(|pivot| pivot == 0.0)
+}
+
+/// The largest part of its bar that a measure takes, and its name.
+fn share(measures: &Measures) -> (f64, &'static str) {
+    let all = [
+        (measures.unit / BARS.unit, "unit"),
+        (measures.closure / BARS.closure, "closure"),
+        (measures.backward / BARS.backward, "backward"),
+        (measures.free_body / BARS.free_body, "free body"),
+        (measures.torque / BARS.torque, "torque"),
+    ];
+    all.into_iter().fold((0.0, ""), |worst, one| if one.0 > worst.0 { one } else { worst })
+}
+
+impl Cell {
+    fn add<T: Number>(&mut self, which: usize, family: &Family, bounded: bool) {
+        let (scalar, epsilon) = [("f64", f64::EPSILON), ("f32", f64::from(f32::EPSILON))][which];
+        let text = family.text.replacen(';', &format!("; scalar {scalar};"), 1);
+        let Some(linkage) = (if bounded { with_bounds(&text) } else { compile_if_it_closes(&text) }) else { return };
+        for drive in &family.drives {
+            let arguments = at(*drive, &family.loads);
+            if at_its_dead_centre::<T>(&linkage, &arguments) {
+                continue;
+            }
+            let Ok(measures) = measure::<T>(&linkage, &arguments, family.longest, epsilon) else { continue };
+            if which == 0 {
+                self.poses += 1;
+            }
+            self.worst[which] = self.worst[which].worst(measures);
+            let (share, _) = share(&measures);
+            let context = || format!("{text}\ndrive {drive:?}, loads {:?}", family.loads);
+            if self.example[which].as_ref().is_none_or(|(worst, _)| share > *worst) {
+                self.example[which] = Some((share, format!("{measures:?}\n{}", context())));
+            }
+            if bounded && let Ok(found) = scene::<T>(&linkage, "bounded", &arguments) {
+                self.bounds.extend(ratios(&linkage, &arguments, &found, &context()));
+            }
+        }
+    }
+
+    fn add_both(&mut self, family: &Family, bounded: bool) {
+        self.add::<Double>(0, family, bounded);
+        self.add::<Single>(1, &rounded(family), bounded);
+    }
+
+    /// A line of the table, and what is beyond its bar.
+    fn report(mut self, kind: &Kind, family: &str) -> String {
+        let [(double, of), (single, and)] = self.worst.map(|worst| share(&worst));
+        self.bounds.sort_by(f64::total_cmp);
+        let median =
+            self.bounds.get(self.bounds.len() / 2).map_or_else(String::new, |x| format!("  bound/error {x:.0}"));
+        println!(
+            "{:46} {family:14} {:8} poses  f64 {double:5.2} {of:9}  f32 {single:5.2} {and:9}{median}",
+            kind.name, self.poses
+        );
+        let beyond = self.example.into_iter().flatten().filter(|(share, _)| *share > 1.0);
+        beyond.map(|(_, example)| format!("{}, {family}: {example}\n", kind.name)).collect()
+    }
+}
+
+/// All families of a kind, and as many random poses as are asked for.
+fn run(kind: &Kind, members: usize, random_poses: usize) {
+    let mut beyond = String::new();
+    let mut total = 0;
+    for (number, (family, make)) in (0..).zip(&FAMILIES) {
+        let mut random = Random(number);
+        let mut cell = Cell::default();
+        for member in 0..members {
+            for family in make(kind, &mut random) {
+                cell.add_both(&family, member % 4 == 0 && !kind.is_iterated());
+            }
+        }
+        total += cell.poses;
+        if cell.poses > 0 {
+            beyond += &cell.report(kind, family);
+        }
+    }
+    let mut random = Random(77);
+    let mut cell = Cell::default();
+    while cell.poses < random_poses {
+        let member = kind.drawn(&mut random);
+        let drives = member.drives(&mut random, 40);
+        cell.add_both(&member.poses(drives), false);
+    }
+    total += cell.poses;
+    if random_poses > 0 {
+        beyond += &cell.report(kind, "random, many");
+    }
+    println!("{:46} {total} poses", kind.name);
+    assert!(beyond.is_empty(), "{beyond}");
+}
+
+/// The results of a scene by name, bit for bit.
+fn bits(linkage: &Linkage, name: &str, arguments: &Arguments) -> Result<Vec<(String, u64)>, Fault> {
+    let values = scene::<Double>(linkage, name, arguments)?;
+    let mut all: Vec<(String, u64)> = values.into_iter().map(|(path, value)| (path, value.0.to_bits())).collect();
+    all.sort();
+    Ok(all)
+}
+
+/// 6: elsewhere the same linkage has the same directions and forces.
+fn moved(kind: &Kind, members: usize) {
+    let mut random = Random(15);
+    for offset in ["1000", "123456", "100000000"] {
+        for _ in 0..members {
+            let member = kind.drawn(&mut random);
+            let text = shifted(&member.text, offset);
+            let [Some(near), Some(far)] = [&member.text, &text].map(|text| compile_if_it_closes(text)) else {
+                continue;
+            };
+            for drive in member.drives(&mut random, 4) {
+                let arguments = at(drive, &member.loads);
+                assert_eq!(bits(&near, "all", &arguments), bits(&far, "all", &arguments), "{text}");
+                let kept = |linkage: &Linkage| {
+                    let kept = pose::<Double>(linkage, &arguments).ok()?;
+                    let bits = |node| kept[node].0.to_bits();
+                    Some(linkage.plan.pose.iter().map(|k| (k.name.clone(), bits(&k.node))).collect::<Vec<_>>())
+                };
+                assert_eq!(kept(&near), kept(&far), "{text}");
+            }
+        }
+    }
+}
+
+/// The declaration with all points of the ground, and all starts, moved by the same amount.
+fn shifted(text: &str, offset: &str) -> String {
+    let start = text.find("ground {").expect("a ground") + "ground {".len();
+    let end = start + text[start..].find('}').expect("its end");
+    let mut places = String::new();
+    for place in text[start..end].split(", ").fold(Vec::<String>::new(), |mut all, part| {
+        // `A0: (0, 0)` was split at its own comma.
+        if part.contains(": ") {
+            all.push(part.to_owned());
+        } else if let Some(last) = all.last_mut() {
+            let _ = write!(last, ", {part}");
+        }
+        all
+    }) {
+        let (name, at) = place.trim().split_once(": ").expect("a point");
+        let (x, y) = match at.split_once(" @ ") {
+            Some((size, angle)) => (format!("({size})*cos({angle})"), format!("({size})*sin({angle})")),
+            None => {
+                let (x, y) = at.trim_matches(['(', ')']).split_once(", ").expect("two coordinates");
+                (x.to_owned(), y.to_owned())
+            }
+        };
+        let _ = write!(places, "{name}: ({x} + {offset}m, {y} - {offset}m), ");
+    }
+    let starts = text[end..].split("start ").map(|part| {
+        let place = part.split_once(": (").and_then(|(name, rest)| Some((name, rest.split_once("), angle")?)));
+        let Some((name, (place, rest))) = place.filter(|(name, _)| !name.contains(';')) else { return part.to_owned() };
+        let (x, y) = place.split_once(", ").expect("two coordinates");
+        format!("{name}: ({x} + {offset}m, {y} - {offset}m), angle{rest}")
+    });
+    format!("{}{places}{}", &text[..start], starts.collect::<Vec<_>>().join("start "))
+}
+
+/// 8: in units that differ by a power of two the same linkage has the same digits. Not where links are placed by iteration: how far a
+/// search steps is decided by lengths and angles together.
+fn in_other_units(kind: &Kind, members: usize) {
+    if kind.is_iterated() {
+        return;
+    }
+    let mut random = Random(16);
+    for exponent in [-40, -8, 8, 40] {
+        let (factor, power) = (2f64.powi(exponent), 2f64.powi(exponent.abs()));
+        for _ in 0..members {
+            let member = kind.drawn(&mut random);
+            // A unit of length that is smaller by the factor stands in the declaration exactly.
+            let unit = if exponent < 0 { format!("m/{power:?}") } else { format!("m*{power:?}") };
+            let text = with_numbers(&member.text, &|number, of| (of == "m").then(|| format!("{number}*{unit}")));
+            let [Some(plain), Some(scaled)] = [&member.text, &text].map(|text| compile_if_it_closes(text)) else {
+                continue;
+            };
+            for drive in member.drives(&mut random, 4) {
+                let other = if kind.slides() { drive * factor } else { drive };
+                let found = scene::<Double>(&plain, "all", &at(drive, &member.loads));
+                let (Ok(found), Ok(others)) = (found, scene::<Double>(&scaled, "all", &at(other, &member.loads)))
+                else {
+                    continue;
+                };
+                for (path, value) in found {
+                    let expected = if is_moment(&plain, &path) { value.0 * factor } else { value.0 };
+                    assert_eq!(
+                        others[&path].0.to_bits(),
+                        expected.to_bits(),
+                        "{path} with 2^{exponent} at {drive:?}\n{text}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// 11: at the end of a motion and beyond it, and where a determinant changes its sign: a typed error, or a number that keeps to the bars.
+fn ends(kind: &Kind, members: usize) {
+    let mut random = Random(17);
+    for _ in 0..members {
+        let member = kind.drawn(&mut random);
+        let text = member.text.replacen(';', "; scalar f64;", 1);
+        let Some(linkage) = compile_if_it_closes(&text) else { continue };
+        for found in singular(&linkage, kind.widely(&member), 40) {
+            let sense = (found.outside - found.inside).signum();
+            let ulps = |x: f64, n: i32| (0..n).fold(x, |x, _| if sense > 0.0 { x.next_up() } else { x.next_down() });
+            let near = (0..5).map(|n| ulps(found.inside, n)).chain([1e-15, 1e-12].map(|by| found.outside + sense * by));
+            for drive in near {
+                let arguments = at(drive, &member.loads);
+                for name in ["all", "work"] {
+                    match scene::<Double>(&linkage, name, &arguments) {
+                        Ok(values) => assert!(values.values().all(|value| value.0.is_finite())),
+                        Err(fault) => assert!(matches!(fault, Fault::Failed(_)), "{fault:?} at {drive:?}\n{text}"),
+                    }
+                }
+                if at_its_dead_centre::<Double>(&linkage, &arguments) {
+                    continue;
+                }
+                if let Ok(measures) = measure::<Double>(&linkage, &arguments, member.longest, f64::EPSILON) {
+                    let beyond = Measures { torque: 0.0, ..measures };
+                    assert!(share(&beyond).0 <= 1.0, "{measures:?} at {drive:?}\n{text}");
+                }
+            }
+            let beyond = at(found.outside + sense * 0.01, &member.loads);
+            if found.ends && equations(&linkage, &beyond).is_none() {
+                for name in ["all", "work"] {
+                    let fault = match scene::<Double>(&linkage, name, &beyond) {
+                        Err(fault) => fault,
+                        // Of a cascade without the dyad that cannot be assembled, if no load reaches that.
+                        Ok(_) => {
+                            assert!(kind.is_cascade(), "{name}: nothing to solve\n{text}");
+                            continue;
+                        }
+                    };
+                    let typed = matches!(
+                        fault,
+                        Fault::Failed(
+                            Failure::CannotAssemble { .. }
+                                | Failure::NoConvergence { .. }
+                                | Failure::CoincidentPivots { .. }
+                                | Failure::DeadCentre { .. }
+                        )
+                    );
+                    assert!(typed, "{name}: {fault:?}\n{text}");
+                }
+            }
+        }
+    }
+}
+
+/// 11: NaN and infinity in every argument of every function: a typed error, never a number.
+fn not_finite(kind: &Kind, members: usize) {
+    let mut random = Random(18);
+    for _ in 0..members {
+        let member = kind.drawn(&mut random);
+        let mut text = member.text.clone();
+        for scene in ["scene parts: superposition;", "scene whole: position;"] {
+            if !text.contains(scene) {
+                text += scene;
+            }
+        }
+        let Some(linkage) = compile_if_it_closes(&text) else { continue };
+        let Some(drive) = member.drives(&mut random, 20).into_iter().find(|drive| {
+            ["all", "work"].iter().all(|name| scene::<Double>(&linkage, name, &at(*drive, &member.loads)).is_ok())
+        }) else {
+            continue;
+        };
+        let good = at(drive, &member.loads);
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for name in ["all", "parts", "work", "whole"] {
+                let arguments = at(bad, &member.loads);
+                assert_eq!(
+                    scene::<Double>(&linkage, name, &arguments).unwrap_err(),
+                    Fault::NotFinite,
+                    "{name}\n{text}"
+                );
+                for (load, part) in (0..member.loads.len()).flat_map(|load| [(load, 0), (load, 1)]) {
+                    let mut arguments = good.clone();
+                    arguments.loads[load][part] = bad;
+                    let result = scene::<Double>(&linkage, name, &arguments);
+                    // Places do not depend on loads: they pass untouched.
+                    assert!(result.is_err() == (name != "whole"), "{name} with {bad} in load {load}\n{text}");
+                }
+            }
+        }
+        // Loads that are finite, and results that are not.
+        let huge = at(drive, &[[1e308, 1e308], [-1e308, 1e308]]);
+        for name in ["all", "parts", "work"] {
+            match scene::<Double>(&linkage, name, &huge) {
+                Err(fault) => assert_eq!(fault, Fault::NotFinite),
+                Ok(values) => assert!(values.values().all(|value| value.0.is_finite())),
+            }
+        }
+    }
+}
+
+/// One kind: quickly, and at length.
+macro_rules! kinds {
+    ($($name:ident: $index:literal, $random:literal;)*) => {
+        mod quick {$(
+            #[test]
+            fn $name() {
+                super::all(&super::KINDS[$index], 2, 0);
+            }
+        )*}
+        mod long {$(
+            #[test]
+            #[ignore = "long"]
+            fn $name() {
+                super::all(&super::KINDS[$index], 100, $random);
+            }
+        )*}
+    };
+}
+
+fn all(kind: &Kind, members: usize, random_poses: usize) {
+    moved(kind, members.div_ceil(5));
+    in_other_units(kind, members.div_ceil(5));
+    not_finite(kind, members.div_ceil(5));
+    ends(kind, members);
+    run(kind, members, random_poses);
+}
+
+kinds! {
+    four_bars: 0, 1_000_000;
+    welded_four_bars: 1, 5_000;
+    slider_cranks: 2, 1_000_000;
+    oscillating_blocks: 3, 5_000;
+    booms: 4, 5_000;
+    tangent_mechanisms: 5, 5_000;
+    scotch_yokes: 6, 5_000;
+    levers_with_slots: 7, 5_000;
+    links_in_slots: 8, 5_000;
+    yokes_with_slots: 9, 5_000;
+    planets: 10, 5_000;
+    cascades: 11, 5_000;
+    triads: 12, 5_000;
+    triads_with_sliders: 13, 5_000;
+    class_four: 14, 5_000;
+}
