@@ -257,7 +257,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             rows[13][index],
             rows[14][index] / 1000.0,
         ];
-        csv.push_str(&values.map(|value| format!("{value:.6}")).join(","));
+        // What is rounded to nothing has no sign.
+        let rounded = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
+        csv.push_str(&values.map(|value| format!("{:.6}", rounded(value))).join(","));
         csv.push('\n');
     }
     std::fs::write(folder.join("engine.csv"), csv)?;

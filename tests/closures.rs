@@ -183,3 +183,47 @@ fn a_group_behind_a_chosen_side_is_searched_from_its_start() -> Result<(), Error
     }
     Ok(())
 }
+
+linkage! {
+    /// A triad of which one length is known only at run time.
+    mod given;
+    units { mm, N }
+    param reach: length;
+    ground     { O: (0, 0), Q: (500mm, 100mm), P: (400mm, -100mm) }
+    link crank { O -> A: 28mm }
+    link rod   { A -> E: 230mm }
+    link plate { E: (0, 0), C: (100mm, 70mm), D: (70mm, -90mm) }
+    link upper { Q -> C: reach }
+    link lower { P -> D: 180mm }
+    revolute O: ground -> crank;
+    revolute A: crank -> rod;
+    revolute E: rod -> plate;
+    revolute C: plate -> upper;
+    revolute D: plate -> lower;
+    revolute Q: ground -> upper;
+    revolute P: ground -> lower;
+    drive theta: O;
+    start theta: 30deg;
+    start rod: (30mm, 20mm), angle 30deg;
+    start plate: (240mm, 140mm), angle 0;
+    start upper: (500mm, 100mm), angle 140deg;
+    start lower: (400mm, -100mm), angle 120deg;
+    scene places: position -> (C, upper.C);
+}
+
+/// What no compiler can know is checked when it is known, before any pose is asked for.
+#[test]
+fn a_start_from_which_given_lengths_do_not_close_is_an_error() -> Result<(), Error> {
+    let linkage = given::Linkage::new(&given::Params { reach: 192.0 })?;
+    let places = given::places_at(&linkage, 0.9)?;
+    assert!((places.C - places.upper_C).norm() < 1e-9);
+    for reach in [5.0, 2000.0] {
+        let refused = given::Linkage::new(&given::Params { reach });
+        assert!(
+            matches!(refused, Err(Error::NoConvergence { group: "rod + plate + upper + lower", gap }) if gap > 0.0),
+            "{refused:?}"
+        );
+    }
+    assert!(matches!(given::Linkage::new(&given::Params { reach: f64::NAN }), Err(Error::NotFinite { .. })));
+    Ok(())
+}

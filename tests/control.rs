@@ -35,6 +35,7 @@ linkage! {
     scene advantage: virtual_work(M4) -> (M4, advantage(M4));
     scene gains: coefficients -> (rocker.angle, coupler.C);
     scene bounded: motion -> (M, h, error_bound);
+    scene linear: derivative(control) by (theta, theta.rate, M4);
 }
 
 linkage! {
@@ -103,6 +104,8 @@ linkage! {
     scene control: motion;
     scene bare: motion() -> (M, h);
     scene cycle: sweep(bare);
+    scene slopes: derivative(bare) by (a, b, a.rate, b.rate);
+    scene path: sweep(slopes);
     scene gains: coefficients -> (R, upper.angle);
     scene speeds: velocity -> (R);
     scene accelerations: acceleration -> (R);
@@ -147,6 +150,58 @@ fn held_elsewhere_its_mass_is_not_that_of_the_kinetic_energy() -> Result<(), Err
         assert!(
             (control.M - inertia * ratio).abs() < 1e-14 && (control.M_kinetic - inertia * ratio * ratio).abs() < 1e-14
         );
+    }
+    Ok(())
+}
+
+/// Linearised about a state, as a controller wants it: masses do not depend on rates and loads, and the rest as differences say.
+#[test]
+fn the_equation_of_motion_has_derivatives() -> Result<(), Error> {
+    const STEP: f64 = 1e-5;
+    let loads = four_bar::Loads { M4: 800.0 };
+    let of = |theta: f64, rate: f64| {
+        four_bar::control_at(theta, &four_bar::Motion { theta_rate: rate, theta_acceleration: 0.0 }, &loads)
+    };
+    for theta in turns() {
+        let motion = four_bar::Motion { theta_rate: 12.0, theta_acceleration: 0.0 };
+        let linear = four_bar::linear_at(theta, &motion, &loads)?;
+        let near = |found: f64, [behind, ahead]: [f64; 2], size: f64| {
+            let expected = (ahead - behind) / (2.0 * STEP);
+            assert!((found - expected).abs() < 1e-7 * (size + expected.abs()), "{found} and not {expected}");
+        };
+        let [behind, ahead] = [of(theta - STEP, 12.0)?, of(theta + STEP, 12.0)?];
+        near(linear.theta.M, [behind.M, ahead.M], ahead.M);
+        near(linear.theta.h, [behind.h, ahead.h], ahead.h.abs());
+        let [behind, ahead] = [of(theta, 12.0 - STEP)?, of(theta, 12.0 + STEP)?];
+        near(linear.theta_rate.h, [behind.h, ahead.h], ahead.h.abs());
+        assert_eq!([linear.theta_rate.M, linear.M4.M].map(f64::to_bits), [0, 0]);
+        // The crank holds the moment on the rocker by the ratio of their rates.
+        let unit = four_bar::Motion { theta_rate: 1.0, theta_acceleration: 0.0 };
+        let ratio = four_bar::speeds_at(theta, &unit)?.rocker_angle;
+        assert!((linear.M4.h + ratio).abs() < 1e-13 * ratio.abs().max(1.0));
+    }
+    Ok(())
+}
+
+/// Lagrange: `h_i = Σ (∂M_ij/∂q_k − ½ ∂M_jk/∂q_i) q̇_j q̇_k`, which is of second degree in the rates.
+#[test]
+fn centripetal_and_coriolis_terms_are_made_of_the_derivatives_of_the_masses() -> Result<(), Box<dyn core::error::Error>>
+{
+    let places = [(1.9, 1.1), (1.5, 1.6), (1.2, 2.0)];
+    let rates = [2.5, -1.5];
+    for (a, b) in places {
+        let motion = five_bar::Motion { a_rate: rates[0], a_acceleration: 0.0, b_rate: rates[1], b_acceleration: 0.0 };
+        let (bare, slopes) = (five_bar::bare_at(a, b, &motion)?, five_bar::slopes_at(a, b, &motion)?);
+        let by = [slopes.a.M, slopes.b.M];
+        for i in 0..2 {
+            let terms = (0..4).map(|pair| (pair / 2, pair % 2));
+            let terms = terms.map(|(j, k)| (by[k][(i, j)] - 0.5 * by[i][(j, k)]) * rates[j] * rates[k]);
+            let sum: f64 = terms.sum();
+            assert!((sum - bare.h[i]).abs() < 1e-12 * (1.0 + sum.abs()), "{sum} and not {}", bare.h[i]);
+            let by_rates = rates[0] * slopes.a_rate.h[i] + rates[1] * slopes.b_rate.h[i];
+            assert!((by_rates - 2.0 * bare.h[i]).abs() < 1e-12 * (1.0 + by_rates.abs()), "{by_rates}");
+        }
+        assert_eq!([slopes.a_rate.M.norm(), slopes.b_rate.M.norm()].map(f64::to_bits), [0, 0]);
     }
     Ok(())
 }

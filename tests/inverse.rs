@@ -2,7 +2,8 @@
 
 use core::f64::consts::TAU;
 
-use linkage_runtime::{Error, Side, linkage};
+use linkage_runtime::cycle::unwrap;
+use linkage_runtime::{Error, Series, Side, SweepError, linkage};
 
 linkage! {
     /// A crank-rocker, asked for the crank both ways.
@@ -25,6 +26,8 @@ linkage! {
     scene accelerations: acceleration -> (rocker.angle);
     scene crank_of: inverse(B0);
     scene angle_of: inverse(B0) -> (theta);
+    scene cycle: sweep(crank_of);
+    scene angles: sweep(angle_of);
 }
 
 linkage! {
@@ -48,6 +51,7 @@ linkage! {
     scene speeds: velocity -> (B);
     scene accelerations: acceleration -> (B);
     scene crank_of: inverse(S);
+    scene stroke: sweep(crank_of);
 }
 
 linkage! {
@@ -183,6 +187,75 @@ fn the_crank_of_a_press_is_found_from_its_stroke() -> Result<(), Error> {
     assert!(matches!(ahead, Err(Error::DeadCentre { .. })), "{ahead:?}");
     let beyond = press::crank_of_at(&linkage, 180.1, &press::CrankOfMotion::default());
     assert!(matches!(beyond, Err(Error::CannotAssemble { joint: "A", .. })), "{beyond:?}");
+    Ok(())
+}
+
+/// A rocker that swings as a sine, and the crank that makes it do so: the sweep has the bits of the single positions.
+#[test]
+fn a_wanted_cycle_is_swept() -> Result<(), Box<dyn core::error::Error>> {
+    const COUNT: usize = 101;
+    let times: [f64; COUNT] = core::array::from_fn(|step| f64::from(u32::try_from(step).unwrap_or(0)) / 100.0);
+    let angles = times.map(|t| 2.0 + 0.2 * (TAU * t).sin());
+    let rates = times.map(|t| 0.2 * TAU * (TAU * t).cos());
+    let accelerations = times.map(|t| -0.2 * TAU * TAU * (TAU * t).sin());
+    let inputs = four_bar::CycleInputs {
+        B0_angle: Series::Each(&angles),
+        B0_angle_rate: Series::Each(&rates),
+        B0_angle_acceleration: Series::Each(&accelerations),
+    };
+    let [mut theta, mut theta_rate, mut theta_acceleration] = [[0.0; COUNT]; 3];
+    let results =
+        four_bar::Cycle { theta: &mut theta, theta_rate: &mut theta_rate, theta_acceleration: &mut theta_acceleration };
+    four_bar::cycle(closures(Side::Left), &inputs, results)?;
+    for (index, angle) in angles.into_iter().enumerate() {
+        let wanted =
+            four_bar::CrankOfMotion { B0_angle_rate: rates[index], B0_angle_acceleration: accelerations[index] };
+        let one = four_bar::crank_of_at(angle, closures(Side::Left), &wanted)?;
+        let [found, expected] = [
+            [theta[index], theta_rate[index], theta_acceleration[index]],
+            [one.theta, one.theta_rate, one.theta_acceleration],
+        ];
+        assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits), "{index}");
+    }
+    // The rate is the derivative of the angle over the cycle, whatever its turns.
+    unwrap(&mut theta)?;
+    for index in 1..COUNT - 1 {
+        let slope = (theta[index + 1] - theta[index - 1]) / 0.02;
+        assert!((slope - theta_rate[index]).abs() < 0.02 * (1.0 + theta_rate[index].abs()), "{index}: {slope}");
+    }
+    // Beyond its reach it stops, and says where.
+    let far = [2.0, 2.1, 0.2, 2.0];
+    let mut theta = [0.0; 4];
+    let inputs = four_bar::AnglesInputs { B0_angle: Series::Each(&far) };
+    let swept = four_bar::angles(closures(Side::Left), &inputs, four_bar::Angles { theta: &mut theta });
+    assert!(matches!(swept, Err(SweepError::Position { index: 2, error: Error::CannotAssemble { .. } })), "{swept:?}");
+    assert!(theta[1].abs() > 0.1 && theta[2..].iter().all(|theta| theta.to_bits() == 0));
+    let short = four_bar::AnglesInputs { B0_angle: Series::Each(&far[..3]) };
+    let swept = four_bar::angles(closures(Side::Left), &short, four_bar::Angles { theta: &mut theta });
+    assert!(matches!(swept, Err(SweepError::Length { .. })), "{swept:?}");
+    Ok(())
+}
+
+#[test]
+fn a_stroke_of_given_length_is_swept() -> Result<(), Box<dyn core::error::Error>> {
+    let linkage = press::Linkage::new(&press::Params { length: 140.0 })?;
+    let strokes: [f32; 40] = core::array::from_fn(|step| 110.0 + 1.7 * u16::try_from(step).map_or(0.0, f32::from));
+    let [mut theta, mut theta_rate, mut theta_acceleration] = [[0.0; 40]; 3];
+    let inputs = press::StrokeInputs {
+        S_travel: Series::Each(&strokes),
+        S_travel_rate: Series::Constant(12.0),
+        S_travel_acceleration: Series::Constant(-3.0),
+    };
+    let results =
+        press::Stroke { theta: &mut theta, theta_rate: &mut theta_rate, theta_acceleration: &mut theta_acceleration };
+    press::stroke(&linkage, &inputs, results)?;
+    for (index, stroke) in strokes.into_iter().enumerate() {
+        let wanted = press::CrankOfMotion { S_travel_rate: 12.0, S_travel_acceleration: -3.0 };
+        let one = press::crank_of_at(&linkage, stroke, &wanted)?;
+        assert_eq!(theta[index].to_bits(), one.theta.to_bits());
+        assert_eq!(theta_rate[index].to_bits(), one.theta_rate.to_bits());
+        assert_eq!(theta_acceleration[index].to_bits(), one.theta_acceleration.to_bits());
+    }
     Ok(())
 }
 

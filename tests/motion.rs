@@ -162,6 +162,55 @@ fn a_single_force_stands_for_inertia_on_its_line() -> Result<(), Error> {
 }
 
 linkage! {
+    /// A carriage with an arm: the arm's centre of mass may rest while the arm turns.
+    mod carriage;
+    ground        { O: (0, 0) }
+    link carriage { E: (0, 0) }
+    link arm      { E -> tip: 1m, G: (0.5m, 0) }
+    mass carriage: 3kg at E;
+    mass arm: 2kg at G, inertia 0.25kg*m^2;
+    prismatic run: ground.O -> carriage.E along 0deg;
+    revolute E: carriage -> arm;
+    drive travel: run;
+    drive turn: E;
+    load I: inertia;
+    scene dynamics: equilibrium -> (effort_travel, effort_turn, E);
+    scene work: virtual_work -> (effort_travel, effort_turn);
+    scene parts: superposition -> (effort_turn);
+    scene inertia: acceleration -> (inertia(arm), arm.angle);
+    scene line: acceleration -> (offset(arm));
+}
+
+#[test]
+fn inertia_that_is_a_couple_alone_has_no_line() -> Result<(), Error> {
+    // At a right angle to the slide: what the arm turns backwards at its middle, the carriage goes forwards.
+    let motion = |forwards| carriage::Motion {
+        travel_rate: 0.7,
+        travel_acceleration: forwards,
+        turn_rate: 0.0,
+        turn_acceleration: 8.0,
+    };
+    let pose = carriage::Pose::at(0.3, core::f64::consts::FRAC_PI_2)?;
+    let inertia = pose.inertia(&motion(4.0))?;
+    assert!(inertia.arm_inertia.acceleration.norm() < 1e-15 && inertia.arm_inertia.force.norm() < 2e-15);
+    assert_eq!([inertia.arm_angle, inertia.arm_inertia.couple].map(f64::to_bits), [8.0f64, -2.0].map(f64::to_bits));
+    let of = "the acceleration of the centre of mass of arm";
+    assert_eq!(pose.line(&motion(4.0)), Err(Error::NoDirection { of }));
+    assert_eq!(carriage::line_at(0.3, core::f64::consts::FRAC_PI_2, &motion(4.0)), Err(Error::NoDirection { of }));
+    let forces = pose.dynamics(&motion(4.0))?;
+    assert!((forces.effort_turn - 2.0).abs() < 1e-15 && (forces.effort_travel - 12.0).abs() < 1e-14);
+    assert!(forces.E.norm() < 2e-15, "{:?}", forces.E);
+    let work = pose.work(&motion(4.0))?;
+    assert!((work.effort_turn - 2.0).abs() < 1e-15 && (work.effort_travel - 12.0).abs() < 1e-14);
+    let parts = pose.parts(&motion(4.0))?;
+    assert!((parts.I.arm.effort_turn - 2.0).abs() < 1e-15 && parts.I.carriage.effort_turn.abs() < 1e-300);
+    // A little off, and there is a line, far away.
+    let line = pose.line(&motion(4.001))?.arm_offset;
+    assert!((line.distance - 0.25 * 8.0 / (2.0 * 0.001)).abs() < 1e-9, "{line:?}");
+    Ok(())
+}
+
+linkage! {
     /// A press driven at its slide and held at its crank.
     mod press;
     ground      { O: (0, 0) }

@@ -164,8 +164,16 @@ fn cycle(inputs: &engine::CycleInputs<'_>, rows: &mut [Vec<f64>; 14]) -> Result<
     Ok(())
 }
 
+/// Whichever vector instructions are used, of those that the processor has.
 #[test]
 fn a_sweep_has_the_bits_of_the_point_function() {
+    for bytes in [16, 32, 64, u8::MAX] {
+        linkage_runtime::__private::limit_registers(bytes);
+        compare_with_the_point_function();
+    }
+}
+
+fn compare_with_the_point_function() {
     let (angles, gas) = (angles(), gas());
     let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
     cycle(&inputs(&angles, &gas), &mut rows).expect("regular everywhere");

@@ -1,7 +1,8 @@
 //! The reference: positions and the equilibrium of the free bodies in 256 binary digits.
 //!
 //! Straightforward on purpose, and sharing nothing with what it judges: circles are intersected, all equations of all
-//! links are eliminated at once. The four-bar's tests hold it against figures that were found by other means.
+//! links are eliminated at once. The four-bar's tests hold it against figures that were found by other means, and `interpreted` against the
+//! compiler's own programs.
 
 use std::borrow::Borrow;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -228,6 +229,9 @@ fn eliminate(mut lines: Vec<Vec<Big>>) -> Vec<Big> {
     unknowns.reverse();
     unknowns
 }
+
+#[cfg(test)]
+mod interpreted;
 
 #[cfg(test)]
 mod tests {

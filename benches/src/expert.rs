@@ -71,6 +71,12 @@ macro_rules! four_bar {
         }
 
         impl Pose {
+            /// A pose that is found otherwise: A0 A, A B and B0 B.
+            #[inline]
+            pub(crate) fn of(crank: Vector2<$scalar>, coupler: Vector2<$scalar>, rocker: Vector2<$scalar>) -> Self {
+                Self { crank, coupler, rocker, determinant: coupler.x * rocker.y - coupler.y * rocker.x }
+            }
+
             /// The force on the rocker by the coupler, from the moments of the loads on coupler and rocker about A and B0.
             #[inline]
             fn joint(&self, inverse: $scalar, m3: $scalar, m4: $scalar) -> ($scalar, $scalar) {

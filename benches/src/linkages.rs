@@ -42,65 +42,104 @@ four_bar!(four_bar, f64, plain);
 four_bar!(four_bar_single, f32, plain);
 four_bar!(four_bar_fused, f64, fused);
 
-linkage! {
-    /// A six-bar, Watt's chain: a crank-rocker moves a second rocker. Weight on every link, a load on the coupler, one on
-    /// the arm.
-    pub(crate) mod six_bar;
-    units { mm, N }
+/// The six-bar.
+macro_rules! six_bar {
+    ($name:ident, $arithmetic:ident) => {
+        linkage! {
+            /// A six-bar, Watt's chain: a crank-rocker moves a second rocker. Weight on every link, a load on the coupler, one on
+            /// the arm.
+            pub(crate) mod $name;
+            arithmetic $arithmetic;
+            units { mm, N }
 
-    ground       { A0: (0, 0), B0: (150mm, 0), D0: (330mm, 20mm) }
-    link crank   { A0 -> A: 50mm }
-    link coupler { A -> B: 140mm, P: (60mm, 35mm) }
-    link rocker  { B0 -> B: 100mm, C: (80mm, -40mm) }
-    link rod     { C -> D: 170mm }
-    link arm     { D0 -> D: 110mm, Q: (70mm, 25mm) }
+            ground       { A0: (0, 0), B0: (150mm, 0), D0: (330mm, 20mm) }
+            link crank   { A0 -> A: 50mm }
+            link coupler { A -> B: 140mm, P: (60mm, 35mm) }
+            link rocker  { B0 -> B: 100mm, C: (80mm, -40mm) }
+            link rod     { C -> D: 170mm }
+            link arm     { D0 -> D: 110mm, Q: (70mm, 25mm) }
 
-    mass crank:   0.4kg at (25mm, 0);
-    mass coupler: 0.9kg at (65mm, 12mm);
-    mass rocker:  0.8kg at (60mm, -10mm);
-    mass rod:     0.7kg at (85mm, 0);
-    mass arm:     0.6kg at (50mm, 8mm);
+            mass crank:   0.4kg at (25mm, 0);
+            mass coupler: 0.9kg at (65mm, 12mm);
+            mass rocker:  0.8kg at (60mm, -10mm);
+            mass rod:     0.7kg at (85mm, 0);
+            mass arm:     0.6kg at (50mm, 8mm);
 
-    revolute A0: ground  -> crank;
-    revolute A:  crank   -> coupler;
-    revolute B:  coupler -> rocker;
-    revolute B0: ground  -> rocker;
-    revolute C:  rocker  -> rod;
-    revolute D:  rod     -> arm;
-    revolute D0: ground  -> arm;
+            revolute A0: ground  -> crank;
+            revolute A:  crank   -> coupler;
+            revolute B:  coupler -> rocker;
+            revolute B0: ground  -> rocker;
+            revolute C:  rocker  -> rod;
+            revolute D:  rod     -> arm;
+            revolute D0: ground  -> arm;
 
-    drive theta: A0;
-    unknown T: torque(ground -> crank);
-    assemble B: left(A -> B0);
-    assemble D: left(C -> D0);
+            drive theta: A0;
+            unknown T: torque(ground -> crank);
+            assemble B: left(A -> B0);
+            assemble D: left(C -> D0);
 
-    load F: force(coupler.P);
-    load G: force(arm.Q);
-    load W: gravity = 9.81m/s^2 @ -90deg;
+            load F: force(coupler.P);
+            load G: force(arm.Q);
+            load W: gravity = 9.81m/s^2 @ -90deg;
 
-    scene statics: equilibrium;
+            scene statics: equilibrium;
+        }
+    };
 }
 
-linkage! {
-    /// An engine's slider-crank, in line, with the force of the gas on the piston.
-    pub(crate) mod slider_crank;
-    units { mm, N }
+six_bar!(six_bar, plain);
+six_bar!(six_bar_fused, fused);
 
-    ground      { O: (0, 0) }
-    link crank  { O -> A: 45mm }
-    link rod    { A -> B: 150mm }
-    link piston { B }
+/// The slider-crank.
+macro_rules! slider_crank {
+    ($name:ident, $arithmetic:ident) => {
+        linkage! {
+            /// An engine's slider-crank, in line, with the force of the gas on the piston.
+            pub(crate) mod $name;
+            arithmetic $arithmetic;
+            units { mm, N }
 
-    revolute  O: ground   -> crank;
-    revolute  A: crank    -> rod;
-    revolute  B: rod      -> piston;
-    prismatic P: ground.O -> piston.B along 0deg;
+            ground      { O: (0, 0) }
+            link crank  { O -> A: 45mm }
+            link rod    { A -> B: 150mm }
+            link piston { B }
 
-    drive theta: O;
-    unknown T: torque(ground -> crank);
-    assemble B: ahead(A);
+            revolute  O: ground   -> crank;
+            revolute  A: crank    -> rod;
+            revolute  B: rod      -> piston;
+            prismatic P: ground.O -> piston.B along 0deg;
 
-    load gas: force(piston.B);
+            drive theta: O;
+            unknown T: torque(ground -> crank);
+            assemble B: ahead(A);
 
-    scene statics: equilibrium;
+            load gas: force(piston.B);
+
+            scene statics: equilibrium;
+        }
+    };
+}
+
+slider_crank!(slider_crank, plain);
+slider_crank!(slider_crank_fused, fused);
+
+#[cfg(test)]
+mod tests {
+    /// What the items P1, P2 and P3 cost, whatever the machine: `statics` is P1a from the pose and P1b from the angle, P2b and P3b;
+    /// `torque` is P1c, `parts` P1d.
+    #[test]
+    fn operations_are_pinned() {
+        let of = [
+            ("P1, four-bar", super::four_bar::OPERATIONS),
+            ("P1, four-bar, fused", super::four_bar_fused::OPERATIONS),
+            ("P2, six-bar", super::six_bar::OPERATIONS),
+            ("P2, six-bar, fused", super::six_bar_fused::OPERATIONS),
+            ("P3, slider-crank", super::slider_crank::OPERATIONS),
+            ("P3, slider-crank, fused", super::slider_crank_fused::OPERATIONS),
+        ];
+        let text = of.map(|(title, operations)| format!("{title}\n{operations}\n")).join("\n");
+        insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
+            insta::assert_snapshot!("operations", text);
+        });
+    }
 }

@@ -6,11 +6,16 @@
 mod exact;
 mod expansion;
 mod expert;
+mod generators;
 mod harness;
 mod instructions;
 mod items;
 mod linkages;
+mod newton;
+mod pareto;
+mod picture;
 mod sweeps;
+mod textbook;
 
 use std::process::ExitCode;
 use std::time::Duration;
@@ -22,8 +27,10 @@ use crate::items::{Extent, Item};
 const USAGE: &str = "\
 linkage-bench [--quick] [--chained] [--shuffled] [ITEM …]
 linkage-bench --sweeps [--quick]
+linkage-bench --pareto [--quick] [FILE.svg]
 linkage-bench --instructions [ITEM …]
 linkage-bench --expansion [--quick]
+linkage-bench --generators LIBRARY [--quick] [--chained] [--shuffled] [ITEM …]
 linkage-bench --once ITEM METHOD SWEEPS [independent | chained | empty]";
 
 fn main() -> ExitCode {
@@ -49,9 +56,15 @@ fn run(arguments: &[String]) -> Result<(), String> {
         };
         return instructions::once(id, method, sweeps.parse().map_err(|_| USAGE)?, mode);
     }
+    let mut arguments = arguments;
+    if let ["--generators", library, ..] = arguments.as_slice() {
+        generators::load(library)?;
+        arguments.drain(..2);
+    }
     let (options, ids): (Vec<&str>, Vec<&str>) = arguments.into_iter().partition(|argument| argument.starts_with("--"));
     if options.iter().any(|option| {
-        !["--quick", "--chained", "--shuffled", "--instructions", "--sweeps", "--expansion"].contains(option)
+        !["--quick", "--chained", "--shuffled", "--instructions", "--sweeps", "--expansion", "--pareto"]
+            .contains(option)
     }) {
         return Err(USAGE.into());
     }
@@ -69,9 +82,14 @@ fn run(arguments: &[String]) -> Result<(), String> {
         println!("{}", processor());
         return sweeps::print(if quick { 51 } else { 501 });
     }
+    let (rounds, least) = if quick { (101, Duration::from_micros(100)) } else { (1001, Duration::from_micros(200)) };
+    if has("--pareto") {
+        let machine = processor();
+        println!("{machine}; {rounds} rounds");
+        return pareto::print(rounds, least, &machine, ids.first().copied());
+    }
     let extent = Extent { timed: 1024, judged: true, shuffled: has("--shuffled") };
     let mode = if has("--chained") { Mode::Chained } else { Mode::Independent };
-    let (rounds, least) = if quick { (101, Duration::from_micros(100)) } else { (1001, Duration::from_micros(200)) };
     println!(
         "{}; {rounds} rounds; {} poses {}, {}",
         processor(),

@@ -10,22 +10,47 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Prints, for 360 and 4096 positions, the times of each position and the medians of the paired ratios.
+use linkage_runtime::__private::limit_registers;
+
+/// Prints, for 360 and 4096 positions, the times of each position and the medians of the paired ratios: by the instructions that this
+/// program was compiled for, and by wider ones that this processor has.
 pub(crate) fn print(rounds: usize) -> Result<(), String> {
     println!("\nsweeps of the four-bar, both loads at each position");
     println!(
         "ns for each position: of the expert, of generated calls, of the generated sweep; the sweep's ratio to both"
     );
-    println!(
-        "  {:>22} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8}",
-        "", "positions", "expert", "calls", "sweep", "expert", "calls"
-    );
-    for count in [360, 4096] {
-        double::rows(count, rounds)?;
-        single::rows(count, rounds)?;
-        fused::rows(count, rounds)?;
+    for (instructions, bytes) in registers() {
+        limit_registers(bytes);
+        println!("\n{instructions}");
+        println!(
+            "  {:>22} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8}",
+            "", "positions", "expert", "calls", "sweep", "expert", "calls"
+        );
+        for count in [360, 4096] {
+            double::rows(count, rounds)?;
+            single::rows(count, rounds)?;
+            fused::rows(count, rounds)?;
+        }
     }
     Ok(())
+}
+
+/// The instructions between which a sweep chooses here, by the bytes of their registers.
+#[cfg(target_arch = "x86_64")]
+fn registers() -> Vec<(&'static str, u8)> {
+    let mut registers = vec![("as compiled", 16)];
+    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        registers.push(("AVX2", 32));
+    }
+    if is_x86_feature_detected!("avx512f") {
+        registers.push(("AVX-512", 64));
+    }
+    registers
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn registers() -> Vec<(&'static str, u8)> {
+    vec![("as this processor has them", u8::MAX)]
 }
 
 /// Times three ways, in turns, and prints a row.

@@ -67,7 +67,7 @@ pub(crate) fn solved(exchanged: Vec<Exchanged<'_>>, model: &Model, sink: &Sink) 
             let functions = Functions::of(&model, &plan);
             program::check_range(&model, &functions, &refusals);
             let (limits, inverses) = (Limits { loops: Vec::new(), prepare: None }, Vec::new());
-            Linkage { model, topology, system, plan, functions, limits, inverses }
+            Linkage { model, topology, system, plan, functions, limits, unposed: Vec::new(), inverses }
         });
         tell(refusals, inverse, sink);
         linkage

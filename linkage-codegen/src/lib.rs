@@ -44,6 +44,8 @@ pub struct Linkage {
     pub functions: Functions,
     /// What is known of its four-bars and slider-cranks.
     pub limits: Limits,
+    /// With which choices of sides it cannot be posed at the start of its drives, in words.
+    pub unposed: Vec<String>,
     /// The same linkage, driven where inverse scenes want a motion: one for each of them, which is its only scene.
     pub inverses: Vec<Linkage>,
 }
@@ -86,8 +88,8 @@ pub fn analyse(declaration: TokenStream) -> Result<Linkage, Refusal> {
         && let Some(solved) = solve(&ast, &model, &sink)
         && sink.is_clean()
     {
-        let Solved { topology, system, plan, functions, limits, inverses } = solved;
-        return Ok(Linkage { model, topology, system, plan, functions, limits, inverses });
+        let Solved { topology, system, plan, functions, limits, unposed, inverses } = solved;
+        return Ok(Linkage { model, topology, system, plan, functions, limits, unposed, inverses });
     }
     Err(Refusal { errors: sink.into_errors(), model: Some(Box::new(model)) })
 }
@@ -99,6 +101,7 @@ struct Solved {
     plan: Plan,
     functions: Functions,
     limits: Limits,
+    unposed: Vec<String>,
     inverses: Vec<Linkage>,
 }
 
@@ -109,13 +112,13 @@ fn solve(ast: &Ast, model: &Model, sink: &Sink) -> Option<Solved> {
     let plan = Plan::of(model, &topology, &system, &inverse::closing(&exchanged), sink)?;
     let functions = Functions::of(model, &plan);
     program::check_range(model, &functions, sink);
-    program::check_start(model, (&topology, &plan), &functions, sink);
+    let unposed = program::check_start(model, (&topology, &plan), &functions, sink);
     // Last, as its expressions share the graph: they change no function.
     let limits = Limits::of(model, &topology);
     // Lengths that never meet are found there, too.
     plan::check_possible(model, sink);
     let inverses = inverse::solved(exchanged, model, sink)?;
-    Some(Solved { topology, system, plan, functions, limits, inverses })
+    Some(Solved { topology, system, plan, functions, limits, unposed, inverses })
 }
 
 /// The module of a declaration; of a wrong one its errors, and a module with the same names, so that one mistake is one error.

@@ -324,6 +324,39 @@ fn random_four_bars() {
     assert_eq!(classes.len(), 6, "{classes:?}");
 }
 
+/// Of a loop whose side is an argument the limits are those of both sides, each as if it were declared.
+#[test]
+fn limits_where_the_side_is_an_argument() {
+    let mut found = 0;
+    for seed in 0..60 {
+        let mut random = Random(seed);
+        let kinds = [
+            SliderKind::Engine,
+            SliderKind::Piston,
+            SliderKind::BlockOnCrank,
+            SliderKind::Cylinder,
+            SliderKind::Slot,
+            SliderKind::Boom,
+        ];
+        let kind = kinds[usize::try_from(seed / 2 % 6).expect("small")];
+        let text = if seed % 2 == 0 { four_bar(&mut random).1 } else { slider_crank(&mut random, kind).0 };
+        let closure = text.lines().find(|line| line.starts_with("assemble ")).expect("a side").to_owned();
+        let (start, of) = closure.split_once('(').expect("joints");
+        let (joint, word) = start["assemble ".len()..].split_once(": ").expect("a joint and a side");
+        let words = if ["left", "right"].contains(&word) { ["left", "right"] } else { ["ahead", "behind"] };
+        let with = |word: &str| text.replace(&closure, &format!("assemble {joint}: {word}({of}"));
+        let Some(either) = compile_if_it_closes(&with("either")) else { continue };
+        for word in words {
+            let one = compile_if_it_closes(&with(word)).expect("closes on both sides or on none");
+            let [expected] = one.limits.loops.as_slice() else { continue };
+            let own = either.limits.loops.iter().find(|own| own.name == format!("{joint}_{word}")).expect("its limits");
+            assert_eq!(format!("{:?}", known(own)), format!("{:?}", known(expected)), "{text}");
+            found += 1;
+        }
+    }
+    assert!(found > 60, "{found}");
+}
+
 /// What the driver of a slider-crank turns.
 #[derive(Clone, Copy, PartialEq)]
 enum SliderKind {

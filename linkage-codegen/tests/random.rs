@@ -9,6 +9,7 @@ use linkage_codegen::graph::Failure;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::model::UnknownKind;
 use linkage_codegen::model::ids::LinkId;
+use linkage_codegen::plan::rules::RULES;
 use linkage_codegen::program::Fault;
 use linkage_codegen::topology::Group;
 use support::general::{equations, solve_extended, solve_nalgebra};
@@ -99,6 +100,12 @@ fn solution_of_all(linkage: &Linkage, arguments: &Arguments) -> Option<(HashMap<
     Some((general.named(linkage, solution.into_iter().map(Double).collect()), condition))
 }
 
+/// What loads and masses have beside lengths, which may be a parameter.
+const VALUES: [&str; 7] =
+    ["a force", "a moment", "a mass", "a moment of inertia", "a stiffness", "a torsional stiffness", "an angle"];
+/// The same of what damps, and so is there in few of the linkages that move.
+const DAMPING: [&str; 2] = ["a damping", "a torsional damping"];
+
 /// What was solved.
 #[derive(Debug, Default)]
 struct Census {
@@ -118,7 +125,12 @@ impl Census {
         }));
         if model.unknowns.iter().any(|unknown| !matches!(unknown.kind, UnknownKind::Drive(_))) {
             words.push("an unknown of its own".to_owned());
+            if model.unknowns.iter().any(|unknown| matches!(unknown.kind, UnknownKind::Drive(_))) {
+                words.push("an unknown of its own beside the effort at a drive".to_owned());
+            }
         }
+        // What varies of a load or a mass is seldom a length; of dimensions nothing else.
+        words.extend(model.params.iter().map(|param| format!("parameter: {}", param.kind.name())));
         for (group, rule) in linkage.topology.motion.iter().zip(&linkage.plan.motion_rules) {
             words.push(format!("rule: {rule}"));
             words.extend(shape(linkage, group).map(str::to_owned));
@@ -134,10 +146,19 @@ impl Census {
         assert!(self.linkages >= linkages, "{}", self.linkages);
         let joints = ["revolute", "prismatic", "slot", "weld", "gear"];
         let driven = ["angle of a revolute", "travel of a prismatic", "travel of a slot", "angle of a slot"];
+        let count = |word: &str| self.having.get(word).copied().unwrap_or(0);
         for word in joints.into_iter().chain(driven).chain(["an unknown of its own", "triad", "ring of class IV"]) {
-            let found = self.having.get(word).copied().unwrap_or(0);
-            assert!(found >= each, "{word}: {found}");
+            assert!(count(word) >= each, "{word}: {}", count(word));
         }
+        // Each group that is closed in formulas has its rule; wheels of trains and dyads of slides are the rarest.
+        for rule in RULES.iter().map(|rule| rule.class()) {
+            assert!(count(&format!("rule: {rule}")) >= each.div_ceil(5), "{rule}: {}", count(&format!("rule: {rule}")));
+        }
+        assert!(count("an unknown of its own beside the effort at a drive") >= each.div_ceil(5));
+        for value in VALUES {
+            assert!(count(&format!("parameter: {value}")) >= each.div_ceil(5), "{value}: {:?}", self.having);
+        }
+        assert!(DAMPING.iter().any(|value| count(&format!("parameter: {value}")) > 0), "{:?}", self.having);
     }
 }
 

@@ -68,18 +68,20 @@ fn only_what_a_result_needs_is_computed() {
     assert_eq!((counts.sin_cos, counts.sqrt, counts.div, counts.atan2), (1, 0, 0, 0));
 }
 
-/// A slider-crank in motion, with its drive as it is declared here.
+/// A slider-crank in motion.
+const ENGINE: &str = "pub mod engine; units { mm, N }
+    ground { O: (0, 0) } link crank { O -> A: 40mm } link rod { A -> B: 140mm, C: (45mm, 0) } link piston { B }
+    mass crank: 1.1kg at (5mm, 0), inertia 900kg*mm^2; mass rod: 0.62kg at C, inertia 1900kg*mm^2;
+    revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> piston;
+    prismatic G: ground.O -> piston.B along 0deg; drive theta: OMOTION; assemble B: ahead(A);
+    load I: inertia; load Ic: inertia(crank); load gas: force(piston.B); load K: spring(ground.O, rod.C) { damping: 2N*s/mm };
+    scene statics: equilibrium(gas); scene dynamics: equilibrium(I, gas); scene crank_alone: equilibrium(Ic) -> (effort_theta);
+    scene dynamics_torque: equilibrium(I, gas) -> (effort_theta);
+    scene damped: equilibrium(K) -> (effort_theta); scene speeds: velocity; scene turning: acceleration -> (rod.angle);";
+
+/// The same with its drive as it is declared here.
 fn engine(motion: &str) -> linkage_codegen::Linkage {
-    compile(&format!(
-        "pub mod engine; units {{ mm, N }}
-         ground {{ O: (0, 0) }} link crank {{ O -> A: 40mm }} link rod {{ A -> B: 140mm, C: (45mm, 0) }} link piston {{ B }}
-         mass crank: 1.1kg at (5mm, 0), inertia 900kg*mm^2; mass rod: 0.62kg at C, inertia 1900kg*mm^2;
-         revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> piston;
-         prismatic G: ground.O -> piston.B along 0deg; drive theta: O{motion}; assemble B: ahead(A);
-         load I: inertia; load Ic: inertia(crank); load gas: force(piston.B); load K: spring(ground.O, rod.C) {{ damping: 2N*s/mm }};
-         scene statics: equilibrium(gas); scene dynamics: equilibrium(I, gas); scene crank_alone: equilibrium(Ic) -> (effort_theta);
-         scene damped: equilibrium(K) -> (effort_theta); scene speeds: velocity; scene turning: acceleration -> (rod.angle);"
-    ))
+    compile(&ENGINE.replace("MOTION", motion))
 }
 
 /// What a scene reads of the drive's motion.
@@ -123,6 +125,31 @@ fn inertia_of_one_link_needs_the_acceleration_of_that_link_alone() {
         values.iter().any(|value| value.label.as_ref().is_some_and(|own| own.name == name))
     };
     assert!(computed("alpha_rod") && !computed("acceleration_G"));
+}
+
+#[test]
+fn what_has_no_mass_costs_nothing() {
+    let linkage = engine("");
+    // A mass on the piston is what makes a difference.
+    let heavy = compile(&ENGINE.replace("MOTION", "").replace("mass rod:", "mass piston: 0.4kg at B; mass rod:"));
+    let work = |linkage: &linkage_codegen::Linkage, scene: &str| {
+        let counts = program(linkage, scene).counts();
+        counts.add + counts.mul
+    };
+    assert!(work(&heavy, "dynamics") > work(&linkage, "dynamics"));
+    // Links without mass and load that hang on the others change nothing, neither in forces with inertia nor in the equation of motion.
+    let hung = "link left { C: (0, 0), E: (90mm, 0) } link right { E: (0, 0), H: (70mm, 0) }
+        revolute Cl: rod.C -> left.C; revolute E: left -> right; revolute H: right.H -> ground.H; assemble E: left(Cl -> H);";
+    let reduced = "scene control: motion -> (M, h);";
+    let with = |more: &str| {
+        let ground =
+            ENGINE.replace("MOTION", "").replace("ground { O: (0, 0) }", "ground { O: (0, 0), H: (60mm, -90mm) }");
+        compile(&format!("{ground} {more} {reduced}"))
+    };
+    let (plain, hung) = (with(""), with(hung));
+    for scene in ["dynamics_torque", "crank_alone", "damped", "control"] {
+        assert_eq!(program(&plain, scene).counts(), program(&hung, scene).counts(), "{scene}");
+    }
 }
 
 #[test]
@@ -184,6 +211,38 @@ fn derivatives_cost_nothing_elsewhere_and_share_what_they_have_in_common() {
         program(&with, "far").value(*id)
     };
     assert!(matches!(value("F12.x.B.x").definition, Definition::Computed(Op::Constant(_))));
+}
+
+/// From a crank's pin on the ground to its other pin leads the crank, on whatever link that pin is named and in whatever order the joints
+/// stand: all other ways are longer, and have the rounding of longer links.
+#[test]
+fn a_way_between_two_points_is_through_the_pin_at_one_of_them() {
+    let joints = [
+        "revolute A0: ground -> crank;",
+        "revolute A: crank -> coupler;",
+        "revolute B: coupler -> rocker;",
+        "revolute B0: ground -> rocker;",
+    ];
+    let mut orders = vec![vec![]];
+    for joint in joints {
+        let further = |order: &Vec<&'static str>| {
+            (0..=order.len()).map(|at| [&order[..at], &[joint], &order[at..]].concat()).collect::<Vec<_>>()
+        };
+        orders = orders.iter().flat_map(further).collect();
+    }
+    assert_eq!(orders.len(), 24);
+    for order in orders {
+        let linkage = compile(&format!(
+            "pub mod four_bar; units {{ mm, N }} ground {{ A0: (0, 0), B0: (140mm, 0) }} link crank {{ A0 -> A: 80mm }}
+             link coupler {{ A -> B: 100mm }} link rocker {{ B0 -> B: 120mm }} {} drive theta: A0; assemble B: left(A -> B0);
+             load K: spring(coupler.A, ground.A0) {{ rate: 2N/mm, free: 10mm }}; scene held: equilibrium -> (effort_theta, A0);",
+            order.concat()
+        ));
+        let held = program(&linkage, "held");
+        let labels = held.values.iter().filter_map(|value| value.label.as_ref()).map(|label| label.name.as_str());
+        let read: Vec<&str> = labels.filter(|name| name.starts_with("coupler") || name.starts_with("rocker")).collect();
+        assert!(read.is_empty(), "{read:?} with {order:?}");
+    }
 }
 
 /// Every value of every program is read by a later step, or is a result.

@@ -4,9 +4,11 @@ mod support;
 
 use std::fmt::Write;
 
+use linkage_codegen::model::Param;
 use linkage_codegen::topology::{Group, Input};
 use linkage_codegen::{Linkage, emit};
 use support::examples::{EXAMPLES, declaration};
+use support::linkages::Random;
 use support::numbers::Double;
 use support::{Arguments, direct, pose};
 
@@ -47,24 +49,44 @@ fn topology(linkage: &Linkage) -> String {
     text
 }
 
-/// What every scene gives at a few poses, digit for digit.
-fn numbers(linkage: &Linkage) -> String {
-    let loads = linkage.model.loads.iter().enumerate().map(|(index, _)| {
+/// What is given at run time, but for the drives: loads, rates and accelerations, the first of both sides, the defaults of parameters.
+fn given(linkage: &Linkage) -> Arguments {
+    let model = &linkage.model;
+    let loads = model.loads.iter().enumerate().map(|(index, _)| {
         let index = f64::from(u32::try_from(index).expect("few loads"));
         [-30.0 + 7.0 * index, 40.0 - 11.0 * index]
     });
-    let loads: Vec<[f64; 2]> = loads.collect();
-    let mut text = format!("loads that are given at run time: {loads:?}\n");
-    for drive in [0.5, 2.0, -1.0] {
-        let arguments = Arguments { drives: vec![drive], loads: loads.clone(), ..Arguments::default() };
-        let _ = writeln!(text, "\nat {drive}");
+    let default =
+        |param: &Param| model.graph.constant_value(param.default.expect("a default")).expect("a number").to_f64();
+    Arguments {
+        loads: loads.collect(),
+        motion: model.drives.iter().map(|_| [2.5, -1.5]).collect(),
+        sides: model.closures.iter().map(|_| 1.0).collect(),
+        params: model.params.iter().map(default).collect(),
+        ..Arguments::default()
+    }
+}
+
+/// What every scene gives at a few poses, digit for digit.
+fn numbers(linkage: &Linkage, poses: &[Vec<f64>]) -> String {
+    let given = given(linkage);
+    let mut text = format!("loads that are given at run time: {:?}\n", given.loads);
+    for drives in poses {
+        let arguments = Arguments { drives: drives.clone(), ..given.clone() };
+        let _ = writeln!(text, "\nat {}", drives.iter().map(f64::to_string).collect::<Vec<_>>().join(", "));
         if let Err(fault) = pose::<Double>(linkage, &arguments) {
             let _ = writeln!(text, "  {fault:?}");
             continue;
         }
         for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
             let _ = writeln!(text, "  {}", scene.name);
-            let values = direct::<Double>(linkage, &functions.direct, &arguments).expect("results");
+            let values = match direct::<Double>(linkage, &functions.direct, &arguments) {
+                Ok(values) => values,
+                Err(fault) => {
+                    let _ = writeln!(text, "    {fault:?}");
+                    continue;
+                }
+            };
             for ((path, _), value) in functions.direct.outputs.iter().zip(values) {
                 // The equations of a verification have no names of their own.
                 if !path.is_empty() {
@@ -88,15 +110,68 @@ fn every_stage_of_every_example() {
             insta::assert_snapshot!(format!("{example}.2_equations"), emit::equations(&linkage));
             insta::assert_snapshot!(format!("{example}.3_code"), code);
             insta::assert_snapshot!(format!("{example}.4_operations"), operations);
-            insta::assert_snapshot!(format!("{example}.5_numbers"), numbers(&linkage));
+            insta::assert_snapshot!(format!("{example}.5_numbers"), numbers(&linkage, &[vec![0.5], vec![2.0], vec![-1.0]]));
         });
     }
 }
 
+/// Two of the poses that are tried and that there are, at coordinates of two digits.
+fn poses(linkage: &Linkage) -> Vec<Vec<f64>> {
+    let model = &linkage.model;
+    let given = given(linkage);
+    let known = |symbol| given.of(symbol);
+    let mut done = std::collections::HashMap::new();
+    let mut longest = 0.0f64;
+    for link in &model.links {
+        let at: Vec<[f64; 2]> = link
+            .points
+            .iter()
+            .map(|point| [point.at.x, point.at.y].map(|part| model.graph.evaluate(part, &known, &mut done)))
+            .collect();
+        let distances = at.iter().flat_map(|p| at.iter().map(move |q| (p[0] - q[0]).hypot(p[1] - q[1])));
+        longest = distances.fold(longest, f64::max);
+    }
+    let mut random = Random(1);
+    let mut found = Vec::new();
+    for _ in 0..2000 {
+        let within = |turns: bool| if turns { 3.0 } else { longest };
+        let drives = model.drives.iter().map(|drive| {
+            let reach = within(drive.turns);
+            (random.range(-reach, reach) * 100.0).round() / 100.0
+        });
+        let arguments = Arguments { drives: drives.collect(), ..given.clone() };
+        if pose::<Double>(linkage, &arguments).is_ok() {
+            found.push(arguments.drives);
+        }
+        if found.len() == 2 {
+            break;
+        }
+    }
+    assert_eq!(found.len(), 2, "{}", model.name.text);
+    found
+}
+
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
 /// cylinders, slots, welds, gears, inner slides, unknowns elsewhere than at the drives, equations of motion, inverse scenes,
-/// derivatives, fused arithmetic.
-const OTHERS: [(&str, &str); 20] = [
+/// derivatives, fused arithmetic, a group of class IV.
+const OTHERS: [(&str, &str); 21] = [
+    (
+        "class_iv",
+        "/// A group of class IV: two plates, on the crank and on the ground, joined by two rods.
+        pub mod class_iv; units { mm, N }
+        ground { O: (0, 0), B: (200mm, 0) } link crank { O -> A: 30mm }
+        link left { A: (0, 0), C: (60mm, 50mm), D: (90mm, -20mm) } link right { B: (0, 0), E: (-50mm, 60mm), F: (-60mm, -40mm) }
+        link upper { C -> E: 77mm } link lower { D -> F: 58mm }
+        mass right: 1.2kg at (-30mm, 10mm), inertia 900kg*mm^2;
+        revolute O: ground -> crank; revolute A: crank -> left; revolute B: ground -> right; revolute C: left -> upper;
+        revolute E: upper -> right; revolute D: left -> lower; revolute F: lower -> right;
+        drive theta: O; unknown T: torque(ground -> crank);
+        start theta: 16deg; start left: (29mm, 8mm), angle -38deg; start right: (200mm, 0), angle -8deg;
+        start upper: (107mm, 10mm), angle 47deg; start lower: (87mm, -63mm), angle 34deg;
+        load W: gravity = 9.81m/s^2 @ -90deg; load push: force(right.E);
+        scene held: equilibrium; scene parts: superposition -> (T); scene torque: virtual_work -> (T);
+        scene place: position -> (right.E, right.angle); scene speeds: velocity -> (right.angle);",
+    ),
     (
         "fused",
         "/// A crank-rocker in fused arithmetic.
@@ -349,10 +424,45 @@ fn equations_and_code_of_what_no_example_has() {
         let linkage = support::compile(text);
         let code = linkage_codegen::formatted(linkage_codegen::expand(text.parse().expect("tokens"))).expect("Rust");
         insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
+            insta::assert_snapshot!(format!("{name}.1_groups"), topology(&linkage));
             insta::assert_snapshot!(format!("{name}.2_equations"), emit::equations(&linkage));
             insta::assert_snapshot!(format!("{name}.3_code"), code);
+            insta::assert_snapshot!(format!("{name}.4_operations"), emit::operations(&linkage));
+            insta::assert_snapshot!(format!("{name}.5_numbers"), numbers(&linkage, &poses(&linkage)));
         });
     }
+}
+
+/// A machine in motion, in what its scenes skip: statics beside dynamics, the inertia of one link beside that of all, a piston without mass
+/// and with one, and of the drive a motion that is given, one of constant speed, and rest.
+#[test]
+fn operations_of_what_is_skipped() {
+    let mut text = String::new();
+    for (motion, piston) in [
+        ("", ""),
+        ("", "mass piston: 0.45kg at B;"),
+        (" { rate: 3000rpm, acceleration: 0 }", ""),
+        (" { rate: 0, acceleration: 0 }", ""),
+    ] {
+        let linkage = support::compile(&format!(
+            "pub mod engine; units {{ mm, N }}
+             ground {{ O: (0, 0) }} link crank {{ O -> A: 40mm }} link rod {{ A -> B: 140mm, C: (45mm, 0) }} link piston {{ B }}
+             mass crank: 1.1kg at (5mm, 0), inertia 900kg*mm^2; mass rod: 0.62kg at C, inertia 1900kg*mm^2; {piston}
+             revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> piston;
+             prismatic G: ground.O -> piston.B along 0deg; drive theta: O{motion}; assemble B: ahead(A);
+             load I: inertia; load Ic: inertia(crank); load gas: force(piston.B);
+             scene statics: equilibrium(gas) -> (effort_theta); scene dynamics: equilibrium(I, gas) -> (effort_theta);
+             scene of_crank: equilibrium(Ic) -> (effort_theta); scene torque: virtual_work(I, gas) -> (effort_theta);
+             scene turning: acceleration -> (rod.angle);"
+        ));
+        let motion = if motion.is_empty() { "given at run time" } else { motion };
+        let piston = if piston.is_empty() { "without mass" } else { "with mass" };
+        let _ =
+            writeln!(text, "motion of the drive: {}, piston {piston}\n{}", motion.trim(), emit::operations(&linkage));
+    }
+    insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
+        insta::assert_snapshot!("skipped.4_operations", text);
+    });
 }
 
 /// The declaration without `emit source;`: the code would hold itself.

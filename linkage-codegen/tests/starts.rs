@@ -97,3 +97,31 @@ fn a_start_far_off_is_said_with_lines_that_close() {
     assert_eq!(lines.len(), 4, "{message}");
     support::compile(&format!("{TRIAD} start theta: 132deg; {}", lines.concat()));
 }
+
+/// Behind a side that is an argument a group starts from one pose: of the other side it is said, if it does not close from there.
+#[test]
+fn sides_with_which_a_start_does_not_close_are_said() {
+    let text = |side: &str, upper: &str| {
+        format!(
+            "mod behind; ground {{ O: (0, 0), Q: (5m, 1m), R: (2m, -2m) }} link crank {{ O -> A: 1m }} link e {{ A -> H: 2m }}
+             link f {{ R -> H: 2m, P: (1.745m, -1.398m) }} link b {{ A -> E: 1.95m }}
+             link t {{ E: (0, 0), C: (1m, 0.7m), D: (0.7m, -0.9m) }} link c {{ Q -> C: {upper} }} link d {{ D: (0.2m, 0.1m), P: (1.8m, 0.6m) }}
+             revolute O: ground -> crank; revolute Ae: crank.A -> e.A; revolute H: e -> f; revolute R: ground -> f;
+             revolute Ab: crank.A -> b.A; revolute E: t -> b; revolute C: t -> c; revolute D: d -> t; revolute Q: ground -> c;
+             revolute P: d -> f; drive q: O; assemble H: {side}(Ae -> R); start q: 0.4rad; start b: (1m, 0.4m), angle 36deg;
+             start t: (2.5m, 1.5m), angle 0; start c: (5m, 1m), angle 140deg; start d: (3m, 0.6m), angle -80deg;
+             scene places: position -> (C);"
+        )
+    };
+    let either = support::compile(&text("either", "1.92m"));
+    // As many as are refused when they are declared.
+    let sides = ["left", "right"];
+    let refused = |side: &&str| linkage_codegen::analyse(text(side, "1.92m").parse().expect("tokens")).is_err();
+    let expected: Vec<String> = sides.iter().filter(|side| refused(side)).map(|side| format!("`H` {side}")).collect();
+    assert_eq!(either.unposed, expected);
+    assert_eq!(expected, ["`H` right"]);
+    let code = linkage_codegen::expand(text("either", "1.92m").parse().expect("tokens")).to_string();
+    assert!(code.contains("it does not close with `H` right: from there no pose has these sides"), "{code}");
+    // With none of them it is refused.
+    assert!(linkage_codegen::analyse(text("either", "9m").parse().expect("tokens")).is_err());
+}

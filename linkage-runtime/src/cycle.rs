@@ -84,6 +84,8 @@ pub trait Number:
     const ZERO: Self;
     /// ½.
     const HALF: Self;
+    /// Half a turn.
+    const PI: Self;
     /// Its square root.
     #[must_use]
     fn root(self) -> Self;
@@ -102,6 +104,7 @@ macro_rules! number {
         impl Number for $scalar {
             const ZERO: Self = 0.0;
             const HALF: Self = 0.5;
+            const PI: Self = core::$scalar::consts::PI;
             fn root(self) -> Self {
                 crate::math::$scalar::sqrt(self)
             }
@@ -285,6 +288,43 @@ impl<'a, T: Number> Cycle<'a, T> {
     }
 }
 
+/// Angles that follow each other along a motion, each in (−π, π], as one that counts its turns: each lies within half a turn of the one
+/// before. So the angle of a link, or of a drive that an inverse scene finds, becomes continuous, if between two positions no link turns by
+/// half a turn or more. The first one stays as it is.
+///
+/// ```
+/// use linkage_runtime::cycle::unwrap;
+///
+/// let mut angles = [2.0, 3.0, -2.3, -1.3, 3.0];
+/// unwrap(&mut angles)?;
+/// let turn = core::f64::consts::TAU;
+/// assert_eq!(angles, [2.0, 3.0, turn - 2.3, turn - 1.3, 3.0]);
+/// # Ok::<(), linkage_runtime::cycle::CycleError>(())
+/// ```
+///
+/// # Errors
+///
+/// [`CycleError::NotFinite`]: then all angles stay as they are.
+pub fn unwrap<T: Number>(angles: &mut [T]) -> Result<(), CycleError> {
+    if angles.iter().any(|angle| !angle.finite()) {
+        return Err(CycleError::NotFinite);
+    }
+    let (mut turns, mut before) = (T::ZERO, None);
+    for angle in angles {
+        let wrapped = *angle;
+        let step = before.map_or(T::ZERO, |before| wrapped - before);
+        if step > T::PI {
+            turns = turns - (T::HALF + T::HALF);
+        } else if step < -T::PI {
+            turns = turns + (T::HALF + T::HALF);
+        }
+        // Not added up from position to position: that would add up roundings too.
+        *angle = wrapped + turns * (T::PI + T::PI);
+        before = Some(wrapped);
+    }
+    Ok(())
+}
+
 /// The work of an effort around a closed path of its coordinate: `Σ (F + F′)/2 (q′ − q)` from each position to the next one, and from the
 /// last to the first: the area in the diagram of force over stroke.
 ///
@@ -340,7 +380,7 @@ pub fn flywheel_inertia<T: Number>(energy_fluctuation: T, coefficient: T, mean_s
 
 #[cfg(test)]
 mod tests {
-    use super::{Cycle, CycleError, flywheel_inertia, maximum, minimum, peak, speed_fluctuation, work_around};
+    use super::{Cycle, CycleError, flywheel_inertia, maximum, minimum, peak, speed_fluctuation, unwrap, work_around};
     use core::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
     use std::vec::Vec;
 
@@ -425,6 +465,23 @@ mod tests {
         close(speed_fluctuation(&[98.0, 102.0, 101.0]).expect("positive"), 0.04);
         assert_eq!(speed_fluctuation(&[-1.0, 1.0]), Err(CycleError::NotPositive { what: "the mean speed" }));
         assert_eq!(speed_fluctuation::<f64>(&[]), Err(CycleError::Empty));
+    }
+
+    #[test]
+    fn angles_count_their_turns_both_ways() {
+        let steps: Vec<f64> = (0..200).map(|step| 0.37 * f64::from(step)).collect();
+        let motion: Vec<f64> = steps.iter().map(|t| 1.0 + 20.0 * (0.13 * t).sin()).collect();
+        let mut angles: Vec<f64> = motion.iter().map(|angle| angle.sin().atan2(angle.cos())).collect();
+        assert_eq!(unwrap(&mut angles), Ok(()));
+        for (found, expected) in angles.iter().zip(&motion) {
+            close(*found, *expected);
+        }
+        let mut single = [3.0f32, -3.0, 3.0];
+        assert_eq!(unwrap(&mut single), Ok(()));
+        assert!((single[1] - 3.283_185_4).abs() < 1e-6 && (single[2] - 3.0).abs() < 1e-6, "{single:?}");
+        let mut broken = [1.0, f64::NAN];
+        assert_eq!((unwrap(&mut broken), broken[0]), (Err(CycleError::NotFinite), 1.0));
+        assert_eq!(unwrap::<f64>(&mut []), Ok(()));
     }
 
     #[test]

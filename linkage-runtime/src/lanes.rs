@@ -44,7 +44,7 @@ macro_rules! lanes {
             count: usize,
             sweep: &mut impl Lanes<GIVEN, RESULTS>,
         ) -> Result<(), crate::SweepError> {
-            let processor = pulp::Arch::new();
+            let processor = crate::processor::instructions();
             let (mut given, mut results, mut holds) = ([[0.0; BLOCK]; GIVEN], [[0.0; BLOCK]; RESULTS], [0.0; BLOCK]);
             let mut first = 0;
             while first < count {

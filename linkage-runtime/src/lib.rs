@@ -52,6 +52,8 @@ mod lanes;
 pub mod limits;
 mod linear;
 pub mod math;
+#[cfg(feature = "std")]
+mod processor;
 #[cfg(feature = "reference")]
 pub mod reference;
 mod results;
@@ -70,6 +72,8 @@ pub use sweep::{Series, SweepError};
 /// What emitted code calls. Not for use by hand: it changes with the compiler.
 #[doc(hidden)]
 pub mod __private {
+    #[cfg(feature = "std")]
+    pub use crate::processor::limit_registers;
     #[cfg(feature = "reference")]
     pub use crate::reference::{Compared, verify};
     pub use crate::sweep::{same_length, store, sweep};

@@ -10,7 +10,8 @@ use linkage_codegen::topology::{Freedom, Group, Topology};
 use linkage_codegen::{Linkage, Refusal, analyse};
 use proc_macro2::LexError;
 
-use crate::declaration::{Declaration, joint_of};
+use crate::declaration::{Declaration, is_pure_couple, joint_of, line_of};
+use crate::exact::nearest;
 use crate::file::{Coordinate, End, File, Place};
 use crate::number::{Number, Raw};
 
@@ -36,14 +37,19 @@ pub(crate) fn first_line(message: &str) -> &str {
 
 /// Closes all groups of a declaration.
 pub(crate) fn close(file: &File, declaration: &Declaration) -> Result<Closed, Refused> {
-    let guess = Guess { file, declaration };
+    let guess = Guess { file, declaration, source: Source::Guess };
     let mut closures: Vec<String> = Vec::new();
+    let mut without: Vec<String> = Vec::new();
     loop {
-        match compile(declaration, &closures)? {
-            Ok(closed) => return smooth(declaration, closures, &guess, closed),
+        match compile(declaration, &closures, &without)? {
+            Ok(closed) => return smooth(declaration, closures, &without, &guess, closed),
             Err(refusal) => {
                 let messages: Vec<String> = refusal.errors.iter().map(|error| error.message().to_owned()).collect();
-                let before = closures.len();
+                let (before, passed) = (closures.len(), without.len());
+                without.extend(messages.iter().filter_map(|message| guess.without_line(message)));
+                if without.len() > passed {
+                    continue;
+                }
                 for message in &messages {
                     closures.extend(guess.choose(message, refusal.model.as_deref()));
                     closures.extend(guess.starts(message));
@@ -59,8 +65,12 @@ pub(crate) fn close(file: &File, declaration: &Declaration) -> Result<Closed, Re
 }
 
 /// What the compiler says of a declaration, if that is text which it can read.
-fn compile(declaration: &Declaration, closures: &[String]) -> Result<Result<Closed, Refusal>, Refused> {
-    let text = declaration.text(closures);
+fn compile(
+    declaration: &Declaration,
+    closures: &[String],
+    without: &[String],
+) -> Result<Result<Closed, Refusal>, Refused> {
+    let text = declaration.text(closures, without);
     let tokens =
         text.parse().map_err(|error: LexError| Refused::Broken(format!("no text of a declaration: {error}")))?;
     Ok(analyse(tokens).map(|linkage| Closed { text, linkage }))
@@ -70,6 +80,7 @@ fn compile(declaration: &Declaration, closures: &[String]) -> Result<Result<Clos
 fn smooth(
     declaration: &Declaration,
     mut closures: Vec<String>,
+    without: &[String],
     guess: &Guess<'_>,
     closed: Closed,
 ) -> Result<Closed, Refused> {
@@ -80,7 +91,7 @@ fn smooth(
             let Ok(at) = Number::new(&input.value, guess.file.number_mode) else { continue };
             let plain = closures[index].clone();
             closures[index] = format!("{} smooth at {};", plain.trim_end_matches(';'), at.in_unit("rad"));
-            match compile(declaration, &closures)? {
+            match compile(declaration, &closures, without)? {
                 Ok(folding) => {
                     closed = folding;
                     break;
@@ -92,17 +103,33 @@ fn smooth(
     Ok(closed)
 }
 
+/// Where a pose is taken from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Source {
+    Guess,
+    Answer,
+}
+
 /// The pose near which the wanted one lies.
+#[derive(Clone, Copy)]
 struct Guess<'a> {
     file: &'a File,
     declaration: &'a Declaration,
+    source: Source,
 }
 
 impl Guess<'_> {
-    /// One of the sides that the compiler offers in a message.
+    /// One of the sides that the compiler offers in a message. A guess whose joints are further apart than they lie from the fold says
+    /// nothing of the side: then the pose does that the file knows.
     fn choose(&self, message: &str, model: Option<&Model>) -> Option<String> {
         let offers: Vec<&str> = offers(message, "assemble ").collect();
-        let chosen = offers.iter().find(|offer| self.holds(offer, model) == Some(true));
+        let open = |offer: &&str| {
+            let (margin, gap) = (self.margin(offer, model), self.gap(offer));
+            margin.zip(gap).is_some_and(|(margin, gap)| margin.abs() <= gap)
+        };
+        let known = self.file.reference.is_some() && offers.iter().any(open);
+        let by = if known { Self { source: Source::Answer, ..*self } } else { *self };
+        let chosen = offers.iter().find(|offer| by.margin(offer, model).is_some_and(|by| by > 0.0));
         // At a guess that is on neither side, where there is no answer to come, either will do.
         chosen.or(offers.first()).map(|offer| (*offer).to_owned())
     }
@@ -124,20 +151,42 @@ impl Guess<'_> {
         offers(message, "start ").filter_map(start).collect()
     }
 
-    /// Whether an offered side is that of the guess: `assemble B: left(A -> B0);`.
-    fn holds(&self, offer: &str, model: Option<&Model>) -> Option<bool> {
+    /// The scene of a line that the compiler refuses because there is none, where the file knows of none either.
+    fn without_line(&self, message: &str) -> Option<String> {
+        let of = first_line(message).strip_prefix("the acceleration of the centre of mass of ")?;
+        let name = of.strip_suffix(" vanishes at every pose: it has no direction")?;
+        let link = self.declaration.links.original(name)?;
+        let none = self.file.answers().all(|answers| is_pure_couple(self.file, answers, link));
+        none.then(|| line_of(name))
+    }
+
+    /// How far a joint lies on the side that is offered: `assemble B: left(A -> B0);`.
+    fn margin(&self, offer: &str, model: Option<&Model>) -> Option<f64> {
         let (inner, side) = offer.strip_prefix("assemble ")?.split_once(':')?;
         let (word, of) = side.trim().split_once('(')?;
         let of: Vec<[f64; 2]> =
             of.split_once(')')?.0.split("->").map(|joint| self.place(joint.trim())).collect::<Option<_>>()?;
         let at = self.place(inner)?;
         Some(match (word, &of[..]) {
-            ("left", [p, q]) => cross(from(*p, *q), from(*p, at)) > 0.0,
-            ("right", [p, q]) => cross(from(*p, *q), from(*p, at)) < 0.0,
-            ("ahead", [_]) => self.ahead(offer, model?)? > 0.0,
-            ("behind", [_]) => self.ahead(offer, model?)? < 0.0,
+            ("left", [p, q]) => across(from(*p, *q), from(*p, at)),
+            ("right", [p, q]) => -across(from(*p, *q), from(*p, at)),
+            ("ahead", [_]) => self.ahead(offer, model?)?,
+            ("behind", [_]) => -self.ahead(offer, model?)?,
             _ => return None,
         })
+    }
+
+    /// How far the two points of the pins of an offer are apart: of an answer not at all.
+    fn gap(&self, offer: &str) -> Option<f64> {
+        let (inner, side) = offer.strip_prefix("assemble ")?.split_once(':')?;
+        let of = side.split_once('(')?.1.split_once(')')?.0.split("->");
+        let pin = |joint: &str| {
+            let joint = joint_of(self.file, &self.declaration.joints, joint.trim())?;
+            let apart = from(self.end(&joint.a)?, self.end(&joint.b)?);
+            let holds = matches!(joint.kind, crate::file::JointKind::Revolute | crate::file::JointKind::Weld);
+            Some(if holds { apart[0].hypot(apart[1]) } else { 0.0 })
+        };
+        std::iter::once(inner).chain(of).map(pin).sum()
     }
 
     /// How far ahead of the pin in an offer the inner joint of its group lies along the slide or slot, of an inner slide the other pin.
@@ -189,8 +238,16 @@ impl Guess<'_> {
         if link == "ground" {
             return Some([0.0; 3]);
         }
-        let [x, y, angle] = self.file.guess.get(link)?;
-        Some([self.value(x)?, self.value(y)?, self.value(angle)?])
+        match self.source {
+            Source::Guess => {
+                let [x, y, angle] = self.file.guess.get(link)?;
+                Some([self.value(x)?, self.value(y)?, self.value(angle)?])
+            }
+            Source::Answer => {
+                let [x, y, angle] = self.file.reference.as_ref()?.pose.get(link)?;
+                Some([nearest(x).ok()?, nearest(y).ok()?, nearest(angle).ok()?])
+            }
+        }
     }
 
     fn value(&self, raw: &Raw) -> Option<f64> {
@@ -213,8 +270,9 @@ fn from(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [b[0] - a[0], b[1] - a[1]]
 }
 
-fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
+/// How far b lies to the left of a line along a.
+fn across(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] * b[1] - a[1] * b[0]) / a[0].hypot(a[1])
 }
 
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -232,7 +290,7 @@ mod tests {
         let text = include_str!("../../tests/reference/neg_o5_over_driven.json");
         let file = File::parse(text).expect("a file");
         let declaration = Declaration::of(&file).expect("a declaration");
-        assert!(matches!(compile(&declaration, &[]), Ok(Err(_))));
-        assert!(matches!(compile(&declaration, &["assemble B: left(".into()]), Err(Refused::Broken(_))));
+        assert!(matches!(compile(&declaration, &[], &[]), Ok(Err(_))));
+        assert!(matches!(compile(&declaration, &["assemble B: left(".into()], &[]), Err(Refused::Broken(_))));
     }
 }

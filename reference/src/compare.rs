@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use crate::declaration::{
     ACCELERATIONS, ALL, CENTROID, CONTROL, Declaration, INERTIA, OFFSET, ORIGIN, PARTS, PLACES, POWERS, RESOLVED,
-    SHAKING, SPEEDS, WEIGHT, WORK, point_of,
+    SHAKING, SPEEDS, WEIGHT, WORK, is_pure_couple, point_of,
 };
 use crate::exact::{difference, difference_of_angles, nearest};
 use crate::file::{Answers, File, Limits, LinkMotion, Ordered, Reaction, Reduced};
@@ -81,14 +81,23 @@ pub(crate) fn compare(
         let own = scene(&format!("{OFFSET}{name}"))?.field(&field).ok_or_else(|| format!("no line of `{link}`"))?;
         comparison.line(own, (link, line), worst)?;
     }
+    comparison.pure_couples(results)?;
     if let Some(power) = &answers.power {
         comparison.power(scene(POWERS)?, power, worst)?;
     }
     if let Some(shaking) = &answers.shaking {
-        comparison.shaking(scene(SHAKING)?, shaking, worst)?;
+        if declaration.shakes {
+            comparison.shaking(scene(SHAKING)?, shaking, worst)?;
+        } else if [&shaking.force[0], &shaking.force[1], &shaking.moment].into_iter().any(|number| number != "0") {
+            return Err("without any mass something shakes".into());
+        }
     }
     if let Some(reduced) = &answers.reduced {
-        comparison.equation_of_motion(scene(CONTROL)?, reduced, worst)?;
+        if declaration.shakes {
+            comparison.equation_of_motion(scene(CONTROL)?, reduced, worst)?;
+        } else {
+            comparison.without_mass(scene(ALL)?, reduced, worst)?;
+        }
     }
     comparison.equilibrium(scene(ALL)?, worst)?;
     comparison.resolved(scene(ALL)?, results.get(RESOLVED), worst)?;
@@ -254,6 +263,19 @@ impl Comparison<'_> {
         Ok(())
     }
 
+    /// Where inertia is a couple alone, its line must be an error; if that is so at every pose, the compiler has refused it.
+    fn pure_couples(&self, results: &Results) -> Result<(), String> {
+        for (link, _) in self.file.links.iter().filter(|(link, _)| is_pure_couple(self.file, self.answers, link)) {
+            match results.get(&format!("{OFFSET}{}", self.declaration.links.find(link)?)) {
+                None => {}
+                Some(Value::Error(error)) if error.starts_with("NoDirection") => {}
+                Some(Value::Error(error)) => return Err(format!("the line of `{link}` fails otherwise: {error}")),
+                Some(_) => return Err(format!("the inertia of `{link}` is a couple alone, and was given a line")),
+            }
+        }
+        Ok(())
+    }
+
     /// Powers, each measured by its effort's limit: a rate is as it is given, or as exact as the pose. That of all by the sum of their
     /// sizes, with what the loads and the masses take.
     fn power(&self, own: &Value, answer: &crate::file::Power, worst: &mut Worst) -> Result<(), String> {
@@ -318,6 +340,18 @@ impl Comparison<'_> {
         for (row, value) in answer.bias.iter().enumerate() {
             let scale = self.scales.effort.get(row).copied().unwrap_or(0.0).max(nearest(value)?.abs());
             worst.see(difference(part("h", &[row])?, value)?.abs(), limits(row, scale), || format!("h {row}"));
+        }
+        Ok(())
+    }
+
+    /// Without any mass nothing resists an acceleration: the equation of motion is that of equilibrium.
+    fn without_mass(&self, own: &Value, answer: &Reduced, worst: &mut Worst) -> Result<(), String> {
+        if answer.mass.iter().chain(&answer.kinetic).flatten().any(|number| number != "0") {
+            return Err("without any mass something resists an acceleration".into());
+        }
+        for (row, value) in answer.bias.iter().enumerate() {
+            let off = difference(self.effort(own, row)?, value)?.abs();
+            worst.see(off, self.scales.effort_limits(row), || format!("h {row}"));
         }
         Ok(())
     }

@@ -12,7 +12,7 @@ use linkage_codegen::model::ids::{GROUND, LinkId};
 use linkage_codegen::topology::Topology;
 use linkage_codegen::{model, syntax};
 
-use crate::file::{Body, Coordinate, Effort, End, File, Given, Joint, JointKind, LoadKind, Place};
+use crate::file::{Answers, Body, Coordinate, Effort, End, File, Given, Joint, JointKind, LoadKind, Place};
 use crate::number::{Mode, Number, Raw};
 
 /// The point at the origin of each link's frame: answers say where that is.
@@ -89,6 +89,8 @@ pub(crate) struct Declaration {
     pub(crate) positions: Vec<Vec<f64>>,
     /// Rate and acceleration of each drive.
     pub(crate) motion: Vec<[f64; 2]>,
+    /// Whether there is a resultant of inertia: whether anything that moves has a mass.
+    pub(crate) shakes: bool,
     /// The loads that are given at run time, as expressions for each position.
     pub(crate) run_time_loads: Vec<(String, Vec<String>)>,
 }
@@ -98,9 +100,10 @@ impl Declaration {
         Writer::new(file).write()
     }
 
-    /// With closures, as a whole.
-    pub(crate) fn text(&self, closures: &[String]) -> String {
-        let items = self.items.iter().chain(closures).map(|item| format!("    {item}\n"));
+    /// With closures, as a whole, but for some items.
+    pub(crate) fn text(&self, closures: &[String], without: &[String]) -> String {
+        let kept = self.items.iter().filter(|item| !without.contains(item));
+        let items = kept.chain(closures).map(|item| format!("    {item}\n"));
         format!("    mod mechanism;\n{}", items.collect::<String>())
     }
 }
@@ -183,6 +186,7 @@ impl<'a> Writer<'a> {
             items.push(self.joint(joint)?);
         }
         let unknowns = self.inputs(&mut items)?;
+        let shakes = moves(self.file) && self.weighty()?;
         let run_time_loads = self.loads(&mut items)?;
         self.masses(&mut items)?;
         let results = |points: &[&str]| {
@@ -194,16 +198,17 @@ impl<'a> Writer<'a> {
             let moved = results(&[ORIGIN, CENTROID, "angle"]);
             items.push(format!("scene {SPEEDS}: velocity -> ({moved});"));
             items.push(format!("scene {ACCELERATIONS}: acceleration -> ({moved});"));
-            let lines = self.file.reference.iter().flat_map(|answers| answers.inertia_offset.iter());
-            for (link, _) in lines {
-                let link = self.links.find(link)?;
-                items.push(format!("scene {OFFSET}{link}: acceleration -> (offset({link}));"));
+            for (link, name) in &self.links.0 {
+                let known = |answers: &Answers| answers.inertia_offset.get(link).is_some();
+                if self.file.answers().any(|answers| known(answers) || is_pure_couple(self.file, answers, link)) {
+                    items.push(line_of(name));
+                }
             }
         }
         if moves(self.file) {
             let powers: Vec<String> = unknowns.iter().map(|unknown| format!("power({unknown})")).collect();
             items.push(format!("scene {POWERS}: equilibrium -> ({}, power);", powers.join(", ")));
-            if self.weighty()? {
+            if shakes {
                 items.push(format!("scene {SHAKING}: acceleration -> (shaking(ground.{GROUND_ORIGIN}));"));
             }
         }
@@ -213,8 +218,7 @@ impl<'a> Writer<'a> {
         }
         items.extend(self.resolved()?);
         items.push(format!("scene {PARTS}: superposition;"));
-        if moves(self.file) && self.file.include_inertia && self.file.links.iter().any(|(_, body)| body.mass.is_some())
-        {
+        if shakes && self.file.include_inertia {
             items.push(format!("scene {CONTROL}: motion -> (M, h, rounding, M_kinetic);"));
         }
         items.push(format!("scene {WORK}: virtual_work;"));
@@ -225,7 +229,7 @@ impl<'a> Writer<'a> {
         let positions = self.positions()?;
         let motion = self.motion()?;
         let Self { links, joints, loads, .. } = self;
-        Ok(Declaration { items: all, links, joints, loads, unknowns, positions, motion, run_time_loads })
+        Ok(Declaration { items: all, links, joints, loads, unknowns, positions, motion, shakes, run_time_loads })
     }
 
     /// Where the links are, and all of their points of which the file has answers.
@@ -335,7 +339,7 @@ impl<'a> Writer<'a> {
             };
             items.push(format!("drive D{index}: {}{coordinate};", self.joints.find(&joint.name)?));
             if elsewhere {
-                items.push(format!("unknown E{index}: {};", self.effort(input.effort.as_ref(), joint, input.coord)?));
+                items.push(format!("unknown E{index}: {};", self.effort(input.effort.as_ref(), &format!("D{index}"))?));
                 unknowns.push(format!("E{index}"));
             } else {
                 unknowns.push(format!("effort_D{index}"));
@@ -344,28 +348,20 @@ impl<'a> Writer<'a> {
         Ok(unknowns)
     }
 
-    fn effort(&mut self, effort: Option<&Effort>, driven: &Joint, coord: Coordinate) -> Result<String, String> {
-        Ok(match (effort, coord) {
-            (Some(Effort::Moment { link, reaction_link }), _) => {
+    /// An effort that acts elsewhere, or that at its drive.
+    fn effort(&mut self, effort: Option<&Effort>, drive: &str) -> Result<String, String> {
+        Ok(match effort {
+            Some(Effort::Moment { link, reaction_link }) => {
                 let from = reaction_link.as_deref().unwrap_or("ground");
                 format!("torque({} -> {})", self.link(from)?, self.link(link)?)
             }
-            (Some(Effort::Force { link, point, direction: [x, y], frame }), _) => {
+            Some(Effort::Force { link, point, direction: [x, y], frame }) => {
                 let frame = self.frame(frame.as_deref(), link)?;
                 let at = self.point(link, point)?;
                 format!("force({at}) along ({}, {}) of {frame}", self.number(x)?.bare(), self.number(y)?.bare())
             }
-            (Some(Effort::Axial { a, b }), _) => format!("thrust({}, {})", self.end(a)?, self.end(b)?),
-            (None, Coordinate::Angle) => {
-                format!("torque({} -> {})", self.link(&driven.a.0)?, self.link(&driven.b.0)?)
-            }
-            (None, Coordinate::Displacement) => {
-                let Some([x, y]) = driven.axis.as_ref().filter(|_| driven.a.0 == "ground") else {
-                    return Err("beside an effort elsewhere, that along a moving slide has no words".into());
-                };
-                let at = self.end(&driven.b)?;
-                format!("force({at}) along ({}, {}) of ground", self.number(x)?.bare(), self.number(y)?.bare())
-            }
+            Some(Effort::Axial { a, b }) => format!("thrust({}, {})", self.end(a)?, self.end(b)?),
+            None => format!("effort({drive})"),
         })
     }
 
@@ -579,6 +575,18 @@ fn is_damped(load: &LoadKind) -> bool {
         LoadKind::Spring { damping, .. } | LoadKind::TorsionSpring { damping, .. } => !is_zero(damping.as_ref()),
         _ => false,
     }
+}
+
+/// The scene of the line of a link's inertia.
+pub(crate) fn line_of(link: &str) -> String {
+    format!("scene {OFFSET}{link}: acceleration -> (offset({link}));")
+}
+
+/// Whether the inertia of a link is known to be a couple alone: then no single force does the same.
+pub(crate) fn is_pure_couple(file: &File, answers: &Answers, link: &str) -> bool {
+    let heavy = file.links.get(link).is_some_and(|body| !is_zero(body.mass.as_ref()));
+    let rests = answers.acceleration.get(link).and_then(|motion| motion.centroid.as_ref());
+    heavy && rests.is_some_and(|at| at.iter().all(|number| number == "0")) && answers.inertia_offset.get(link).is_none()
 }
 
 /// Whether anything moves.

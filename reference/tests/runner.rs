@@ -142,6 +142,23 @@ fn what_has_no_answer_for_another_reason_fails() {
 }
 
 #[test]
+fn a_line_of_what_is_a_couple_alone_fails() {
+    let folder = folder("couples-alone");
+    // The rod's centre of mass is said to rest, and then the file has no line of its inertia.
+    let text = kept("o07_engine_slider_crank_3000rpm.json").replacen("\"inertia_offset\"", "\"passed_over\"", 1);
+    let rod = ["\"acceleration\"", "\"rod\"", "\"centroid\": ["];
+    let place = rod.iter().fold(0, |from, word| from + text[from..].find(word).expect("the word") + word.len());
+    let end = place + text[place..].find(']').expect("its end");
+    let text = format!("{}\"0\", \"0\"{}", &text[..place], &text[end..]);
+    std::fs::write(folder.join("resting.json"), text).expect("a file");
+    // Here the crank's rests at every pose, and there is no line in the file.
+    std::fs::write(folder.join("balanced.json"), kept("o09_scotch_yoke.json")).expect("a file");
+    let (success, said) = run(&folder, &[]);
+    assert!(!success && said.contains("the inertia of `rod` is a couple alone, and was given a line"), "{said}");
+    assert!(said.contains("1 passed with numbers"), "{said}");
+}
+
+#[test]
 fn a_sweep_that_stops_elsewhere_fails() {
     let folder = folder("sweeps");
     let text = kept("sweep_o38a_into_limit.json");

@@ -7,20 +7,35 @@ use super::dense::{self, Pin};
 use super::{Case, Extent, Item, Reactions, Start, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, Vector, equilibrium, in_frame, left, vector};
 use crate::expert::four_bar as expert;
+use crate::generators;
 use crate::linkages::four_bar::{self, Loads, Pose};
 use crate::linkages::four_bar_fused;
 
-impl super::Loads for Loads {
-    fn toward(first: f64, second: f64) -> Self {
-        Self { F13: polar(50.0, first), F14: polar(100.0, second) }
-    }
-    fn depend(&mut self, change: f64) {
-        self.F13.x += change;
-        self.F14.x += change;
+macro_rules! loads {
+    ($linkage:ident, $scalar:ident) => {
+        #[allow(clippy::cast_possible_truncation, reason = "in single precision")]
+        impl super::Loads for crate::linkages::$linkage::Loads {
+            fn toward(first: f64, second: f64) -> Self {
+                Self { F13: polar(50.0, first as $scalar), F14: polar(100.0, second as $scalar) }
+            }
+            fn depend(&mut self, change: f64) {
+                self.F13.x += change as $scalar;
+                self.F14.x += change as $scalar;
+            }
+        }
+    };
+}
+loads!(four_bar, f64);
+loads!(four_bar_fused, f64);
+loads!(four_bar_single, f32);
+
+impl Start for Pose {
+    fn depend(&mut self, _: f64) -> bool {
+        false
     }
 }
 
-impl Start for Pose {
+impl Start for four_bar_fused::Pose {
     fn depend(&mut self, _: f64) -> bool {
         false
     }
@@ -40,8 +55,9 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     let turn = Turn::new(extent, 80.0, |theta, loads| vec![exact(theta, loads)]);
     let parts = Turn::new(extent, 80.0, exact_parts);
     let pose = |theta| Pose::at(theta).expect("a pose");
+    let fused_pose = |theta| four_bar_fused::Pose::at(theta).expect("a pose");
     let careful_pose = |theta| expert::careful_pose(theta).expect("a pose");
-    vec![
+    let mut items = vec![
         Item {
             id: "P1a",
             title: "four-bar: all forces and the torque, from a pose",
@@ -49,9 +65,11 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 turn.prepared("expert", expert::pose, statics_expert),
                 turn.prepared("careful expert", careful_pose, statics_careful),
                 turn.prepared("generated", pose, statics_generated),
+                turn.prepared("generated, fused", fused_pose, statics_fused),
                 turn.prepared("LU 9x9", pose, statics_dense),
                 turn.prepared("LU 9x9, full pivoting", pose, statics_full),
                 turn.prepared("LU 9x9, dynamic", pose, statics_dynamic),
+                turn.prepared("LU 9x9, faer", pose, statics_faer),
             ],
         },
         Item {
@@ -64,6 +82,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 turn.competitor("generated, fused", statics_at_fused),
                 turn.competitor("generated, by way of a pose", statics_at_pose),
                 turn.competitor("LU 9x9", statics_at_dense),
+                turn.competitor("LU 9x9, faer", statics_at_faer),
             ],
         },
         Item {
@@ -88,7 +107,17 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 parts.competitor("LU 9x9", parts_at_dense),
             ],
         },
-    ]
+    ];
+    let loads = |loads: &Loads| vec![loads.F13, loads.F14];
+    for Item { id, competitors, .. } in &mut items {
+        match *id {
+            "P1a" => generators::add::<_, 11, 9, 1>(competitors, id, &turn, loads),
+            "P1b" => generators::add::<_, 5, 9, 1>(competitors, id, &turn, loads),
+            "P1c" => generators::add::<_, 5, 1, 1>(competitors, id, &turn, loads),
+            _ => generators::add::<_, 5, 18, 2>(competitors, id, &parts, loads),
+        }
+    }
+    items
 }
 
 fn statics_expert(case: &Case<expert::Pose, Loads>, out: &mut All) -> bool {
@@ -103,6 +132,16 @@ fn statics_careful(case: &Case<expert::Pose, Loads>, out: &mut All) -> bool {
 
 fn statics_generated(case: &Posed, out: &mut All) -> bool {
     match case.start.statics(&case.loads) {
+        Ok(all) => {
+            *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+fn statics_fused(case: &Case<four_bar_fused::Pose, Loads>, out: &mut All) -> bool {
+    match case.start.statics(&fused_loads(&case.loads)) {
         Ok(all) => {
             *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
             true
@@ -245,7 +284,7 @@ fn dense(pose: &Pose) -> (SMatrix<f64, 9, 9>, [f64; 2], [f64; 2]) {
 
 /// The equations at a pose with both loads.
 #[inline]
-fn equations(pose: &Pose, loads: &Loads) -> (SMatrix<f64, 9, 9>, SVector<f64, 9>) {
+pub(crate) fn equations(pose: &Pose, loads: &Loads) -> (SMatrix<f64, 9, 9>, SVector<f64, 9>) {
     let (matrix, c, d) = dense(pose);
     let mut right = SVector::zeros();
     dense::load(&mut right, 0, 1, c, loads.F13.into());
@@ -254,7 +293,7 @@ fn equations(pose: &Pose, loads: &Loads) -> (SMatrix<f64, 9, 9>, SVector<f64, 9>
 }
 
 #[inline]
-fn put(solution: Option<SVector<f64, 9>>, out: &mut All) -> bool {
+pub(crate) fn put(solution: Option<SVector<f64, 9>>, out: &mut All) -> bool {
     let Some(x) = solution else { return false };
     let force = |k: usize| Vector2::new(x[k], x[k + 1]);
     *out = Reactions { torque: x[8], forces: [force(0), force(2), force(4), force(6)] };
@@ -274,6 +313,17 @@ fn statics_full(case: &Posed, out: &mut All) -> bool {
 fn statics_dynamic(case: &Posed, out: &mut All) -> bool {
     let (matrix, right) = equations(&case.start, &case.loads);
     put(dense::dynamic(matrix, &right), out)
+}
+
+fn statics_faer(case: &Posed, out: &mut All) -> bool {
+    let (matrix, right) = equations(&case.start, &case.loads);
+    put(dense::faer(matrix, &right), out)
+}
+
+fn statics_at_faer(case: &At, out: &mut All) -> bool {
+    let Ok(pose) = Pose::at(case.start) else { return false };
+    let (matrix, right) = equations(&pose, &case.loads);
+    put(dense::faer(matrix, &right), out)
 }
 
 fn statics_at_dense(case: &At, out: &mut All) -> bool {
@@ -301,7 +351,7 @@ fn parts_at_dense(case: &At, out: &mut [All; 2]) -> bool {
 }
 
 /// The exact forces and torque.
-fn exact(theta: &Big, loads: &Loads) -> Exact {
+pub(crate) fn exact(theta: &Big, loads: &Loads) -> Exact {
     let [first, second] = [loads.F13, loads.F14].map(|force| vector(force.x, force.y));
     solve(theta, &[Some(first), Some(second)])
 }

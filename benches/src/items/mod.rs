@@ -3,10 +3,10 @@
 //! All competitors of an item have functions of one shape, `fn(&Case, &mut Results) -> bool`, where the result says
 //! whether there is an answer: the same arguments come in, the same numbers are written to the same place.
 
-mod dense;
-mod four_bar;
-mod six_bar;
-mod slider_crank;
+pub(crate) mod dense;
+pub(crate) mod four_bar;
+pub(crate) mod six_bar;
+pub(crate) mod slider_crank;
 
 use linkage_runtime::Vector2;
 
@@ -30,51 +30,56 @@ impl<const N: usize> Reactions<N> {
     }
 }
 
-impl<const N: usize> Default for Reactions<N> {
+impl<const N: usize, T: Scalar> Default for Reactions<N, T> {
     fn default() -> Self {
-        Self { torque: 0.0, forces: [Vector2::new(0.0, 0.0); N] }
+        Self { torque: T::default(), forces: [Vector2::new(T::default(), T::default()); N] }
     }
 }
+
+/// Numbers of either precision.
+pub(crate) trait Scalar: nalgebra::Scalar + Copy + Default + Into<f64> {}
+impl Scalar for f32 {}
+impl Scalar for f64 {}
 
 /// The results of an item: one part for each set of loads, and what is asked of it.
 pub(crate) trait Results: Copy + Default + 'static {
     /// The torque and the forces of each part.
-    fn parts(&self) -> Vec<(f64, &[Vector2<f64>])>;
+    fn parts(&self) -> Vec<(f64, Vec<Vector2<f64>>)>;
     /// A number that is there when the function has done its work.
     fn last(&self) -> f64;
     /// All numbers.
     fn numbers(&self) -> Vec<f64> {
-        let part = |(torque, forces): (f64, &[Vector2<f64>])| {
+        let part = |(torque, forces): (f64, Vec<Vector2<f64>>)| {
             forces.iter().flat_map(|force| [force.x, force.y]).chain([torque]).collect::<Vec<_>>()
         };
         self.parts().into_iter().flat_map(part).collect()
     }
 }
 
-impl<const N: usize> Results for Reactions<N> {
-    fn parts(&self) -> Vec<(f64, &[Vector2<f64>])> {
-        vec![(self.torque, &self.forces)]
+impl<const N: usize, T: Scalar> Results for Reactions<N, T> {
+    fn parts(&self) -> Vec<(f64, Vec<Vector2<f64>>)> {
+        vec![(self.torque.into(), self.forces.iter().map(|force| force.map(Into::into)).collect())]
     }
     fn last(&self) -> f64 {
-        self.torque
+        self.torque.into()
     }
 }
 
 impl<const N: usize> Results for [Reactions<N>; 2] {
-    fn parts(&self) -> Vec<(f64, &[Vector2<f64>])> {
-        self.iter().map(|part| (part.torque, part.forces.as_slice())).collect()
+    fn parts(&self) -> Vec<(f64, Vec<Vector2<f64>>)> {
+        self.iter().map(|part| (part.torque, part.forces.to_vec())).collect()
     }
     fn last(&self) -> f64 {
         self[0].torque + self[1].torque
     }
 }
 
-impl Results for f64 {
-    fn parts(&self) -> Vec<(f64, &[Vector2<f64>])> {
-        vec![(*self, &[])]
+impl<T: Scalar> Results for T {
+    fn parts(&self) -> Vec<(f64, Vec<Vector2<f64>>)> {
+        vec![((*self).into(), Vec::new())]
     }
     fn last(&self) -> f64 {
-        *self
+        (*self).into()
     }
 }
 
@@ -188,7 +193,16 @@ impl<L: Loads> Turn<L> {
         prepare: impl Fn(f64) -> S,
         call: fn(&Case<S, L>, &mut R) -> bool,
     ) -> Competitor {
-        let case = |case: &Case<f64, L>| Case { start: prepare(case.start), loads: case.loads };
+        self.posed(method, |case| Case { start: prepare(case.start), loads: case.loads }, call)
+    }
+
+    /// A competitor that is given what `case` makes of a pose, which is not timed.
+    pub(crate) fn posed<S: Start, R: Results>(
+        &self,
+        method: &'static str,
+        case: impl Fn(&Case<f64, L>) -> Case<S, L>,
+        call: fn(&Case<S, L>, &mut R) -> bool,
+    ) -> Competitor {
         let errors = self.errors(method, |given, results| call(&case(given), results));
         Competitor::new(method, errors, self.timed.iter().map(case).collect(), call)
     }
@@ -234,7 +248,7 @@ pub(crate) fn all(extent: Extent) -> Vec<Item> {
 }
 
 /// Numbers without a pattern, the same in every run (splitmix64).
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     fn bits(&mut self) -> u64 {
@@ -246,7 +260,7 @@ impl Random {
 
     /// From 0 to 1.
     #[allow(clippy::cast_precision_loss, reason = "53 bits are exact")]
-    fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 

@@ -1,13 +1,15 @@
 //! P2: a six-bar with weight on every link.
 
 use linkage_runtime::{Vector2, polar};
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use super::dense::{self, Pin};
 use super::{Case, Extent, Item, Reactions, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, in_frame, left, vector};
 use crate::expert::six_bar as expert;
+use crate::generators;
 use crate::linkages::six_bar::{self, Loads, Pose};
+use crate::linkages::six_bar_fused;
 
 impl super::Loads for Loads {
     fn toward(first: f64, second: f64) -> Self {
@@ -24,14 +26,18 @@ type At = Case<f64, Loads>;
 
 pub(super) fn items(extent: Extent) -> Vec<Item> {
     let turn = Turn::new(extent, 50.0, |theta, loads| vec![exact(theta, loads)]);
+    let mut competitors = vec![
+        turn.competitor("expert", statics_at_expert),
+        turn.competitor("generated", statics_at_generated),
+        turn.competitor("generated, fused", statics_at_fused),
+        turn.competitor("LU 15x15", statics_at_dense),
+        turn.competitor("LU 15x15, faer", statics_at_faer),
+    ];
+    generators::add::<_, 5, 15, 1>(&mut competitors, "P2b", &turn, |loads: &Loads| vec![loads.F, loads.G]);
     vec![Item {
         id: "P2b",
         title: "six-bar with weights: all forces and the torque, from the driver's angle",
-        competitors: vec![
-            turn.competitor("expert", statics_at_expert),
-            turn.competitor("generated", statics_at_generated),
-            turn.competitor("LU 15x15", statics_at_dense),
-        ],
+        competitors,
     }]
 }
 
@@ -50,8 +56,20 @@ fn statics_at_generated(case: &At, out: &mut All) -> bool {
     }
 }
 
-fn statics_at_dense(case: &At, out: &mut All) -> bool {
-    let Ok(pose) = Pose::at(case.start) else { return false };
+fn statics_at_fused(case: &At, out: &mut All) -> bool {
+    let Loads { F, G } = case.loads;
+    match six_bar_fused::statics_at(case.start, &six_bar_fused::Loads { F, G }) {
+        Ok(all) => {
+            *out = Reactions { torque: all.T, forces: [all.A0, all.A, all.B, all.B0, all.C, all.D, all.D0] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+/// The equations: moments about the origin of each link's frame.
+#[inline]
+fn equations(pose: &Pose, loads: &Loads) -> (SMatrix<f64, 15, 15>, SVector<f64, 15>) {
     // The place (x, y) in a link's frame, seen from the frame's origin.
     let at = |u: Vector2<f64>, x: f64, y: f64| [x * u.x - y * u.y, x * u.y + y * u.x];
     let (crank, coupler, rocker) = (pose.crank_direction(), pose.coupler_direction(), pose.rocker_direction());
@@ -67,12 +85,17 @@ fn statics_at_dense(case: &At, out: &mut All) -> bool {
         Pin { first: None, second: (4, here) },
     ]);
     let mut right = SVector::<f64, 15>::zeros();
-    dense::load(&mut right, 0, 1, at(coupler, 60.0, 35.0), case.loads.F.into());
-    dense::load(&mut right, 0, 4, at(arm, 70.0, 25.0), case.loads.G.into());
+    dense::load(&mut right, 0, 1, at(coupler, 60.0, 35.0), loads.F.into());
+    dense::load(&mut right, 0, 4, at(arm, 70.0, 25.0), loads.G.into());
     for (link, (u, (mass, x, y))) in [crank, coupler, rocker, rod, arm].into_iter().zip(MASSES).enumerate() {
         dense::load(&mut right, 0, link, at(u, x, y), [0.0, -9.81 * mass]);
     }
-    let Some(x) = dense::partial(matrix, &right) else { return false };
+    (matrix, right)
+}
+
+#[inline]
+fn put(solution: Option<SVector<f64, 15>>, out: &mut All) -> bool {
+    let Some(x) = solution else { return false };
     out.torque = x[14];
     for (k, force) in out.forces.iter_mut().enumerate() {
         *force = Vector2::new(x[2 * k], x[2 * k + 1]);
@@ -80,12 +103,24 @@ fn statics_at_dense(case: &At, out: &mut All) -> bool {
     true
 }
 
+fn statics_at_dense(case: &At, out: &mut All) -> bool {
+    let Ok(pose) = Pose::at(case.start) else { return false };
+    let (matrix, right) = equations(&pose, &case.loads);
+    put(dense::partial(matrix, &right), out)
+}
+
+fn statics_at_faer(case: &At, out: &mut All) -> bool {
+    let Ok(pose) = Pose::at(case.start) else { return false };
+    let (matrix, right) = equations(&pose, &case.loads);
+    put(dense::faer(matrix, &right), out)
+}
+
 /// Each link's mass in kg, and its place in mm.
 const MASSES: [(f64, f64, f64); 5] =
     [(0.4, 25.0, 0.0), (0.9, 65.0, 12.0), (0.8, 60.0, -10.0), (0.7, 85.0, 0.0), (0.6, 50.0, 8.0)];
 
 /// The exact forces and torque.
-fn exact(theta: &Big, loads: &Loads) -> Exact {
+pub(crate) fn exact(theta: &Big, loads: &Loads) -> Exact {
     let number = |x: i32| Big::ratio(x, 1);
     let point = |x: i32, y: i32| [number(x), number(y)];
     let (a0, b0, d0) = (point(0, 0), point(150, 0), point(330, 20));

@@ -7,7 +7,9 @@ use super::dense;
 use super::{Case, Extent, Item, Reactions, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, vector};
 use crate::expert::slider_crank as expert;
+use crate::generators;
 use crate::linkages::slider_crank::{self, Loads, Pose};
+use crate::linkages::slider_crank_fused;
 
 impl super::Loads for Loads {
     fn toward(first: f64, _: f64) -> Self {
@@ -23,15 +25,15 @@ type At = Case<f64, Loads>;
 
 pub(super) fn items(extent: Extent) -> Vec<Item> {
     let turn = Turn::new(extent, 45.0, |theta, loads| vec![exact(theta, loads)]);
-    vec![Item {
-        id: "P3b",
-        title: "slider-crank: all forces and the torque, from the driver's angle",
-        competitors: vec![
-            turn.competitor("expert", statics_at_expert),
-            turn.competitor("generated", statics_at_generated),
-            turn.competitor("LU 9x9", statics_at_dense),
-        ],
-    }]
+    let mut competitors = vec![
+        turn.competitor("expert", statics_at_expert),
+        turn.competitor("generated", statics_at_generated),
+        turn.competitor("generated, fused", statics_at_fused),
+        turn.competitor("LU 9x9", statics_at_dense),
+        turn.competitor("LU 9x9, faer", statics_at_faer),
+    ];
+    generators::add::<_, 3, 9, 1>(&mut competitors, "P3b", &turn, |loads: &Loads| vec![loads.gas]);
+    vec![Item { id: "P3b", title: "slider-crank: all forces and the torque, from the driver's angle", competitors }]
 }
 
 fn statics_at_expert(case: &At, out: &mut All) -> bool {
@@ -49,9 +51,19 @@ fn statics_at_generated(case: &At, out: &mut All) -> bool {
     }
 }
 
+fn statics_at_fused(case: &At, out: &mut All) -> bool {
+    match slider_crank_fused::statics_at(case.start, &slider_crank_fused::Loads { gas: case.loads.gas }) {
+        Ok(all) => {
+            *out = Reactions { torque: all.T, forces: [all.O, all.A, all.B, all.P.force] };
+            true
+        }
+        Err(_) => false,
+    }
+}
+
 /// Unknowns: the forces at O, A, B, the guide's force and couple, the torque. Moments about O, A and B.
-fn statics_at_dense(case: &At, out: &mut All) -> bool {
-    let Ok(pose) = Pose::at(case.start) else { return false };
+#[inline]
+fn equations(pose: &Pose, loads: &Loads) -> (SMatrix<f64, 9, 9>, SVector<f64, 9>) {
     let (crank, rod) = (45.0 * pose.crank_direction(), 150.0 * pose.rod_direction());
     let mut matrix = SMatrix::<f64, 9, 9>::zeros();
     for link in 0..3 {
@@ -68,16 +80,33 @@ fn statics_at_dense(case: &At, out: &mut All) -> bool {
     matrix[(8, 7)] = 1.0;
     matrix[(2, 8)] = 1.0;
     let mut right = SVector::<f64, 9>::zeros();
-    dense::load(&mut right, 0, 2, [0.0, 0.0], case.loads.gas.into());
-    let Some(x) = dense::partial(matrix, &right) else { return false };
+    dense::load(&mut right, 0, 2, [0.0, 0.0], loads.gas.into());
+    (matrix, right)
+}
+
+#[inline]
+fn put(solution: Option<SVector<f64, 9>>, out: &mut All) -> bool {
+    let Some(x) = solution else { return false };
     out.torque = x[8];
     out.forces =
         [Vector2::new(x[0], x[1]), Vector2::new(x[2], x[3]), Vector2::new(x[4], x[5]), Vector2::new(0.0, x[6])];
     true
 }
 
+fn statics_at_dense(case: &At, out: &mut All) -> bool {
+    let Ok(pose) = Pose::at(case.start) else { return false };
+    let (matrix, right) = equations(&pose, &case.loads);
+    put(dense::partial(matrix, &right), out)
+}
+
+fn statics_at_faer(case: &At, out: &mut All) -> bool {
+    let Ok(pose) = Pose::at(case.start) else { return false };
+    let (matrix, right) = equations(&pose, &case.loads);
+    put(dense::faer(matrix, &right), out)
+}
+
 /// The exact forces and torque.
-fn exact(theta: &Big, loads: &Loads) -> Exact {
+pub(crate) fn exact(theta: &Big, loads: &Loads) -> Exact {
     let [cos, sin] = theta.direction();
     let a = [Big::of(45.0) * cos, Big::of(45.0) * sin];
     let b = [&a[0] + (Big::of(22500.0) - &a[1] * &a[1]).sqrt(), Big::of(0.0)];

@@ -167,9 +167,8 @@ impl<'a> Body<'a> {
         if let Some(label) = &self.program.value(value).label {
             return label.name.clone();
         }
-        let result = self.program.outputs.iter().find(|(path, output)| *output == value && !path.is_empty());
-        if let Some((path, _)) = result {
-            return path.replace('.', "_");
+        if let Some(path) = self.result_name(value) {
+            return path;
         }
         if let Some(Op::Kernel { kernel, part, args }) = self.program.op(value)
             && *kernel != Kernel::MulAdd
@@ -189,18 +188,37 @@ impl<'a> Body<'a> {
                 (Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_), part) => format!("solved_{}", part + 1),
             };
         }
+        if let Some(Op::Abs(of)) = self.program.op(value)
+            && let Some(of) = self.names.get(of)
+        {
+            return format!("abs_{of}");
+        }
         let mut reader = value;
-        // The first named value that is computed from this one.
+        let mut limited = None;
+        // The first named value that is computed from this one; or what it is compared with.
         for step in &self.program.steps {
-            let Step::Let(next) = step else { continue };
-            if self.program.operands_of(step).contains(&reader) {
-                if let Some(label) = &self.program.value(*next).label {
-                    return format!("{}_part", label.name);
+            if !self.program.operands_of(step).contains(&reader) {
+                continue;
+            }
+            match step {
+                Step::Let(next) => {
+                    let label = self.program.value(*next).label.as_ref().map(|label| label.name.clone());
+                    if let Some(name) = label.or_else(|| self.result_name(*next)) {
+                        return format!("{name}_part");
+                    }
+                    reader = *next;
                 }
-                reader = *next;
+                Step::Check { guard, .. } => limited = limited.or_else(|| subject(&guard.failure)),
+                Step::FiniteInput(_) | Step::FiniteResults(_) => {}
             }
         }
-        "part".to_owned()
+        limited.map_or_else(|| "part".to_owned(), |of| format!("{of}_limit_part"))
+    }
+
+    /// The name of a result; of one of those that are compared with each other, that it is one.
+    fn result_name(&self, value: ValueId) -> Option<String> {
+        let (path, _) = self.program.outputs.iter().find(|(_, output)| *output == value)?;
+        Some(if path.is_empty() { "compared".to_owned() } else { path.replace('.', "_") })
     }
 
     /// The program as equations, a line each, under the headings of its sections; a line above says what an equation means.
@@ -467,6 +485,18 @@ impl<'a> Body<'a> {
         let condition = self.all_finite(groups);
         let what = if self.program.reads_loads() { "a load or a result" } else { "a result" };
         quote!(if !#condition { return Err(Error::NotFinite { what: #what }); })
+    }
+}
+
+/// What a check is about, as a part of a name.
+fn subject(failure: &Failure<ValueId>) -> Option<String> {
+    match failure {
+        Failure::DeadCentre { pivot, .. } => Some(pivot.clone()),
+        Failure::CannotAssemble { joint, .. } | Failure::CoincidentPivots { joint, .. } => Some(joint.clone()),
+        Failure::OtherSide { joint } => Some(format!("side_of_{joint}")),
+        Failure::CoincidentEnds { of } => Some(of.clone()),
+        Failure::NoDirection { .. } => Some("size".to_owned()),
+        Failure::NoConvergence { .. } | Failure::Parameter { .. } => None,
     }
 }
 

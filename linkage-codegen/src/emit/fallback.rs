@@ -34,7 +34,7 @@ pub fn module(mut model: Model) -> TokenStream {
     let accessors = accessors(model);
     let wrench = super::uses_wrench(&runtime, wrenches(model));
     let sweeps: TokenStream = sweeps(model, &runtime);
-    let inverses = super::inverses::stand_ins(model);
+    let inverses = super::inverses::stand_ins(model, &runtime);
     let from_pose = names
         .iter()
         .zip(&types)

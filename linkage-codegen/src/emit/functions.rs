@@ -329,10 +329,15 @@ pub(super) fn poses(linkage: &Linkage) -> TokenStream {
     let summary = "The pose at given coordinates of the drives.";
     let start = "Groups that are placed by Newton's method are followed from their declared start: the drives go straight from where they \
                  start to the given coordinates. A pose to which no motion leads that way is [`Error::NoConvergence`].";
-    let points: &[&str] = if linkage.functions.near.is_some() { &[start] } else { &[] };
+    let unposed = (!linkage.unposed.is_empty()).then(|| {
+        let sides = linkage.unposed.iter().map(|sides| format!("with {sides}")).collect::<Vec<_>>().join(", ");
+        format!("At the start of the drives it does not close {sides}: from there no pose has these sides.")
+    });
+    let points: Vec<&str> =
+        linkage.functions.near.is_some().then_some(start).into_iter().chain(unposed.as_deref()).collect();
     let receiver = linkage_argument(linkage, &quote!('l));
     let own = if has_params(linkage) { quote!(linkage,) } else { TokenStream::new() };
-    let mut all = pose_function(linkage, &linkage.functions.pose, &quote!(at), &receiver, &own, summary, points);
+    let mut all = pose_function(linkage, &linkage.functions.pose, &quote!(at), &receiver, &own, summary, &points);
     if let Some(near) = &linkage.functions.near {
         let summary = "The pose at other coordinates of the drives, from this one.";
         let points = [

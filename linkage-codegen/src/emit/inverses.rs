@@ -1,14 +1,16 @@
 //! Inverse scenes: a function for each, of the linkage as it is driven where a motion is wanted.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::docs::motion_blocks;
 use super::literals::ident;
 use super::types::{drive_doc, has_params, linkage_type, prepared_fields, scalar};
-use super::{functions, types};
+use super::{functions, sweeps, types};
 use crate::Linkage;
-use crate::model::{Inverse, Model, Scene};
+use crate::model::{Inverse, Model, Scene, Sweep, type_name};
 use crate::program::Program;
 
 /// The scene of such a linkage, with its program.
@@ -22,8 +24,8 @@ pub(super) fn prepared_name(inverse: &Linkage) -> Ident {
     ident(&format!("inverse_{name}"))
 }
 
-/// The function with its types.
-pub(super) fn function(inverse: &Linkage) -> TokenStream {
+/// The function with its types, and its sweeps.
+pub(super) fn function(inverse: &Linkage, runtime: &TokenStream) -> TokenStream {
     let model = &inverse.model;
     let motion = types::motion(model);
     let results: TokenStream = inverse.plan.scenes.iter().map(|output| types::results(model, 0, output)).collect();
@@ -38,7 +40,8 @@ pub(super) fn function(inverse: &Linkage) -> TokenStream {
         }
     });
     let function = functions::direct(inverse, 0);
-    quote!(#motion #results #prepared #function)
+    let sweeps = model.sweeps.iter().map(|sweep| sweeps::function(inverse, sweep, runtime));
+    quote!(#motion #results #prepared #function #(#sweeps)*)
 }
 
 /// What is to be said of the function: its arguments, and how the linkage is placed from them.
@@ -53,24 +56,29 @@ pub(super) fn points(inverse: &Linkage) -> Vec<String> {
 }
 
 /// The same without bodies, for a declaration that has errors.
-pub(super) fn stand_ins(model: &Model) -> TokenStream {
+pub(super) fn stand_ins(model: &Model, runtime: &TokenStream) -> TokenStream {
     let scalar = scalar(model);
-    let one = |inverse: &Inverse| {
+    // Where several things would have one name, the first has it.
+    let scenes = model.scenes.iter().map(|scene| &scene.name).chain(model.inverses.iter().map(|inverse| &inverse.name));
+    let own = model.sweeps.iter().map(|sweep| sweep.name.text.clone());
+    let mut names: BTreeSet<String> = scenes.map(|name| format!("{name}_at")).chain(own).collect();
+    let types = model.scenes.iter().map(|scene| type_name(&scene.name.text));
+    let own = model.sweeps.iter().flat_map(Sweep::types);
+    let mut types: BTreeSet<String> = types.chain(model.inverses.iter().flat_map(Inverse::types)).chain(own).collect();
+    let mut one = |inverse: &Inverse| {
         let [ty, motion, _] = inverse.types().map(|ty| ident(&ty));
         let function = ident(&format!("{}_at", inverse.name));
-        let member = |name: String| {
-            let name = ident(&name);
-            quote!(pub #name: #scalar)
-        };
         let results = inverse.results.iter().filter_map(|(drive, order)| {
             let drive = model.drives.get(drive.index())?;
-            Some(member(Model::driver_name(&drive.name.text, *order)))
+            Some(ident(&Model::driver_name(&drive.name.text, *order)))
         });
         let orders = inverse.orders();
         let wanted = inverse.wanted.iter().flat_map(|(name, _)| {
-            orders.iter().map(|order| member(Model::driver_name(&name.text, Some(*order)))).collect::<Vec<_>>()
+            orders.iter().map(|order| ident(&Model::driver_name(&name.text, Some(*order)))).collect::<Vec<_>>()
         });
         let (results, wanted): (Vec<_>, Vec<_>) = (results.collect(), wanted.collect());
+        let placed = inverse.wanted.iter().map(|(name, _)| ident(&name.text));
+        let placed: Vec<_> = placed.collect();
         let linkage = (!model.params.is_empty()).then(|| quote!(_: &Linkage,));
         let coordinates = inverse.wanted.iter().map(|_| quote!(_: #scalar,));
         let closures = model.given_closures().next().map(|_| quote!(_: Closures,));
@@ -78,17 +86,33 @@ pub(super) fn stand_ins(model: &Model) -> TokenStream {
         let motion = given.as_ref().map(|_| {
             quote! {
                 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-                pub struct #motion { #(#wanted),* }
+                pub struct #motion { #(pub #wanted: #scalar),* }
+            }
+        });
+        let distinct = |sweep: &Sweep| {
+            names.insert(sweep.name.text.clone()) && sweep.types().into_iter().all(|ty| types.insert(ty))
+        };
+        let sweeps: Vec<Sweep> = inverse.sweeps().filter(distinct).collect();
+        let sweeps = sweeps.iter().map(|sweep| {
+            let [inputs, outputs] = sweep.types().map(|ty| ident(&ty));
+            let name = ident(&sweep.name.text);
+            quote! {
+                #[derive(Clone, Copy, Debug, PartialEq)]
+                pub struct #inputs<'a> { #(pub #placed: #runtime::Series<'a, #scalar>,)* #(pub #wanted: #runtime::Series<'a, #scalar>,)* }
+                #[derive(Debug, PartialEq)]
+                pub struct #outputs<'a> { #(pub #results: &'a mut [#scalar],)* }
+                pub fn #name(#linkage #closures _: &#inputs<'_>, _: #outputs<'_>) -> Result<(), #runtime::SweepError> { loop {} }
             }
         });
         quote! {
             #[derive(Clone, Copy, Debug, PartialEq)]
-            pub struct #ty { #(#results),* }
+            pub struct #ty { #(pub #results: #scalar),* }
             #motion
             pub fn #function(#linkage #(#coordinates)* #closures #given) -> Result<#ty, Error> { loop {} }
+            #(#sweeps)*
         }
     };
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen = BTreeSet::new();
     let distinct = model.inverses.iter().filter(|inverse| seen.insert(inverse.types()[0].clone()));
-    distinct.map(one).collect()
+    distinct.map(&mut one).collect()
 }

@@ -44,10 +44,13 @@ pub(super) fn tokens(linkage: &Linkage, runtime: &TokenStream) -> TokenStream {
             pub const LIMITS: Limits = Limits { #(#values),* };
         }
     };
+    let doc = " What is known of every four-bar and slider-crank: each named after the joint at which it is assembled";
+    let chosen = linkage.model.given_closures().next().map_or(".", |_| ", and after its side if that is an argument.");
+    let doc = format!("{doc}{chosen}");
     quote! {
         use #runtime::limits;
 
-        /// What is known of every four-bar and slider-crank: each named after the joint at which it is assembled.
+        #[doc = #doc]
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Limits { #(#fields),* }
         #values

@@ -84,7 +84,7 @@ fn with_source(linkage: &Linkage, source: &TokenStream) -> TokenStream {
     let forward: TokenStream = scenes.clone().map(|s| functions::forward(model, s)).collect();
     let from_pose: TokenStream = scenes.clone().map(|s| functions::from_pose(linkage, s)).collect();
     let direct: TokenStream = scenes.map(|s| functions::direct(linkage, s)).collect();
-    let inverses: TokenStream = linkage.inverses.iter().map(inverses::function).collect();
+    let inverses: TokenStream = linkage.inverses.iter().map(|inverse| inverses::function(inverse, &runtime)).collect();
     let (generics, elided) = if types::has_params(linkage) {
         (quote!(<'l>), quote!(<'l>))
     } else {

@@ -7,10 +7,10 @@ use quote::quote;
 
 use super::functions::{body, input_name, lane_bindings, outputs};
 use super::literals::ident;
-use super::types::{drive_doc, given_motion, has_params, load_doc, run_time_loads, scalar};
+use super::types::{drive_doc, given_motion, has_params, load_doc, motion_doc, motion_type, run_time_loads, scalar};
 use crate::Linkage;
-use crate::graph::{Kernel, Op, Order, Symbol};
-use crate::model::{Drive, LoadKind, Model, Sweep};
+use crate::graph::{Kernel, Op, Symbol};
+use crate::model::{LoadKind, Model, Sweep};
 use crate::plan::{Output, slice_name};
 use crate::program::{Input, Program, Step};
 
@@ -27,12 +27,7 @@ fn inputs(model: &Model, sweep: &Sweep, runtime: &TokenStream, whole: bool) -> T
         quote!(#[doc = #doc] pub #name: #runtime::Series<'a, #scalar>)
     });
     let motion = model.swept_motion(scene).into_iter().map(|(drive, order)| {
-        let what = match order {
-            Order::Rate => "Rate",
-            Order::Acceleration => "Acceleration",
-        };
-        let unit = Drive::kind_of(order, drive.turns).unit(&model.units);
-        let (name, doc) = (ident(&drive.motion_name(order)), format!(" {what} of the drive `{}`, {unit}.", drive.name));
+        let (name, doc) = (ident(&drive.motion_name(order)), format!(" {}", motion_doc(model, drive, order)));
         quote!(#[doc = #doc] pub #name: #runtime::Series<'a, #scalar>)
     });
     let loads = model.swept_loads(scene).into_iter().map(|load| {
@@ -108,18 +103,16 @@ fn given_values(linkage: &Linkage, sweep: &Sweep) -> (TokenStream, Vec<TokenStre
         quote!(#name: inputs.#name.at(index))
     };
     // What the scene does not read is left as it is.
-    let rest = |all: bool, ty: &str| {
-        let ty = ident(ty);
-        (!all).then(|| quote!(..#ty::default()))
-    };
+    let rest = |all: bool, ty: &Ident| (!all).then(|| quote!(..#ty::default()));
+    let (motion_ty, loads_ty) = (motion_type(model), ident("Loads"));
     let program = if linkage.functions.near.is_some() { &functions.from_pose } else { &functions.direct };
     let motion_of = program.reads_motion().then(|| {
-        let rest = rest(motion.len() == given_motion(model).len(), "Motion");
+        let rest = rest(motion.len() == given_motion(model).len(), &motion_ty);
         let members = motion.iter().map(|(drive, order)| member(drive.motion_name(*order)));
-        quote!(let motion = Motion { #(#members,)* #rest };)
+        quote!(let motion = #motion_ty { #(#members,)* #rest };)
     });
     let loads_of = program.reads_loads().then(|| {
-        let rest = rest(loads.len() == run_time_loads(model).len(), "Loads");
+        let rest = rest(loads.len() == run_time_loads(model).len(), &loads_ty);
         let members = loads.iter().map(|load| member(model.load(*load).name.text.clone()));
         quote!(let loads = Loads { #(#members,)* #rest };)
     });

@@ -93,14 +93,7 @@ fn of_inverse(model: &Model, name: &str) -> Ident {
 pub(super) fn motion(model: &Model) -> TokenStream {
     let (scalar, ty) = (scalar(model), motion_type(model));
     let fields = given_motion(model).into_iter().map(|(drive, order)| {
-        let name = ident(&drive.motion_name(order));
-        let what = match order {
-            Order::Rate => "Rate",
-            Order::Acceleration => "Acceleration",
-        };
-        let of = if model.exchanged.is_some() { "of" } else { "of the drive" };
-        let unit = Drive::kind_of(order, drive.turns).unit(&model.units);
-        let doc = format!(" {what} {of} `{}`, {unit}.", drive.name);
+        let (name, doc) = (ident(&drive.motion_name(order)), format!(" {}", motion_doc(model, drive, order)));
         quote!(#[doc = #doc] pub #name: #scalar)
     });
     let fields: Vec<TokenStream> = fields.collect();
@@ -113,6 +106,16 @@ pub(super) fn motion(model: &Model) -> TokenStream {
         #[derive(Clone, Copy, Debug, Default, PartialEq)]
         pub struct #ty { #(#fields),* }
     }
+}
+
+/// What the rate or the acceleration of a drive is, with its unit; of an inverse scene, of a coordinate.
+pub(super) fn motion_doc(model: &Model, drive: &Drive, order: Order) -> String {
+    let what = match order {
+        Order::Rate => "Rate",
+        Order::Acceleration => "Acceleration",
+    };
+    let of = if model.exchanged.is_some() { "of" } else { "of the drive" };
+    format!("{what} {of} `{}`, {}.", drive.name, Drive::kind_of(order, drive.turns).unit(&model.units))
 }
 
 /// The type of what is given of a spring at run time.

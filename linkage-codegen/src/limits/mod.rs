@@ -221,9 +221,10 @@ impl Limits {
         let mut names = BTreeSet::new();
         let mut loops = Vec::new();
         for (_, chain) in driven(model, topology) {
-            let Some(closing) = Closing::of(&chain) else { continue };
-            model.graph.begin_section(format!("{SECTION} {}", closing.name));
-            loops.extend(found(&chain, &closing).filter(|_| names.insert(closing.name.clone())));
+            for closing in Closing::all(&chain) {
+                model.graph.begin_section(format!("{SECTION} {}", closing.name));
+                loops.extend(found(&chain, &closing).filter(|_| names.insert(closing.name.clone())));
+            }
         }
         let prepare = prepare(&model.graph, &loops);
         Self { loops, prepare }
@@ -279,18 +280,25 @@ fn driven<'m>(model: &'m Model, topology: &Topology) -> Vec<(usize, Chain<'m>)> 
 
 /// How a loop is assembled.
 struct Closing<'m> {
-    /// The joint at which a side is chosen.
+    /// The joint at which a side is chosen, and where it is an argument, the side.
     name: String,
     closure: &'m Closure,
+    side: Side,
 }
 
 impl<'m> Closing<'m> {
-    fn of(chain: &Chain<'m>) -> Option<Self> {
+    /// On the side that is chosen, or on both, where it is an argument; none if nothing is said of the loop.
+    fn all(chain: &Chain<'m>) -> Vec<Self> {
         let holds = |joint: &JointId| chain.hinges[1..].iter().any(|hinge| hinge.is(*joint));
         let closed = |closure: &&Closure| holds(&closure.joint) && closure.of.iter().all(holds);
-        // Of a side that is an argument nothing is known here.
-        let closure = chain.model.closures.iter().find(closed).filter(|closure| !closure.is_given_at_run_time())?;
-        Some(Self { name: chain.model.joint(closure.joint).name.text.clone(), closure })
+        let Some(closure) = chain.model.closures.iter().find(closed) else { return Vec::new() };
+        let joint = &chain.model.joint(closure.joint).name.text;
+        let on = |side: Side| Self { name: format!("{joint}_{}", side.word()), closure, side };
+        match (closure.is_given_at_run_time(), closure.of.len()) {
+            (false, _) => vec![Self { name: joint.clone(), closure, side: closure.side }],
+            (true, 2) => [Side::Left, Side::Right].map(on).into(),
+            (true, _) => [Side::Ahead, Side::Behind].map(on).into(),
+        }
     }
 
     /// Which way round the hinges behind the driver, the one before it and the one between these follow each other: 1 for
@@ -300,7 +308,7 @@ impl<'m> Closing<'m> {
         let &[from, to] = self.closure.of.as_slice() else { return None };
         let order = [hinge(from)?, hinge(to)?, hinge(self.closure.joint)?];
         let even = [[0, 1, 2], [1, 2, 0], [2, 0, 1]].contains(&order);
-        let left = self.closure.side == Side::Left;
+        let left = self.side == Side::Left;
         Some(if even == left { 1 } else { -1 })
     }
 
@@ -317,7 +325,7 @@ impl<'m> Closing<'m> {
             [slide - 1, slide + 1].into_iter().find(|hinge| *hinge != behind)
         };
         let front = pin(self.closure.joint).or_else(other)?;
-        let sign = if self.closure.side == Side::Ahead { 1 } else { -1 };
+        let sign = if self.side == Side::Ahead { 1 } else { -1 };
         match [behind, front] {
             pins if pins == [from, to] => Some(sign),
             pins if pins == [to, from] => Some(-sign),
@@ -359,11 +367,14 @@ struct Writing<'m> {
     chain: Chain<'m>,
     graph: &'m Graph,
     name: String,
+    /// The joint at which it is assembled.
+    joint: JointId,
 }
 
 impl<'m> Writing<'m> {
     fn new(chain: &Chain<'m>, closing: &Closing<'_>) -> Self {
-        Self { chain: chain.clone(), graph: &chain.model.graph, name: closing.name.clone() }
+        let joint = closing.closure.joint;
+        Self { chain: chain.clone(), graph: &chain.model.graph, name: closing.name.clone(), joint }
     }
 
     /// The length of a body, under a name; of one that depends on parameters it is checked when they are given.
@@ -397,7 +408,7 @@ impl<'m> Writing<'m> {
     fn assembled(&self, margins: &[Expr<'m>]) -> Option<Vec<Expr<'m>>> {
         let failure = |gap: Expr<'m>| Failure::CannotAssemble {
             group: [1, 2].map(|body| self.chain.body_name(body)).join(" + "),
-            joint: self.name.clone(),
+            joint: self.chain.model.joint(self.joint).name.text.clone(),
             gap: gap.id(),
         };
         let each = margins.iter().map(|margin| {
@@ -521,15 +532,18 @@ impl Shape {
 pub fn outlines(model: &Model) -> Vec<(String, &'static str)> {
     let mut all: Vec<(String, &'static str)> = Vec::new();
     for chain in cycles::chains(model) {
-        let Some(closing) = Closing::of(&chain).or_else(|| Closing::of(&chain.clone().from(1))) else { continue };
+        let own = Closing::all(&chain);
+        let closings = if own.is_empty() { Closing::all(&chain.clone().from(1)) } else { own };
         let slide = chain.hinges.iter().find(|hinge| hinge.kind == Kind::Slide);
         let ty = match slide {
             None => "FourBar",
             Some(slide) if slide.drive.is_some() => "DrivenSlide",
             Some(_) => "SliderCrank",
         };
-        if all.iter().all(|(name, _)| *name != closing.name) {
-            all.push((closing.name, ty));
+        for Closing { name, .. } in closings {
+            if all.iter().all(|(other, _)| *other != name) {
+                all.push((name, ty));
+            }
         }
     }
     all

@@ -6,7 +6,7 @@
 use super::ids::{ClosureId, DriveId, JointId};
 use super::motion::Asked;
 use super::names::{Names, Role};
-use super::{Method, Model, Scene, Wanted, resolve, type_name};
+use super::{Method, Model, Scene, Sweep, Wanted, resolve, type_name};
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::graph::Order;
 use crate::syntax::ast::{self, Ast, Item, Name, ResultItem};
@@ -31,6 +31,8 @@ pub struct Inverse {
     pub wanted: Vec<(Name, Coordinate)>,
     /// What is asked of the drives: their coordinates, rates and accelerations.
     pub results: Vec<(DriveId, Option<Order>)>,
+    /// The names of its sweeps.
+    pub swept: Vec<Name>,
 }
 
 impl Inverse {
@@ -43,6 +45,11 @@ impl Inverse {
             (true, false) => vec![Order::Rate],
             (false, false) => Vec::new(),
         }
+    }
+
+    /// Its sweeps, as those of a linkage of which it is the only scene.
+    pub fn sweeps(&self) -> impl Iterator<Item = Sweep> {
+        self.swept.iter().map(|name| Sweep { name: name.clone(), scene: 0 })
     }
 
     /// What is prepared for it from parameters.
@@ -91,7 +98,7 @@ pub(super) fn inverses(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink)
         let wanted = wanted(model, given, names, sink);
         let results = results(model, given, names, sink);
         let (name, method) = (given.name.clone(), given.method.clone());
-        model.inverses.push(Inverse { name, method, wanted, results });
+        model.inverses.push(Inverse { name, method, wanted, results, swept: Vec::new() });
     }
 }
 
@@ -229,6 +236,7 @@ impl Model {
             derivative: None,
             refused: Vec::new(),
         });
+        model.sweeps.extend(inverse.sweeps());
         model
     }
 }

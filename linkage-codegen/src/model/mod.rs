@@ -918,7 +918,8 @@ impl Model {
             || scene.has_power()
             || scene.has_driver_motion(false)
             || scene.loads.iter().any(load)
-            || differentiated.is_some_and(|scene| matches!(scene.method, Method::Velocity | Method::Acceleration))
+            || differentiated
+                .is_some_and(|scene| matches!(scene.method, Method::Velocity | Method::Acceleration | Method::Motion))
     }
 
     /// Whether the results of a scene depend on accelerations.
@@ -926,10 +927,13 @@ impl Model {
     pub fn scene_accelerates(&self, scene: &Scene) -> bool {
         let inertia = |load: &LoadId| self.loads.get(load.index()).map(|load| &load.kind);
         let differentiated = scene.derivative.as_ref().and_then(|derivative| self.scenes.get(derivative.of));
+        // In the equation of motion, accelerations of the drives are what is looked for.
+        let reduced = |scene: &Scene| scene.method == Method::Motion;
         scene.method == Method::Acceleration
             || scene.has_driver_motion(true)
             || differentiated.is_some_and(|scene| scene.method == Method::Acceleration)
-            || scene.method != Method::Motion
+            || !reduced(scene)
+                && !differentiated.is_some_and(reduced)
                 && scene.loads.iter().filter_map(inertia).any(|kind| matches!(kind, LoadKind::Inertia))
     }
 
@@ -1031,7 +1035,12 @@ impl Model {
     /// The unknown that is the effort at the drive of a joint's angle, or of its travel.
     #[must_use]
     pub fn effort_of(&self, joint: JointId, turns: bool) -> Option<UnknownId> {
-        let drive = self.drive_of(joint, turns)?;
+        self.effort_at(self.drive_of(joint, turns)?)
+    }
+
+    /// The unknown that is the effort at a drive.
+    #[must_use]
+    pub fn effort_at(&self, drive: DriveId) -> Option<UnknownId> {
         let effort = |unknown: &Unknown| matches!(unknown.kind, UnknownKind::Drive(own) if own == drive);
         self.unknowns.iter().position(effort).map(UnknownId::new)
     }

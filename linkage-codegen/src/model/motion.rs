@@ -215,6 +215,17 @@ fn effort(scope: Scope<'_>, unknown: &ast::Unknown) -> Result<UnknownKind, Diagn
             Ok(UnknownKind::Force { at: at_end, along: along.into(), frame })
         }
         Effort::Thrust(ends) => Ok(two_points(scope, ends)?.map_or(nothing, UnknownKind::Thrust)),
+        Effort::Drive(drive) => {
+            let Some(id) = scope.names.find(Role::Drive, drive)?.map(DriveId::new) else { return Ok(nothing) };
+            let taken = |unknown: &&Unknown| matches!(unknown.kind, UnknownKind::Drive(own) if own == id);
+            if let Some(other) = scope.model.unknowns.iter().find(taken) {
+                let problem = format!("the effort at the drive `{drive}` is `{}` already", other.name);
+                return Err(
+                    Diagnostic::new(drive.place(), problem).help("leave one of the two out, or let it act elsewhere")
+                );
+            }
+            Ok(UnknownKind::Drive(id))
+        }
     }
 }
 

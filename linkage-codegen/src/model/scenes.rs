@@ -6,7 +6,9 @@ use super::evaluate::Scope;
 use super::ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
-use super::{Along, By, Derivative, End, JointKind, LoadKind, Method, Model, Part, Scene, Spot, Variable, Wanted};
+use super::{
+    Along, By, Derivative, End, Inverse, JointKind, LoadKind, Method, Model, Part, Scene, Spot, Variable, Wanted,
+};
 use super::{inverses, sweeps};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::graph::Order;
@@ -85,7 +87,7 @@ fn derivatives(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
             (loads.clone(), results.clone(), refused.clone())
         };
         // How uncertain the other results are is none that varies smoothly.
-        results.retain(|wanted| *wanted != Wanted::ErrorBound);
+        results.retain(|wanted| !matches!(wanted, Wanted::ErrorBound | Wanted::Part(Part::Rounding)));
         let scene = &mut model.scenes[own];
         (scene.loads, scene.results, scene.refused) = (loads, results, refused);
         scene.derivative = Some(Derivative { of, by, refused: refused_by });
@@ -97,22 +99,23 @@ fn differentiated(model: &Model, given: &ast::Derivative, names: &Names) -> Resu
     if names.find(Role::Scene, &given.of)?.is_none() {
         return Ok(None);
     }
-    let Some(of) = model.scenes.iter().position(|scene| scene.name.text == given.of.text) else {
-        return Err(Diagnostic::new(
-            given.of.place(),
-            format!("`{}` is a sweep: it has no results of its own", given.of),
-        )
-        .help("differentiate the scene that it sweeps; a scene of derivatives can be swept itself"));
+    let (of, place) = (&given.of, given.of.place());
+    if model.inverses.iter().any(|inverse| inverse.name.text == of.text) {
+        let problem = format!("the derivative of the inverse scene `{of}` is not supported");
+        return Err(Diagnostic::new(place, problem)
+            .help("by a wanted coordinate it is the drive's `.rate` in that scene, at unit rate of the coordinate"));
+    }
+    let Some(found) = model.scenes.iter().position(|scene| scene.name.text == of.text) else {
+        return Err(Diagnostic::new(place, format!("`{of}` is a sweep: it has no results of its own"))
+            .help("differentiate the scene that it sweeps; a scene of derivatives can be swept itself"));
     };
-    let what = match model.scenes[of].method {
+    let what = match model.scenes[found].method {
         Method::Derivative => "a derivative of a derivative is not supported",
         Method::Verify => "how far methods disagree is nothing to differentiate",
-        Method::Motion => "the derivative of an equation of motion is not supported",
-        Method::Inverse => "the derivative of an inverse scene is not supported",
-        _ => return Ok(Some(of)),
+        _ => return Ok(Some(found)),
     };
-    Err(Diagnostic::new(given.of.place(), what)
-        .help("differentiate a scene of positions, velocities, accelerations or forces"))
+    Err(Diagnostic::new(place, what)
+        .help("differentiate a scene of positions, velocities, accelerations, forces or the equation of motion"))
 }
 
 /// What results are differentiated by: `theta`, `theta.rate`, `F13`, `l2`.
@@ -939,7 +942,7 @@ fn check_generated_names(model: &Model, sink: &Sink) {
             clash(&inverse.name, format!("the scene `{}` would have the type `{made}`, and {other}", inverse.name));
         }
     }
-    for sweep in &model.sweeps {
+    for sweep in model.sweeps.iter().cloned().chain(model.inverses.iter().flat_map(Inverse::sweeps)) {
         let own = format!("belongs to the sweep `{}`", sweep.name);
         if let Some(other) = methods.insert(sweep.name.text.clone(), own.clone()) {
             let made = &sweep.name;

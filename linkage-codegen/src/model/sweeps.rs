@@ -9,7 +9,7 @@ use crate::model::ids::LoadId;
 use crate::syntax::ast::{self, Ast, Item, Name};
 
 /// A scene at many positions.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Sweep {
     /// Its name.
     pub name: Name,
@@ -37,8 +37,10 @@ pub(super) fn sweeps(model: &mut Model, ast: &Ast, sink: &Sink) {
         if !is_sweep(given) {
             continue;
         }
+        let name = given.name.clone();
         match scene_of(model, ast, given) {
-            Ok(Some(scene)) => model.sweeps.push(Sweep { name: given.name.clone(), scene }),
+            Ok(Some(Swept::Scene(scene))) => model.sweeps.push(Sweep { name, scene }),
+            Ok(Some(Swept::Inverse(inverse))) => model.inverses[inverse].swept.push(name),
             Ok(None) => {}
             Err(error) => sink.report(error),
         }
@@ -48,8 +50,14 @@ pub(super) fn sweeps(model: &mut Model, ast: &Ast, sink: &Sink) {
     }
 }
 
+/// What a sweep goes through, by its place in its list.
+enum Swept {
+    Scene(usize),
+    Inverse(usize),
+}
+
 /// The scene of a sweep.
-fn scene_of(model: &Model, ast: &Ast, given: &ast::Scene) -> Result<Option<usize>, Diagnostic> {
+fn scene_of(model: &Model, ast: &Ast, given: &ast::Scene) -> Result<Option<Swept>, Diagnostic> {
     let named = given.loads.as_deref().unwrap_or_default();
     let [name] = named else {
         let place = named.get(1).map_or(given.method.place(), Name::place);
@@ -65,23 +73,23 @@ fn scene_of(model: &Model, ast: &Ast, given: &ast::Scene) -> Result<Option<usize
             "list them in that scene"
         }));
     }
+    if let Some(inverse) = model.inverses.iter().position(|inverse| inverse.name.text == name.text) {
+        return Ok(Some(Swept::Inverse(inverse)));
+    }
     let scene = model.scenes.iter().position(|scene| scene.name.text == name.text);
     match scene.map(|index| (index, &model.scenes[index])) {
         Some((_, Scene { method: Method::Verify, .. })) => {
             Err(Diagnostic::new(name.place(), "a scene that verifies is solved at one position after the other")
                 .help("sweep another scene, and verify single positions in a test"))
         }
-        Some((index, _)) => Ok(Some(index)),
-        None if model.inverses.iter().any(|inverse| inverse.name.text == name.text) => {
-            let problem = format!("the inverse scene `{name}` is solved at one position after the other");
-            Err(Diagnostic::new(name.place(), problem).help("sweep a scene that starts from the drives"))
-        }
+        Some((index, _)) => Ok(Some(Swept::Scene(index))),
         None => {
             let swept =
                 ast.items.iter().any(|item| matches!(item, Item::Scene(s) if is_sweep(s) && s.name.text == name.text));
             let problem =
                 if swept { format!("`{name}` is a sweep itself") } else { format!("there is no scene `{name}`") };
-            let known = model.scenes.iter().map(|scene| scene.name.text.as_str());
+            let inverses = model.inverses.iter().map(|inverse| inverse.name.text.as_str());
+            let known = model.scenes.iter().map(|scene| scene.name.text.as_str()).chain(inverses);
             Err(Diagnostic::new(name.place(), problem).suggest(&name.text, known))
         }
     }

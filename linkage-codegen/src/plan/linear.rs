@@ -18,7 +18,7 @@ pub(super) const CORE: usize = 250;
 const WRITTEN_OUT: usize = 3;
 
 /// What a vanishing core is called.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(super) struct Core<'a, 'm> {
     /// The name of its determinant.
     pub name: &'a str,
@@ -26,6 +26,8 @@ pub(super) struct Core<'a, 'm> {
     pub group: &'a str,
     /// How much larger the rounding of its terms may be than that of products of unit vectors.
     pub spread: Expr<'m>,
+    /// Names an unknown that comes out of the core: what is eliminated before is made of these.
+    pub unknown: &'a dyn Fn(usize, Expr<'m>) -> Expr<'m>,
 }
 
 /// A step of elimination: which equation gave which unknown.
@@ -63,7 +65,7 @@ pub(super) fn solve<'m>(
     }
     let mut values = vec![graph.zero(); count];
     for (column, value) in open.iter().zip(solve_core(graph, &equations, &open, core)?) {
-        values[*column] = value;
+        values[*column] = (core.unknown)(*column, value);
     }
     while let Some(Eliminated { unknown, equation }) = eliminated.pop() {
         let known = (0..count).filter(|column| *column != unknown && !equation.coefficients[*column].is_zero());

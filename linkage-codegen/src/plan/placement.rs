@@ -462,7 +462,7 @@ impl<'m> Placement<'m> {
         }
         let to_slot = to.slot.map(|slot| self.slid(slot, self.travel_on(slot, to.end.link)));
         let to = to.end;
-        for joint in self.route(from.end.link, to.link) {
+        for joint in self.route(from.end, to) {
             let joint_data = self.model.joint(joint);
             let (Some(near), Some(far)) = (joint_data.end_on(at.link), joint_data.end_off(at.link)) else { continue };
             push_segment(&mut segments, self.within(at, near));
@@ -520,30 +520,42 @@ impl<'m> Placement<'m> {
         Segment { direction: self.direction(carrier), along, size: travel.abs() }
     }
 
-    /// The joints on the shortest route between two placed links.
-    fn route(&self, from: LinkId, to: LinkId) -> Vec<JointId> {
-        let mut reached: BTreeMap<LinkId, Option<(LinkId, JointId)>> = BTreeMap::from([(from, None)]);
-        let mut open = VecDeque::from([from]);
-        while let Some(link) = open.pop_front() {
-            if link == to {
-                break;
+    /// The joints on the shortest route between two places on placed links. Of several routes through as few joints, that with the fewest parts:
+    /// one through a pin at the place itself does not go away along a link and come back along another one.
+    fn route(&self, from: End, to: End) -> Vec<JointId> {
+        let mut reached = BTreeSet::from([from.link]);
+        let mut front: Vec<(End, usize, Vec<JointId>)> = vec![(from, 0, Vec::new())];
+        while !front.is_empty() {
+            let arrived = front.iter().filter(|(at, ..)| at.link == to.link);
+            if let Some((.., route)) = arrived.min_by_key(|(at, parts, _)| parts + self.parts(*at, to)) {
+                return route.clone();
             }
-            for &joint in &self.placed {
-                let Some(next) = self.model.joint(joint).end_off(link) else { continue };
-                if let std::collections::btree_map::Entry::Vacant(entry) = reached.entry(next.link) {
-                    entry.insert(Some((link, joint)));
-                    open.push_back(next.link);
+            let mut next: Vec<(End, usize, Vec<JointId>)> = Vec::new();
+            for (at, parts, route) in &front {
+                for &joint in &self.placed {
+                    let data = self.model.joint(joint);
+                    let (Some(near), Some(far)) = (data.end_on(at.link), data.end_off(at.link)) else { continue };
+                    if reached.contains(&far.link) {
+                        continue;
+                    }
+                    let parts = parts + self.parts(*at, near) + usize::from(data.kind.line().is_some());
+                    let further = || route.iter().copied().chain([joint]).collect();
+                    match next.iter_mut().find(|(end, ..)| *end == far) {
+                        Some((_, known, _)) if *known <= parts => {}
+                        Some(known) => *known = (far, parts, further()),
+                        None => next.push((far, parts, further())),
+                    }
                 }
             }
+            reached.extend(next.iter().map(|(end, ..)| end.link));
+            front = next;
         }
-        let mut route = Vec::new();
-        let mut at = to;
-        while let Some(Some((before, joint))) = reached.get(&at) {
-            route.push(*joint);
-            at = *before;
-        }
-        route.reverse();
-        route
+        Vec::new()
+    }
+
+    /// None, if two points of a link are one.
+    fn parts(&self, from: End, to: End) -> usize {
+        usize::from(!(self.point(to) - self.point(from)).is_zero())
     }
 }
 

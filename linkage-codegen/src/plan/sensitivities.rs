@@ -12,7 +12,7 @@ use crate::graph::tangent::Tangent;
 use crate::graph::{Expr, Op, Symbol, Vector};
 use crate::model::ids::DriveId;
 use crate::model::units::Kind;
-use crate::model::{By, Derivative, LoadKind, Model, Variable};
+use crate::model::{By, Derivative, LoadKind, Model, Part as EquationPart, Variable, Wanted};
 
 /// Derivatives of the results of scenes.
 pub(super) struct Sensitivities<'a, 'm> {
@@ -33,6 +33,7 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
 
     /// A record for each variable, of the shape of the scene's own results.
     pub(super) fn of(&mut self, derivative: &Derivative, results: &Output) -> Output {
+        let results = &smooth(self.assembly.model(), derivative, results);
         let fields = derivative.by.iter().map(|variable| self.by(variable, derivative, results));
         Output::Record(fields.collect())
     }
@@ -137,6 +138,17 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
         }
         tangent
     }
+}
+
+/// What of a scene's results varies smoothly: not how much of a mass is rounding.
+fn smooth(model: &Model, derivative: &Derivative, results: &Output) -> Output {
+    let Output::Record(fields) = results else { return results.clone() };
+    let rounding = Wanted::Part(EquationPart::Rounding);
+    let left_out = |field: &&Field| {
+        let asked = model.scenes[derivative.of].results.contains(&rounding);
+        asked && model.result_name(rounding).is_some_and(|name| name == field.name)
+    };
+    Output::Record(fields.iter().filter(|field| !left_out(field)).cloned().collect())
 }
 
 /// An unknown of run time as a part of a variable.

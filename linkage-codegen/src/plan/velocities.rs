@@ -562,6 +562,18 @@ impl<'m, 'p> Motion<'m, 'p> {
         rate.named(self.name(&format!("{name}_{}", of.replace(" + ", "_"))), format!("{what} of {of}{how}"))
     }
 
+    /// A component of the velocity, or of the acceleration, of something, as a named quantity: which one, and in what axes.
+    #[must_use]
+    pub fn named_part(&self, part: Expr<'m>, of: &str, (which, axes): (&str, &str)) -> Expr<'m> {
+        let letter = match self.purpose {
+            Purpose::Virtual(_) | Purpose::Unit(_) | Purpose::Velocity => "v",
+            Purpose::Change(_) => "d",
+            Purpose::Acceleration(_) => "a",
+        };
+        let what = self.in_words("{velocity}");
+        part.named(self.name(&format!("{letter}_{of}_{which}")), format!("{what} of {of}, {which} {axes}"))
+    }
+
     /// The speed, or the acceleration, along a slide as a named quantity.
     #[must_use]
     pub fn named_sliding(&self, sliding: Expr<'m>, slide: JointId, of: &str, how: &str) -> Expr<'m> {

@@ -12,16 +12,40 @@ use crate::plan::Plan;
 use crate::plan::starts::{Item, Wanted};
 use crate::topology::Topology;
 
-/// Refuses a linkage that cannot be posed at the start of its drives. With a parameter that has no default, only a run tells.
-pub fn check_start(model: &Model, (topology, plan): (&Topology, &Plan), functions: &Functions, sink: &Sink) {
+/// Of so many sides that are chosen at run time all choices are looked at; of further ones the first side.
+const SIDES: usize = 6;
+
+/// Refuses a linkage that cannot be posed at the start of its drives. With a parameter that has no default, only a run tells. Of sides that are
+/// chosen at run time one choice must do; the others with which the linkage cannot be posed there are given back, in words.
+pub fn check_start(
+    model: &Model,
+    (topology, plan): (&Topology, &Plan),
+    functions: &Functions,
+    sink: &Sink,
+) -> Vec<String> {
     if functions.near.is_none() || model.params.iter().any(|param| param.default.is_none()) {
-        return;
+        return Vec::new();
     }
-    // Of closures that are chosen at run time, one choice must do.
-    let choices = 1u32 << model.given_closures().count().min(6);
-    let faults = (0..choices).map(|choice| fault(model, functions, choice));
-    let Some(fault) = faults.collect::<Option<Vec<_>>>().and_then(|mut faults| faults.pop()) else { return };
-    report(model, (topology, plan), &fault, sink);
+    let choices = 1u32 << model.given_closures().count().min(SIDES);
+    let mut faults: Vec<(u32, Fault)> =
+        (0..choices).filter_map(|choice| Some((choice, fault(model, functions, choice)?))).collect();
+    if faults.len() < choices as usize {
+        return faults.into_iter().map(|(choice, _)| in_words(model, choice)).collect();
+    }
+    if let Some((_, fault)) = faults.pop() {
+        report(model, (topology, plan), &fault, sink);
+    }
+    Vec::new()
+}
+
+/// The sides of a choice: `` `B` left and `C` behind ``.
+fn in_words(model: &Model, choice: u32) -> String {
+    let sides = model.given_closures().take(SIDES).enumerate().map(|(index, (_, closure))| {
+        let [first, second] = if closure.of.len() == 2 { ["left", "right"] } else { ["ahead", "behind"] };
+        let side = if choice >> index & 1 == 0 { first } else { second };
+        format!("`{}` {side}", model.joint(closure.joint).name)
+    });
+    sides.collect::<Vec<_>>().join(" and ")
 }
 
 /// The number of a symbol at the start, with the sides as the bits of a choice say.
@@ -32,7 +56,7 @@ fn at_start(model: &Model, choice: u32, symbol: Symbol) -> f64 {
     match symbol {
         Symbol::Side(closure) => {
             let index = model.given_closures().position(|(own, _)| own == closure).unwrap_or(0);
-            if choice >> index & 1 == 0 { 1.0 } else { -1.0 }
+            if index >= SIDES || choice >> index & 1 == 0 { 1.0 } else { -1.0 }
         }
         Symbol::Drive(drive) => number(model.drive(drive).start.map(|(value, _)| value)),
         Symbol::Parameter(param) => number(model.param(param).default),

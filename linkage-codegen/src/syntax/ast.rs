@@ -469,6 +469,8 @@ pub enum Effort {
     Force(End, Box<Direction>),
     /// `thrust(a.P, b.Q)`
     Thrust([End; 2]),
+    /// `effort(theta)`
+    Drive(Name),
 }
 
 /// A load.

@@ -368,13 +368,13 @@ fn start(input: ParseStream<'_>, keyword: &Name) -> Result<Item> {
 }
 
 fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
-    const EFFORTS: [&str; 3] = ["torque", "force", "thrust"];
+    const EFFORTS: [&str; 4] = ["torque", "force", "thrust", "effort"];
     let begin = input.fork();
     let name_ = colon_name(input)?;
     let mut word = name(input)?;
     if !EFFORTS.contains(&word.text.as_str()) {
         let problem = format!("there is no kind of unknown `{word}`");
-        let help = "an unknown is a `torque`, a `force` or a `thrust`";
+        let help = "an unknown is a `torque`, a `force`, a `thrust` or the `effort` at a drive";
         let Some(meant) = closest(&word.text, EFFORTS) else {
             return Err(Error::new(word.span, format!("{problem}\nhelp: {help}")));
         };
@@ -411,6 +411,16 @@ fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
             }
             expect_word(input, "along")?;
             Effort::Force(at, Box::new(direction(input)?))
+        }
+        "effort" => {
+            let drive = name(&content)?;
+            if content.peek(Token![,]) {
+                content.parse::<Token![,]>()?;
+            }
+            if !content.is_empty() {
+                return Err(content.error(format!("an effort is that of one drive\nhelp: write `effort({drive})`")));
+            }
+            Effort::Drive(drive)
         }
         _ => {
             let ends = loads::two_ends(&content)?;

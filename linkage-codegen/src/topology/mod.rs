@@ -218,15 +218,15 @@ impl Topology {
         let motion = decompose(model, &drives, sink)?;
         let unknowns: Vec<Input> = (0..model.unknowns.len()).map(|u| Input::Unknown(UnknownId::new(u))).collect();
         let at_drives = model.unknowns.iter().all(|u| matches!(u.kind, UnknownKind::Drive(_)));
-        let forces = if at_drives { as_forces(&motion) } else { decompose(model, &unknowns, sink)? };
+        let forces = if at_drives { as_forces(model, &motion) } else { decompose(model, &unknowns, sink)? };
         Some(Self { motion, forces })
     }
 }
 
-/// The groups of motion as groups of forces: the drives' efforts are the unknowns, in the same order.
-fn as_forces(motion: &[Group]) -> Vec<Group> {
+/// The groups of motion as groups of forces: the drives' efforts are the unknowns.
+fn as_forces(model: &Model, motion: &[Group]) -> Vec<Group> {
     let effort = |input: &Input| match input {
-        Input::Drive(drive) => Input::Unknown(UnknownId::new(drive.index())),
+        Input::Drive(drive) => model.effort_at(*drive).map_or(*input, Input::Unknown),
         Input::Unknown(_) => *input,
     };
     motion.iter().map(|group| Group { inputs: group.inputs.iter().map(effort).collect(), ..group.clone() }).collect()
@@ -299,11 +299,11 @@ fn group(model: &Model, constraints: &[Constraint], matched: &[LinkId], links: V
 /// The count is right, and yet the group's constraints are dependent at every pose.
 fn singular_group(model: &Model, group: &Group, rank: usize) -> Diagnostic {
     let names: Vec<&str> = group.links.iter().map(|l| model.link(*l).name.text.as_str()).collect();
-    let unknown = group.inputs.iter().find_map(|input| match input {
-        Input::Unknown(unknown) => Some(model.unknown(*unknown)),
+    let elsewhere = group.inputs.iter().find_map(|input| match input {
+        Input::Unknown(unknown) => Some(model.unknown(*unknown)).filter(|u| !matches!(u.kind, UnknownKind::Drive(_))),
         Input::Drive(_) => None,
     });
-    if let Some(unknown) = unknown.filter(|u| !matches!(u.kind, UnknownKind::Drive(_))) {
+    if let Some(unknown) = elsewhere {
         return powerless(model, unknown, &names);
     }
     let joints: Vec<JointId> = group.outer.iter().chain(&group.inner).copied().collect();

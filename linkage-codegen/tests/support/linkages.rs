@@ -126,8 +126,8 @@ struct Builder {
     either: bool,
     /// On which side each group closes: 1 or −1.
     sides: Vec<f64>,
-    /// Radii, if dimensions are parameters.
-    radii: Option<Vec<f64>>,
+    /// What is not a place and may be a parameter, with its dimension: radii, values of loads, masses.
+    values: Option<Vec<(&'static str, f64)>>,
     /// Whether the frames of links have their origins at joints.
     framed: bool,
 }
@@ -149,7 +149,7 @@ impl Builder {
             driven_slots: false,
             either: kind.joints,
             sides: Vec::new(),
-            radii: kind.params.then(Vec::new),
+            values: kind.params.then(Vec::new),
             framed: false,
         }
     }
@@ -795,6 +795,17 @@ impl Builder {
         self.places.extend([(p, own), (g, touch)]);
     }
 
+    /// A value with its unit, or the parameter of this dimension that has it.
+    fn value(&mut self, value: f64, [dimension, unit]: [&'static str; 2]) -> String {
+        match &mut self.values {
+            Some(values) => {
+                values.push((dimension, value));
+                format!("r{}", values.len() - 1)
+            }
+            None => format!("{value:?}{unit}"),
+        }
+    }
+
     /// A gear pair of two wheels on the pins of an arm: its name, where the teeth touch, and its radii, that of a pinion in a ring negative.
     /// The ring, if there is one, is the first.
     fn mesh(&mut self, arm: usize, ends: [(usize, &str, Place); 2]) -> (String, Place, [(usize, f64); 2]) {
@@ -822,13 +833,7 @@ impl Builder {
             let (angle, flank) = (self.random.range(0.1, 0.5), *self.random.pick(&["left", "right"]));
             let _ = write!(options, ", pressure_angle {angle:?}rad, flank {flank}");
         }
-        let written = radii.map(|radius| match &mut self.radii {
-            Some(radii) => {
-                radii.push(radius);
-                format!("r{}", radii.len() - 1)
-            }
-            None => format!("{radius:?}m"),
-        });
+        let written = radii.map(|radius| self.value(radius, ["length", "m"]));
         let line = format!(
             "gear {g}: {}.{} -> {}.{}, radii ({}), phase {phase:?}m{options};\n",
             self.bodies[first.0].name,
@@ -976,13 +981,11 @@ impl Builder {
             if self.random.chance(0.5) {
                 let (mass, x, y) =
                     (self.random.range(0.1, 3.0), self.random.range(-1.0, 1.0), self.random.range(-1.0, 1.0));
-                let mut text = format!("mass {}: {mass:?}kg at ({x:?}m, {y:?}m);\n", self.bodies[index].name);
+                let (name, mass) = (self.bodies[index].name.clone(), self.value(mass, ["mass", "kg"]));
+                let mut text = format!("mass {name}: {mass} at ({x:?}m, {y:?}m);\n");
                 if self.random.chance(0.3) {
-                    let _ = writeln!(
-                        text,
-                        "mass {}: {mass:?}kg at ({y:?}m, {x:?}m), inertia 1kg*m^2;",
-                        self.bodies[index].name
-                    );
+                    let inertia = self.value(1.0, ["inertia", "kg*m^2"]);
+                    let _ = writeln!(text, "mass {name}: {mass} at ({y:?}m, {x:?}m), inertia {inertia};");
                 }
                 self.bodies[index].mass = Some(text);
             }
@@ -1009,10 +1012,16 @@ impl Builder {
                 } else {
                     String::new()
                 };
-                let constant = if given { String::new() } else { format!(" = ({:?}N, {:?}N)", value[0], value[1]) };
+                let constant = if given {
+                    String::new()
+                } else {
+                    let [x, y] = value.map(|part| self.value(part, ["force", "N"]));
+                    format!(" = ({x}, {y})")
+                };
                 format!("load L{number}: force({name}.{point}){frame}{constant};\n")
             } else {
-                let constant = if given { String::new() } else { format!(" = {:?}N*m", value[0]) };
+                let constant =
+                    if given { String::new() } else { format!(" = {}", self.value(value[0], ["moment", "N*m"])) };
                 let other = self.random.below(moving + 1);
                 if other == link {
                     format!("load L{number}: moment({name}){constant};\n")
@@ -1045,8 +1054,11 @@ impl Builder {
         arguments
     }
 
-    /// An unknown that acts anywhere.
+    /// An unknown that acts anywhere; of several, some at a drive.
     fn unknown(&mut self, number: usize) -> String {
+        if self.drives.len() > 1 && self.random.chance(0.4) {
+            return format!("unknown E{number}: effort(q{number});\n");
+        }
         let moving = self.bodies.len() - 1;
         let link = 1 + self.random.below(moving);
         let name = self.bodies[link].name.clone();
@@ -1097,7 +1109,7 @@ impl Builder {
         let kind = self.random.below(4);
         if kind == 0 {
             let force = self.random.range(-50.0, 50.0);
-            let constant = if given { String::new() } else { format!(" = {force:?}N") };
+            let constant = if given { String::new() } else { format!(" = {}", self.value(force, ["force", "N"])) };
             return (format!("load B{number}: thrust({}){constant};\n", self.two_points()), [force, 0.0]);
         }
         let (rate, free) = (self.random.range(1.0, 50.0), self.random.range(0.0, 3.0));
@@ -1107,8 +1119,13 @@ impl Builder {
             let other = self.random.below(link);
             let (from, on) = self.arrow(link, other);
             let (from, on) = (&self.bodies[from].name, &self.bodies[on].name);
-            let fields =
-                if given { "rate: _, free: _".to_owned() } else { format!("rate: {rate:?}N*m/rad, free: {free:?}rad") };
+            let (from, on) = (from.clone(), on.clone());
+            let fields = if given {
+                "rate: _, free: _".to_owned()
+            } else {
+                let rate = self.value(rate, ["torsion_stiffness", "N*m/rad"]);
+                format!("rate: {rate}, free: {}", self.value(free, ["angle", "rad"]))
+            };
             return (format!("load B{number}: torsion({from} -> {on}) {{ {fields} }}\n"), [rate, free]);
         }
         // Among them such as have no free length.
@@ -1118,9 +1135,13 @@ impl Builder {
         let fields = match (given, self.random.chance(0.5)) {
             (true, true) => "rate: _, free: _".to_owned(),
             (true, false) => format!("rate: _, free: {length}"),
-            _ => format!("rate: {rate:?}N/m, free: {length}"),
+            _ => {
+                let length = if kind == 2 { length } else { self.value(free, ["length", "m"]) };
+                format!("rate: {}, free: {length}", self.value(rate, ["stiffness", "N/m"]))
+            }
         };
-        let fields = if preload == 0.0 { fields } else { format!("{fields}, preload: {preload:?}N") };
+        let fields =
+            if preload == 0.0 { fields } else { format!("{fields}, preload: {}", self.value(preload, ["force", "N"])) };
         (format!("load B{number}: spring({}) {{ {fields} }};\n", self.two_points()), [rate, free])
     }
 
@@ -1134,18 +1155,26 @@ impl Builder {
         let (rate, damping) = (self.random.range(1.0, 50.0), self.random.range(0.5, 9.0));
         let free = self.random.range(0.0, 3.0);
         let line = match self.random.below(4) {
-            0 => format!("spring({}) {{ damping: {damping:?}N*s/m }}", self.two_points()),
+            0 => {
+                let damping = self.value(damping, ["damping", "N*s/m"]);
+                format!("spring({}) {{ damping: {damping} }}", self.two_points())
+            }
             1 => format!("spring({}) {{ rate: {rate:?}N/m, free: 0, damping: _ }}", self.two_points()),
             2 => {
-                let fields = format!("rate: _, free: {free:?}m, damping: {damping:?}N*s/m");
+                let free = self.value(free, ["length", "m"]);
+                let fields = format!("rate: _, free: {free}, damping: {}", self.value(damping, ["damping", "N*s/m"]));
                 format!("spring({}) {{ {fields} }}", self.two_points())
             }
             _ => {
                 let link = 1 + self.random.below(moving);
                 let other = self.random.below(link);
                 let (from, on) = self.arrow(link, other);
-                let (from, on) = (&self.bodies[from].name, &self.bodies[on].name);
-                let fields = format!("rate: {rate:?}N*m/rad, free: {free:?}rad, damping: {damping:?}N*m*s/rad");
+                let (from, on) = (self.bodies[from].name.clone(), self.bodies[on].name.clone());
+                let fields = format!(
+                    "rate: {}, free: {free:?}rad, damping: {}",
+                    self.value(rate, ["torsion_stiffness", "N*m/rad"]),
+                    self.value(damping, ["torsion_damping", "N*m*s/rad"])
+                );
                 format!("torsion({from} -> {on}) {{ {fields} }}")
             }
         };
@@ -1157,10 +1186,11 @@ impl Builder {
 
     fn finish(self, loads: Vec<[f64; 2]>, motion: Vec<[f64; 2]>, kind: Kind) -> Sample {
         let mut text = format!("pub mod sample;\nscalar {};\n", kind.scalar);
-        let mut params = self.radii.clone().unwrap_or_default();
-        for index in 0..params.len() {
-            let _ = writeln!(text, "param r{index}: length;");
+        let values = self.values.clone().unwrap_or_default();
+        for (index, (dimension, _)) in values.iter().enumerate() {
+            let _ = writeln!(text, "param r{index}: {dimension};");
         }
+        let mut params: Vec<f64> = values.into_iter().map(|(_, value)| value).collect();
         let mut length = |value: f64, text: &mut String| {
             if kind.params {
                 let _ = writeln!(text, "param k{}: length;", params.len());

@@ -31,6 +31,10 @@ linkage! {
     scene place: position -> (A);
     scene slopes: derivative(statics) by (theta, F13, F14, weight);
     scene moved: derivative(place) by (theta, reach, theta.rate);
+    scene reduced: motion(F13);
+    scene linear: derivative(reduced) by (theta, theta.rate, theta.acceleration, F13, F14, weight);
+    scene blurred: motion -> (rounding);
+    scene sharp: derivative(blurred) by (theta);
 }
 
 fn main() -> Result<(), Error> {
@@ -38,6 +42,8 @@ fn main() -> Result<(), Error> {
     let loads = four_bar::Loads { F13: polar(50.0, 4.0), F14: polar(1.0, 2.0) };
     let slopes = four_bar::slopes_at(&linkage, 1.0, &loads)?;
     println!("{} {}", slopes.theta.T12, slopes.weight.B.norm());
+    let motion = four_bar::Motion::default();
+    println!("{}", four_bar::linear_at(&linkage, 1.0, &motion, &loads)?.theta.M);
     println!("{}", four_bar::moved_at(&linkage, 1.0)?.reach.A.norm());
     Ok(())
 }

@@ -1,4 +1,4 @@
-use linkage_runtime::linkage;
+use linkage_runtime::{Series, linkage};
 
 linkage! {
     pub mod four_bar;
@@ -21,6 +21,9 @@ linkage! {
     scene jerk: inverse(B0) -> (theta.jerk);
     scene twice: inverse(B0) -> (theta, theta);
     scene swept: sweep(two);
+    scene cycle: sweep(twoo);
+    scene two_at: sweep(twice);
+    scene slope: derivative(twice) by (theta);
 }
 
 linkage! {
@@ -37,6 +40,7 @@ linkage! {
     drive theta: A0;
     assemble B: left(A -> B0);
     scene crank_of: inverse(B0);
+    scene cycle: sweep(crank_of);
 }
 
 linkage! {
@@ -80,5 +84,13 @@ linkage! {
 
 fn main() {
     println!("{}", open::crank_of_at(1.0, &open::CrankOfMotion::default()).unwrap().theta);
+    let (mut theta, mut rates, mut accelerations) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+    let inputs = open::CycleInputs {
+        B0_angle: Series::Each(&[1.0, 1.1]),
+        B0_angle_rate: Series::Constant(2.0),
+        B0_angle_acceleration: Series::Constant(0.0),
+    };
+    let results = open::Cycle { theta: &mut theta, theta_rate: &mut rates, theta_acceleration: &mut accelerations };
+    open::cycle(&inputs, results).unwrap();
     println!("{}", four_bar::travel_at(1.0, &four_bar::TravelMotion::default()).unwrap().theta_rate);
 }

@@ -400,7 +400,7 @@ impl Rule for Block {
         super::newton::place(assembly, group)
     }
 
-    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
+    fn balance<'m>(&self, balance: &mut Balance<'m, '_>, group: &Group) -> RuleResult {
         let parts = Parts::of(balance.placement, group);
         let model = parts.model;
         let (determinant, links) = parts.names(group);
@@ -424,16 +424,20 @@ impl Rule for Block {
         let equations = (0..known.len())
             .map(|row| Equation { coefficients: columns.iter().map(|c| c[row]).collect(), right: -known[row] })
             .collect();
-        let values = solve(graph, equations, Core { name: &determinant, group: &links, spread: parts.spread() })
-            .map_err(|size| too_large(model, group, size))?;
+        let along = |index: usize, value: Expr<'m>| {
+            let name = format!("along_{}", model.link(parts.members[index].link).name);
+            value.named(balance.name(&name), "force of the member, from the core")
+        };
+        let unknown = |row: usize, value: Expr<'m>| match parts.unknowns[row] {
+            Unknown::Member(index) => along(index, value),
+            _ => value,
+        };
+        let core = Core { name: &determinant, group: &links, spread: parts.spread(), unknown: &unknown };
+        let values = solve(graph, equations, core).map_err(|size| too_large(model, group, size))?;
+        let values: Vec<Expr<'_>> = (0..values.len()).map(|row| unknown(row, values[row])).collect();
         for (unknown, value) in parts.unknowns.iter().zip(&values) {
             match *unknown {
-                Unknown::Member(index) => {
-                    let member = &parts.members[index];
-                    let name = format!("along_{}", model.link(member.link).name);
-                    let value = value.named(balance.name(&name), "force of the member, from the core");
-                    put_member(balance, &parts, member, &ends[index], value);
-                }
+                Unknown::Member(index) => put_member(balance, &parts, &parts.members[index], &ends[index], *value),
                 Unknown::Joint(joint, 0) => {
                     let own = parts.unknowns.iter().zip(&values);
                     let own = own.filter(|(unknown, _)| matches!(unknown, Unknown::Joint(of, _) if *of == joint));
@@ -452,7 +456,7 @@ impl Rule for Block {
         Ok(())
     }
 
-    fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
+    fn follow<'m>(&self, motion: &mut Motion<'m, '_>, group: &Group) -> RuleResult {
         let parts = Parts::of(motion.placement, group);
         let (determinant, links) = parts.names(group);
         let graph = motion.graph();
@@ -480,8 +484,9 @@ impl Rule for Block {
                 Equation { coefficients: column.clone(), right: own - supposed }
             })
             .collect();
-        let values = solve(graph, equations, Core { name: &determinant, group: &links, spread: parts.spread() })
-            .map_err(|size| too_large(parts.model, group, size))?;
+        let unknown = |row: usize, value: Expr<'m>| motion_of_free(motion, &parts, row, value);
+        let core = Core { name: &determinant, group: &links, spread: parts.spread(), unknown: &unknown };
+        let values = solve(graph, equations, core).map_err(|size| too_large(parts.model, group, size))?;
         let mut row = 0;
         let mut pins: Vec<(JointId, Framed<'_>)> = Vec::new();
         for free in &parts.free {
@@ -526,6 +531,32 @@ impl Rule for Block {
         }
         Ok(())
     }
+}
+
+/// The number of a free body or a pin that the core gives, as a named quantity: the components in which its motion is resolved, and of a
+/// body also the rate.
+fn motion_of_free<'m>(motion: &Motion<'m, '_>, parts: &Parts<'_, 'm>, row: usize, value: Expr<'m>) -> Expr<'m> {
+    let mut first = 0;
+    for free in &parts.free {
+        let (name, count) = match free {
+            Free::Carrier(link) => (&parts.model.link(*link).name, 3),
+            Free::Pin(joint) => (&parts.model.joint(*joint).name, 2),
+        };
+        let part = row - first;
+        if part == 2 && count == 3 {
+            return motion.named_rate(value, &name.text, "");
+        }
+        if part < 2 {
+            let which = if parts.axes(*free) == parts.ground() {
+                [("x", "of the ground"), ("y", "of the ground")]
+            } else {
+                [("along", "the member on which it hangs"), ("across", "the member on which it hangs")]
+            };
+            return motion.named_part(value, &name.text, which[part]);
+        }
+        first += count;
+    }
+    value
 }
 
 fn too_large(model: &Model, group: &Group, size: usize) -> Diagnostic {

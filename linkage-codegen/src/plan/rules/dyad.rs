@@ -14,7 +14,7 @@ use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Symbol, Vector};
-use crate::model::ids::{DriveId, GROUND, JointId, LinkId, UnknownId};
+use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model};
 use crate::plan::assembly::{Assembly, DyadPivot};
 use crate::plan::balance::Balance;
@@ -357,9 +357,9 @@ impl<'a> Dyad<'a> {
     }
 
     /// The other links of a leg as groups of their own, in the order in which they are placed from one of its links.
-    fn joined(&self, leg: &Leg, first: LinkId, input: fn(DriveId) -> Input) -> Vec<(&'static dyn Rule, Group)> {
+    fn joined(&self, leg: &Leg, first: LinkId, input: impl Fn(DriveId) -> Input) -> Vec<(&'static dyn Rule, Group)> {
         let group = |(joint, link): (JointId, LinkId)| {
-            let inputs = self.model.drives_of(joint).map(input).collect();
+            let inputs = self.model.drives_of(joint).map(&input).collect();
             let group = Group { links: vec![link], inner: Vec::new(), outer: vec![joint], inputs };
             (rigid_rule(self.model, joint), group)
         };
@@ -536,7 +536,7 @@ impl<'a> Dyad<'a> {
         link: LinkId,
         given: Option<(LinkId, Vector<'a>, Framed<'a>, Expr<'a>)>,
     ) -> RuleResult {
-        let effort = |drive: DriveId| Input::Unknown(UnknownId::new(drive.index()));
+        let effort = |drive: DriveId| self.model.effort_at(drive).map_or(Input::Drive(drive), Input::Unknown);
         self.joined(leg, link, effort).iter().rev().try_for_each(|(rule, group)| {
             if let Some((own, at, force, couple)) = given
                 && group.links == [own]

@@ -92,7 +92,7 @@ impl Rule for Train {
         let links = model.link_names(&group.links);
         let determinant = format!("det_{}", links.replace(" + ", "_"));
         let equations = equations.collect();
-        let core = Core { name: &determinant, group: &links, spread: graph.one() };
+        let core = Core { name: &determinant, group: &links, spread: graph.one(), unknown: &|_, value| value };
         let angles = solve(graph, equations, core).map_err(|_| crate::plan::unsupported(model, group, "place"))?;
         let x_axis = Vector::new(graph.one(), graph.zero());
         for (link, angle) in group.links.iter().zip(angles) {

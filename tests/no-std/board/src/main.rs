@@ -2,7 +2,7 @@
 #![no_std]
 #![no_main]
 
-use no_std_linkages::{Line, double, each_linkage, single};
+use no_std_linkages::{Line, double, each_linkage, example, single};
 use semihosting::{println, process};
 
 macro_rules! print {

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use linkage_runtime::nalgebra::{SMatrix, Scalar};
-use linkage_runtime::{Error, SliderReaction, SweepError, Vector2, WorkTerm};
+use linkage_runtime::{Error, SliderReaction, SweepError, Vector2, WorkTerm, Wrench};
 
 /// A hash over the bits of everything put into it, and how many answers and refusals were among it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -145,6 +145,14 @@ impl<T: Output + Scalar + Copy> Output for SliderReaction<T> {
         force.put(digest);
         normal.put(digest);
         couple.put(digest);
+    }
+}
+
+impl<T: Output + Scalar + Copy> Output for Wrench<T> {
+    fn put(self, digest: &mut Digest) {
+        let Self { force, moment } = self;
+        force.put(digest);
+        moment.put(digest);
     }
 }
 

@@ -4,11 +4,12 @@
 //! board, and run on the host: what they compute is gathered in a [`Digest`] of its bits.
 //!
 //! A linkage's module has `solve`, which calls everything once with inputs of which nothing is known, and `digest`, which does
-//! so over many poses. That `solve` leaves out no emitted function is checked by `proofs/tests/complete.rs`.
+//! so over many poses; of the project's examples, `solve` calls every scene at a pose of its cycle. That `solve` leaves out no emitted function is checked by `proofs/tests/complete.rs`.
 #![no_std]
 
 mod digest;
 pub mod double;
+pub mod example;
 pub mod single;
 
 pub use digest::{Digest, Line, Output};
@@ -33,6 +34,14 @@ macro_rules! each_linkage {
             single_iterated = single::iterated,
             single_press = single::press,
             single_slider_crank = single::slider_crank,
+            example_control_loop = example::control_loop,
+            example_engine = example::engine,
+            example_four_bar = example::four_bar,
+            example_press = example::press,
+            example_six_bar = example::six_bar,
+            example_slider_crank = example::slider_crank,
+            example_stephenson = example::stephenson,
+            example_three_loads = example::three_loads,
         }
     };
 }

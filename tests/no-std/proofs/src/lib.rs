@@ -6,6 +6,7 @@
 //! | `symbols` | a linkage in `f32` does no arithmetic in `f64` |
 //! | `wasm` | the same bits under WebAssembly, which needs nothing from its host |
 //! | `board` | the same bits on a Cortex-M4F and a Cortex-M3, emulated |
+//! | `pinned` | the bits are those that they were, the examples' too, at every level of x86-64 |
 //! | `size` | one scene takes little of the flash |
 //! | `complete` | the functions of which all this is proved are all that are emitted |
 //!
@@ -18,7 +19,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use no_std_linkages::{Digest, double, each_linkage, single};
+use no_std_linkages::{Digest, double, each_linkage, example, single};
 
 /// The digest of every linkage, computed here.
 #[must_use]

@@ -1,5 +1,5 @@
-//! Everything that is emitted for the linkages is called in their `solve`, and every `solve` by the programs, so that the
-//! other proofs are about all of it.
+//! Everything that is emitted for the linkages is called in their `solve`, of the examples every scene, and every `solve` by the programs,
+//! so that the other proofs are about all of it.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -73,6 +73,44 @@ fn every_emitted_function_is_called() {
         let missing: Vec<&String> = emitted.difference(&names).collect();
         assert!(missing.is_empty(), "{} does not call {missing:?}", path.display());
     }
+}
+
+/// The names of the functions of a module's scenes, which stand in the module itself: straight from the drives, and sweeps.
+fn scenes(code: TokenStream, into: &mut BTreeSet<String>) {
+    let trees: Vec<TokenTree> = code.into_iter().collect();
+    let is = |tree: &TokenTree, word: &str| matches!(tree, TokenTree::Ident(ident) if ident == word);
+    for window in trees.windows(3) {
+        match window {
+            [module, _, TokenTree::Group(body)] if is(module, "mod") => scenes(body.stream(), into),
+            [public, function, TokenTree::Ident(name)] if is(public, "pub") && is(function, "fn") => {
+                into.insert(name.to_string());
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Of every example, every scene but those that need an operating system.
+#[test]
+fn every_scene_of_the_examples_is_called() {
+    let read = |path: PathBuf| fs::read_to_string(path).expect("a source").parse::<TokenStream>().expect("tokens");
+    let list = fs::read_to_string(workspace().join("linkages/src/lib.rs")).expect("a source");
+    let mut examples = 0;
+    for entry in fs::read_dir(workspace().join("../../examples")).expect("the examples") {
+        let path = entry.expect("a file").path();
+        let name = path.file_stem().expect("a name").display().to_string();
+        let (mut declaration, mut calls, mut called, mut of_scenes) = Default::default();
+        split(read(path), &mut declaration, &mut called);
+        scenes(linkage_codegen::expand(declaration), &mut of_scenes);
+        called.clear();
+        split(read(workspace().join(format!("linkages/src/example/{name}.rs"))), &mut calls, &mut called);
+        let missing: Vec<&String> = of_scenes.difference(&called).collect();
+        assert!(missing.iter().all(|scene| *scene == "check_at"), "{name}: {missing:?} are not called");
+        assert!(!of_scenes.is_empty(), "{name} has no scene");
+        assert!(list.contains(&format!(" = example::{name},")), "`each_linkage` leaves out {name}");
+        examples += 1;
+    }
+    assert!(examples >= 8, "only {examples} examples were found");
 }
 
 #[test]

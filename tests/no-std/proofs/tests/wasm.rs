@@ -44,7 +44,9 @@ fn control_most_poses_have_answers() {
     for (name, digest) in native() {
         let (answers, refusals) = (digest.answers, digest.refusals);
         println!("{name}: {answers} answers, {refusals} refusals");
-        assert!(name.ends_with("math") || answers > refusals && refusals > 50, "{name}: {digest:?}");
+        // Of the examples only poses that they have are asked for.
+        let refused = name.starts_with("example") || refusals > 50;
+        assert!(name.ends_with("math") || answers > refusals && refused, "{name}: {digest:?}");
     }
 }
 

@@ -2,7 +2,7 @@
 #![no_std]
 
 use no_std_handler as _;
-use no_std_linkages::{double, each_linkage, single};
+use no_std_linkages::{double, each_linkage, example, single};
 
 macro_rules! exports {
     ($($name:ident = $($module:ident)::*,)*) => { $(

@@ -1,0 +1,122 @@
+//! Code that other generators wrote, from a shared library: see `generators/` beside the manifest.
+//!
+//! The library is C, compiled for this processor; each function has the shape `int name(const double *given, double *found)`.
+
+use std::sync::OnceLock;
+
+use libloading::Library;
+use linkage_runtime::Vector2;
+
+use crate::harness::Competitor;
+use crate::items::{Case, Results, Start, Turn};
+
+static LIBRARY: OnceLock<Library> = OnceLock::new();
+
+/// The methods: the beginnings of their functions' names, and what the tables call them.
+const METHODS: [(&str, &str); 4] = [
+    ("casadi_hand", "CasADi, eliminated by hand"),
+    ("casadi_symbolic", "CasADi, its symbolic QR"),
+    ("casadi_qr", "CasADi, its sparse QR"),
+    ("sympy", "SymPy, linsolve and cse"),
+];
+
+type Function = unsafe extern "C" fn(*const f64, *mut f64) -> i32;
+
+/// Loads the library, from which all items take competitors from then on.
+pub(crate) fn load(file: &str) -> Result<(), String> {
+    #[allow(unsafe_code, reason = "the library is what the generators wrote, and has no initialisers")]
+    let library = unsafe { Library::new(file) }.map_err(|error| format!("{file}: {error}"))?;
+    LIBRARY.set(library).map_err(|_| "a library is loaded already".to_owned())
+}
+
+/// A function of the library.
+fn function(name: &str) -> Result<Function, String> {
+    let library = LIBRARY.get().ok_or("no library is loaded")?;
+    #[allow(unsafe_code, reason = "all functions of the library have this type")]
+    let function = unsafe { library.get::<Function>(name.as_bytes()) };
+    function.map(|function| *function).map_err(|error| format!("{name}: {error}"))
+}
+
+/// A function of the library, and what it is given: a pose or the driver's angle, and the loads.
+#[derive(Clone, Copy)]
+struct Foreign<const GIVEN: usize> {
+    function: Function,
+    given: [f64; GIVEN],
+}
+
+impl<const GIVEN: usize> Start for Foreign<GIVEN> {
+    fn depend(&mut self, change: f64) -> bool {
+        // Of the loads, as with all others, where a pose is given; it is the longest of what is given.
+        let which = if GIVEN > LONGEST { GIVEN - 1 } else { 0 };
+        self.given[which] += change;
+        true
+    }
+}
+
+/// What is given at most beside a pose: an angle, and two forces.
+const LONGEST: usize = 5;
+
+/// What is found: for each set of loads the forces as x, y, then the torque.
+#[derive(Clone, Copy)]
+struct Found<const N: usize, const PARTS: usize>([f64; N]);
+
+impl<const N: usize, const PARTS: usize> Default for Found<N, PARTS> {
+    fn default() -> Self {
+        Self([0.0; N])
+    }
+}
+
+impl<const N: usize, const PARTS: usize> Results for Found<N, PARTS> {
+    fn parts(&self) -> Vec<(f64, Vec<Vector2<f64>>)> {
+        let part = |numbers: &[f64]| {
+            let (torque, forces) = numbers.split_last().expect("a torque");
+            (*torque, forces.chunks_exact(2).map(|force| Vector2::new(force[0], force[1])).collect())
+        };
+        self.0.chunks_exact(N / PARTS).map(part).collect()
+    }
+    fn last(&self) -> f64 {
+        self.0[N - 1] + self.0[N / PARTS - 1]
+    }
+}
+
+/// Adds the library's functions for an item, if one is loaded; `given` lays out the first of an argument: the angle, or a pose.
+///
+/// `GIVEN` numbers are given, `N` found, for `PARTS` sets of loads.
+pub(crate) fn add<L: crate::items::Loads, const GIVEN: usize, const N: usize, const PARTS: usize>(
+    competitors: &mut Vec<Competitor>,
+    item: &str,
+    turn: &Turn<L>,
+    loads: fn(&L) -> Vec<Vector2<f64>>,
+) {
+    if LIBRARY.get().is_none() {
+        return;
+    }
+    for (prefix, method) in METHODS {
+        let name = format!("{prefix}_{}", item.to_lowercase());
+        let function = function(&name).expect("the library has a function for each item");
+        let prepare = |case: &Case<f64, L>| {
+            let mut given = vec![case.start];
+            if GIVEN > LONGEST {
+                given = posed(case.start);
+            }
+            given.extend(loads(&case.loads).iter().flat_map(|force| [force.x, force.y]));
+            let given = given.try_into().expect("as many numbers as the function is given");
+            Case { start: Foreign::<GIVEN> { function, given }, loads: case.loads }
+        };
+        competitors.push(turn.posed(method, prepare, |case, found: &mut Found<N, PARTS>| {
+            #[allow(unsafe_code, reason = "it reads and writes as many numbers as the arrays have, and keeps nothing")]
+            let status = unsafe { (case.start.function)(case.start.given.as_ptr(), found.0.as_mut_ptr()) };
+            status == 0
+        }));
+    }
+}
+
+/// The four-bar's pose as the library's functions have it.
+fn posed(theta: f64) -> Vec<f64> {
+    let function = function("casadi_pose").expect("the library has a pose");
+    let mut pose = [0.0; 7];
+    #[allow(unsafe_code, reason = "it is given one number and finds seven")]
+    let status = unsafe { function(&raw const theta, pose.as_mut_ptr()) };
+    assert_eq!(status, 0, "a pose");
+    pose.to_vec()
+}

@@ -1,0 +1,398 @@
+//! Run time against error: every method over the same poses of the four-bar, regular ones and ones next to its change point.
+//!
+//! Angles and loads are numbers of single precision, so that all methods are given the same, those in `f32` too.
+
+use std::time::Duration;
+
+use linkage_runtime::{Vector2, polar};
+use nalgebra::SVector;
+
+use crate::exact::{Big, Exact, difference, size, vector};
+use crate::expert::four_bar as expert;
+use crate::harness::{Competitor, Mode, measure};
+use crate::items::four_bar::{equations, exact, put};
+use crate::items::{Case, Errors, Item, Random, Reactions, Results, Start, dense};
+use crate::linkages::four_bar::{self, Loads, Pose};
+use crate::linkages::{four_bar_fused, four_bar_single};
+use crate::picture::{self, Family, Mark, Panel};
+use crate::{newton, textbook};
+
+type All = Reactions<4>;
+type At = Case<f64, Loads>;
+type AtSingle = Case<f32, four_bar_single::Loads>;
+type AtBegin = Case<newton::Begin, Loads>;
+type Posed<T> = Vec<(At, T)>;
+
+/// How many poses each panel has.
+const POSES: u32 = 512;
+
+/// The loads on coupler and rocker, N.
+const LOADS: (f64, f64) = (50.0, 100.0);
+
+impl Start for f32 {
+    #[allow(clippy::cast_possible_truncation, reason = "zero")]
+    fn depend(&mut self, change: f64) -> bool {
+        *self += change as f32;
+        true
+    }
+}
+
+impl Start for newton::Begin {
+    fn depend(&mut self, change: f64) -> bool {
+        self.theta += change;
+        true
+    }
+}
+
+/// A method, and what it comes to.
+struct Judged {
+    name: &'static str,
+    family: Family,
+    nanoseconds: f64,
+    ratio: f64,
+    /// The largest error of all poses that have an answer, and the one in the middle.
+    worst: f64,
+    median: f64,
+    /// How many poses have no answer.
+    refused: usize,
+    on_front: bool,
+}
+
+/// The methods of a panel, with their competitors.
+struct Methods<'a> {
+    poses: &'a Posed<Exact>,
+    judged: Vec<Judged>,
+    competitors: Vec<Competitor>,
+}
+
+impl<'a> Methods<'a> {
+    fn new(poses: &'a Posed<Exact>) -> Self {
+        Self { poses, judged: Vec::new(), competitors: Vec::new() }
+    }
+
+    /// A method that starts from what `prepare` makes of a pose, which is not timed. Where it has no answer it goes on, with NaN as its
+    /// torque: that costs time too.
+    fn add<S: Start, L: crate::items::Loads, R: Results>(
+        &mut self,
+        (family, name): (Family, &'static str),
+        prepare: impl Fn(&At) -> Case<S, L>,
+        call: fn(&Case<S, L>, &mut R) -> bool,
+    ) {
+        let cases: Vec<Case<S, L>> = self.poses.iter().map(|(case, _)| prepare(case)).collect();
+        let mut errors: Vec<f64> = Vec::new();
+        for (case, (_, exact)) in cases.iter().zip(self.poses) {
+            let mut results = R::default();
+            assert!(call(case, &mut results), "{name} stops");
+            let parts = results.parts();
+            let (torque, forces) = parts.first().expect("results");
+            if torque.is_finite() && forces.iter().all(|force| force.x.is_finite() && force.y.is_finite()) {
+                errors.push(error(*torque, forces, exact));
+            }
+        }
+        errors.sort_by(f64::total_cmp);
+        let middle = |errors: &[f64]| errors.get(errors.len() / 2).copied().unwrap_or(f64::NAN);
+        self.judged.push(Judged {
+            name,
+            family,
+            nanoseconds: 0.0,
+            ratio: 0.0,
+            worst: errors.last().copied().unwrap_or(f64::NAN),
+            median: middle(&errors),
+            refused: cases.len() - errors.len(),
+            on_front: false,
+        });
+        self.competitors.push(Competitor::new(name, Errors::default(), cases, call));
+    }
+
+    /// Takes the times, and finds those that no other method beats in both.
+    fn timed(self, rounds: usize, least: Duration) -> Vec<Judged> {
+        let Self { mut judged, competitors, .. } = self;
+        let mut item = Item { id: "", title: "", competitors };
+        for (method, timing) in judged.iter_mut().zip(measure(&mut item, rounds, least, Mode::Independent)) {
+            (method.nanoseconds, method.ratio) = (timing.nanoseconds, timing.ratio);
+        }
+        let all: Vec<(f64, f64)> = judged.iter().map(|method| (method.nanoseconds, method.worst)).collect();
+        for (method, own) in judged.iter_mut().zip(&all) {
+            let beaten = |other: &(f64, f64)| other != own && other.0 <= own.0 && other.1 <= own.1;
+            method.on_front = own.1.is_finite() && !all.iter().any(beaten);
+        }
+        judged
+    }
+}
+
+/// The error of a pose's results: of the forces by the largest force, of the torque by this force at the crank's length; of a torque alone
+/// by the loads at the crank's length, as it does not grow with the forces in the joints.
+fn error(torque: f64, forces: &[Vector2<f64>], exact: &Exact) -> f64 {
+    let largest = exact.forces.iter().map(size).reduce(Big::larger).expect("a force");
+    let scale = if forces.is_empty() { Big::of(LOADS.0 + LOADS.1) } else { largest.clone() };
+    let torque = ((Big::of(torque) - &exact.torque).abs() / (scale * Big::of(80.0))).to_f64();
+    let forces = forces.iter().zip(&exact.forces);
+    forces
+        .map(|(force, exact)| (size(&difference(&vector(force.x, force.y), exact)) / &largest).to_f64())
+        .fold(torque, f64::max)
+}
+
+/// Measures all methods, prints the tables, and draws them if a file is named.
+pub(crate) fn print(rounds: usize, least: Duration, machine: &str, file: Option<&str>) -> Result<(), String> {
+    let mut panels = Vec::new();
+    for (where_, poses) in
+        [("at least 30° from the change point", regular()), ("10⁻¹ to 10⁻⁵ rad from the change point", near())]
+    {
+        for (what, methods) in [("all forces and the torque", all(&poses)), ("the torque alone", torque(&poses))] {
+            let judged = methods.timed(rounds, least);
+            let title = format!("{what}, {where_}");
+            table(&title, &judged);
+            let marks = judged.iter().filter(|method| method.worst.is_finite()).map(|method| Mark {
+                name: method.name,
+                family: method.family,
+                nanoseconds: method.nanoseconds,
+                error: method.worst,
+                on_front: method.on_front,
+            });
+            panels.push(Panel { title: [what.to_owned(), where_.to_owned()], marks: marks.collect() });
+        }
+    }
+    if let Some(file) = file {
+        std::fs::write(file, picture::drawn(&panels, machine)).map_err(|error| format!("{file}: {error}"))?;
+        println!("\nwrote {file}");
+    }
+    Ok(())
+}
+
+fn table(title: &str, judged: &[Judged]) {
+    println!("\n{title}: {POSES} poses");
+    println!("  {:<36} {:>8} {:>8} {:>9} {:>9} {:>9}  front", "", "ns", "ratio", "worst", "median", "refused");
+    for Judged { name, nanoseconds, ratio, worst, median, refused, on_front, .. } in judged {
+        let front = if *on_front { "yes" } else { "no" };
+        println!("  {name:<36} {nanoseconds:>8.1} {ratio:>8.2} {worst:>9.1e} {median:>9.1e} {refused:>9}  {front}");
+    }
+}
+
+/// A pose at an angle, with loads in any directions.
+#[allow(clippy::cast_possible_truncation, reason = "single precision is what all methods are given")]
+fn pose(theta: f64, random: &mut Random) -> (At, Exact) {
+    let mut load = |size: f64| {
+        let force = polar(size, std::f64::consts::TAU * random.next());
+        force.map(|part| f64::from(part as f32))
+    };
+    let case = Case { start: f64::from(theta as f32), loads: Loads { F13: load(LOADS.0), F14: load(LOADS.1) } };
+    (case, exact(&Big::of(case.start), &case.loads))
+}
+
+/// Along the turn, but for the sixty degrees about the change point.
+fn regular() -> Posed<Exact> {
+    let mut random = Random(20_240_902);
+    let part = |k: u32| (f64::from(k) + 0.5) / f64::from(POSES);
+    (0..POSES).map(|k| pose((300.0 * part(k) - 150.0).to_radians(), &mut random)).collect()
+}
+
+/// On both sides of the change point.
+fn near() -> Posed<Exact> {
+    let mut random = Random(20_240_903);
+    let distance = |k: u32| 10_f64.powf(-1.0 - 4.0 * f64::from(k) / f64::from(POSES - 1));
+    let side = |k: u32| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+    (0..POSES).map(|k| pose(std::f64::consts::PI - side(k) * distance(k), &mut random)).collect()
+}
+
+const EXPERT: (Family, &str) = (Family::Hand, "expert");
+const CAREFUL: (Family, &str) = (Family::Hand, "careful expert");
+const ANGLES: (Family, &str) = (Family::Angles, "textbook angles");
+const NEWTON: (Family, &str) = (Family::Iteration, "Newton's method");
+
+/// All forces and the torque.
+fn all(poses: &Posed<Exact>) -> Methods<'_> {
+    let mut methods = Methods::new(poses);
+    methods.add(EXPERT, same, |case: &At, out: &mut All| {
+        expert::pose(case.start).statics(&case.loads, out);
+        true
+    });
+    methods.add(CAREFUL, same, |case: &At, out: &mut All| answer(expert::careful_pose(case.start), case, out));
+    methods.add((Family::Generated, "generated, equilibrium"), same, |case: &At, out: &mut All| {
+        match four_bar::statics_at(case.start, &case.loads) {
+            Ok(all) => *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] },
+            Err(_) => out.torque = f64::NAN,
+        }
+        true
+    });
+    methods.add((Family::Generated, "generated, equilibrium, fused"), fused, |case, out: &mut All| {
+        match four_bar_fused::statics_at(case.start, &case.loads) {
+            Ok(all) => *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] },
+            Err(_) => out.torque = f64::NAN,
+        }
+        true
+    });
+    methods.add((Family::Generated, "generated, equilibrium, f32"), single, |case, out: &mut Reactions<4, f32>| {
+        match four_bar_single::statics_at(case.start, &case.loads) {
+            Ok(all) => *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] },
+            Err(_) => out.torque = f32::NAN,
+        }
+        true
+    });
+    methods.add((Family::Generated, "generated, superposition"), same, |case: &At, out: &mut All| {
+        match four_bar::parts_at(case.start, &case.loads) {
+            Ok(parts) => {
+                let all = parts.total();
+                *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
+            }
+            Err(_) => out.torque = f64::NAN,
+        }
+        true
+    });
+    methods.add(ANGLES, same, |case: &At, out: &mut All| {
+        textbook::statics(case.start, &case.loads, out);
+        true
+    });
+    methods.add(NEWTON, begin, |case: &AtBegin, out: &mut All| answer(newton::pose(&case.start), case, out));
+    methods.add((Family::Elimination, "nalgebra LU 9×9"), same, |case: &At, out: &mut All| {
+        eliminated(case, out, dense::partial)
+    });
+    methods.add((Family::Elimination, "nalgebra LU 9×9, full pivoting"), same, |case: &At, out: &mut All| {
+        eliminated(case, out, dense::full)
+    });
+    methods.add((Family::Elimination, "nalgebra LU, dynamic"), same, |case: &At, out: &mut All| {
+        eliminated(case, out, dense::dynamic)
+    });
+    methods.add((Family::Elimination, "faer LU"), same, |case: &At, out: &mut All| eliminated(case, out, dense::faer));
+    methods
+}
+
+/// Only the torque. Those that have no shorter way solve for everything.
+fn torque(poses: &Posed<Exact>) -> Methods<'_> {
+    let mut methods = Methods::new(poses);
+    methods.add(EXPERT, same, |case: &At, out: &mut f64| {
+        *out = expert::pose(case.start).torque_of(&case.loads);
+        true
+    });
+    methods.add(CAREFUL, same, |case: &At, out: &mut f64| {
+        *out = expert::careful_pose(case.start).map_or(f64::NAN, |pose| pose.torque_of(&case.loads));
+        true
+    });
+    methods.add((Family::Generated, "generated, virtual work"), same, |case: &At, out: &mut f64| {
+        *out = four_bar::torque_at(case.start, &case.loads).map_or(f64::NAN, |torque| torque.T12);
+        true
+    });
+    methods.add((Family::Generated, "generated, virtual work, fused"), fused, |case, out: &mut f64| {
+        *out = four_bar_fused::torque_at(case.start, &case.loads).map_or(f64::NAN, |torque| torque.T12);
+        true
+    });
+    methods.add((Family::Generated, "generated, virtual work, f32"), single, |case, out: &mut f32| {
+        *out = four_bar_single::torque_at(case.start, &case.loads).map_or(f32::NAN, |torque| torque.T12);
+        true
+    });
+    methods.add(ANGLES, same, |case: &At, out: &mut f64| {
+        let mut all = All::default();
+        textbook::statics(case.start, &case.loads, &mut all);
+        *out = all.torque;
+        true
+    });
+    methods.add(NEWTON, begin, |case: &AtBegin, out: &mut f64| {
+        *out = newton::pose(&case.start).map_or(f64::NAN, |pose| pose.torque_of(&case.loads));
+        true
+    });
+    methods.add((Family::Elimination, "nalgebra LU 9×9"), same, |case: &At, out: &mut f64| {
+        let mut all = All::default();
+        eliminated(case, &mut all, dense::partial);
+        *out = all.torque;
+        true
+    });
+    methods.add((Family::Elimination, "faer LU"), same, |case: &At, out: &mut f64| {
+        let mut all = All::default();
+        eliminated(case, &mut all, dense::faer);
+        *out = all.torque;
+        true
+    });
+    methods
+}
+
+fn same(case: &At) -> At {
+    *case
+}
+
+fn fused(case: &At) -> Case<f64, four_bar_fused::Loads> {
+    let Loads { F13, F14 } = case.loads;
+    Case { start: case.start, loads: four_bar_fused::Loads { F13, F14 } }
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "they are numbers of single precision")]
+fn single(case: &At) -> AtSingle {
+    let force = |force: Vector2<f64>| force.map(|part| part as f32);
+    let Loads { F13, F14 } = case.loads;
+    Case { start: case.start as f32, loads: four_bar_single::Loads { F13: force(F13), F14: force(F14) } }
+}
+
+/// Newton's method comes from the pose before: a degree farther from the change point, next to it a tenth of the distance.
+fn begin(case: &At) -> AtBegin {
+    let distance = case.start - std::f64::consts::PI.copysign(case.start);
+    let before = case.start + distance.signum() * (0.1 * distance.abs()).min(1_f64.to_radians());
+    let pose = Pose::at(before).expect("a pose");
+    let [coupler, rocker] = [pose.coupler_direction(), pose.rocker_direction()].map(|u| u.y.atan2(u.x));
+    Case { start: newton::Begin { theta: case.start, coupler, rocker }, loads: case.loads }
+}
+
+/// The forces at a pose, if there is one.
+#[inline]
+fn answer<S>(pose: Option<expert::Pose>, case: &Case<S, Loads>, out: &mut All) -> bool {
+    match pose {
+        Some(pose) => pose.statics(&case.loads, out),
+        None => out.torque = f64::NAN,
+    }
+    true
+}
+
+/// All equations at the generated pose.
+#[inline]
+fn eliminated(
+    case: &At,
+    out: &mut All,
+    solve: impl Fn(nalgebra::SMatrix<f64, 9, 9>, &SVector<f64, 9>) -> Option<SVector<f64, 9>>,
+) -> bool {
+    let pose = Pose::at(case.start).ok();
+    let solution = pose.and_then(|pose| {
+        let (matrix, right) = equations(&pose, &case.loads);
+        solve(matrix, &right)
+    });
+    if !put(solution, out) {
+        out.torque = f64::NAN;
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What each method is good for at poses that are far from the change point.
+    #[test]
+    fn every_method_is_right_at_regular_poses() {
+        let poses = regular();
+        for methods in [all(&poses), torque(&poses)] {
+            for Judged { name, worst, refused, .. } in &methods.judged {
+                let bar = match *name {
+                    name if name.ends_with("f32") => 1e-6,
+                    name if name.starts_with("generated") => 2e-15,
+                    _ => 1e-13,
+                };
+                assert_eq!(*refused, 0, "{name}");
+                assert!(*worst > 0.0 && *worst <= bar, "{name} is off by {worst:e}");
+            }
+        }
+    }
+
+    /// Next to the change point generated code keeps its digits, and plain formulas do not. Where loads nearly cancel there, all methods
+    /// lose two more.
+    #[test]
+    fn digits_next_to_the_change_point() {
+        let poses = near();
+        for methods in [all(&poses), torque(&poses)] {
+            for Judged { name, worst, refused, .. } in &methods.judged {
+                match *name {
+                    name if name.starts_with("generated") && !name.ends_with("f32") => {
+                        assert!(*refused == 0 && *worst <= 1e-13, "{name} is off by {worst:e}, {refused} refused");
+                    }
+                    "expert" | "textbook angles" => assert!(*worst > 1e-9, "{name} is off by {worst:e} only"),
+                    _ => {}
+                }
+            }
+        }
+    }
+}

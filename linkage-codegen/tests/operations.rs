@@ -1,0 +1,413 @@
+//! `docs/operations.md`: the least number of operations that was found by hand for the scenes of two examples, carried out in a number
+//! type that counts, beside what is emitted.
+
+mod support;
+
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use linkage_codegen::Linkage;
+use linkage_codegen::program::Program;
+use support::examples::declaration;
+use support::numbers::Double;
+use support::{Arguments, direct};
+
+/// Sums and differences, products, quotients, square roots, sine and cosine pairs, arc tangents, vectors brought to unit size.
+type Tally = [usize; 7];
+
+/// Their words on the page, as in `OPERATIONS`.
+const WORDS: [&str; 7] = ["+−", "×", "÷", "√", "sin/cos", "atan2", "unit"];
+
+thread_local! {
+    static TALLY: Cell<Tally> = const { Cell::new([0; 7]) };
+}
+
+fn count(which: usize) {
+    TALLY.with(|tally| {
+        let mut counted = tally.get();
+        counted[which] += 1;
+        tally.set(counted);
+    });
+}
+
+/// A number that counts what is done with it. Among constants nothing is counted: they are worked out by the compiler.
+#[derive(Clone, Copy, Debug)]
+struct N(f64);
+
+macro_rules! operators {
+    ($($operator:ident $method:ident $which:literal,)*) => {$(
+        impl $operator for N {
+            type Output = N;
+            fn $method(self, other: N) -> N {
+                count($which);
+                N(self.0.$method(other.0))
+            }
+        }
+        impl $operator<f64> for N {
+            type Output = N;
+            fn $method(self, other: f64) -> N {
+                self.$method(N(other))
+            }
+        }
+        impl $operator<N> for f64 {
+            type Output = N;
+            fn $method(self, other: N) -> N {
+                N(self).$method(other)
+            }
+        }
+    )*};
+}
+operators!(Add add 0, Sub sub 0, Mul mul 1, Div div 2,);
+
+impl Neg for N {
+    type Output = N;
+    fn neg(self) -> N {
+        N(-self.0)
+    }
+}
+
+impl N {
+    fn sqrt(self) -> N {
+        count(3);
+        N(self.0.sqrt())
+    }
+    fn sin_cos(self) -> (N, N) {
+        count(4);
+        let (sin, cos) = self.0.sin_cos();
+        (N(sin), N(cos))
+    }
+    fn atan2(self, x: N) -> N {
+        count(5);
+        N(self.0.atan2(x.0))
+    }
+}
+
+type Vector = [N; 2];
+
+fn cross([ax, ay]: Vector, [bx, by]: Vector) -> N {
+    ax * by - ay * bx
+}
+
+fn dot([ax, ay]: Vector, [bx, by]: Vector) -> N {
+    ax * bx + ay * by
+}
+
+fn add([ax, ay]: Vector, [bx, by]: Vector) -> Vector {
+    [ax + bx, ay + by]
+}
+
+fn sub([ax, ay]: Vector, [bx, by]: Vector) -> Vector {
+    [ax - bx, ay - by]
+}
+
+fn times(factor: N, [x, y]: Vector) -> Vector {
+    [factor * x, factor * y]
+}
+
+/// What a scene's formulas find, by the paths of the results; several paths may have the same number.
+type Found = Vec<(&'static str, N)>;
+
+fn force(found: &mut Found, paths: &[[&'static str; 2]], [x, y]: Vector) {
+    for [of_x, of_y] in paths {
+        found.extend([(*of_x, x), (*of_y, y)]);
+    }
+}
+
+// --- the four-bar -----------------------------------------------------------------------------------------------------------------
+
+/// From A0 to A, A to B, B0 to B, mm; K is twice AB × B0B.
+struct Pose {
+    crank: Vector,
+    coupler: Vector,
+    rocker: Vector,
+    k: N,
+}
+
+/// The pose without the crank; d from A to B0 with it.
+fn dyad(theta: f64) -> (Pose, Vector) {
+    let (s, c) = (0.5 * N(theta)).sin_cos();
+    let (s2, sc) = (s * s, s * c);
+    let (dx, dy) = (160.0 * s2 + 60.0, -160.0 * sc);
+    let spread = 44800.0 * s2;
+    let (d2, q) = (spread + 3600.0, spread + 3200.0);
+    let k = 44800.0_f64.sqrt() * N(c.0.abs()) * q.sqrt();
+    let half = 0.5 / d2;
+    let (along, across) = ((spread - 800.0) * half, k * half);
+    let coupler = [along * dx - across * dy, along * dy + across * dx];
+    let d = [dx, dy];
+    (Pose { crank: [N(0.0), -dy], coupler, rocker: sub(coupler, d), k }, d)
+}
+
+fn four_bar_pose(theta: f64) -> Pose {
+    let (mut pose, [dx, _]) = dyad(theta);
+    pose.crank[0] = 140.0 - dx;
+    pose
+}
+
+/// C in the frame of the coupler, over its length: (70² + 100² − 80²)/(2·100²), and what is left of 70.
+fn place_of_c() -> (f64, f64) {
+    (0.425, (0.49_f64 - 0.425 * 0.425).sqrt())
+}
+
+/// 100 N at 200°.
+fn f14() -> [f64; 2] {
+    let angle = 200_f64.to_radians();
+    [100.0 * angle.cos(), 100.0 * angle.sin()]
+}
+
+/// Moment of F13 about A.
+fn m3(pose: &Pose, f13: Vector) -> N {
+    let (along, across) = place_of_c();
+    along * cross(pose.coupler, f13) - across * dot(pose.coupler, f13)
+}
+
+/// `factor` times the moment of F14 about B0; D is three quarters of the way from B0 to B.
+fn m4(pose: &Pose, factor: f64) -> N {
+    let [x, y] = f14();
+    0.75 * factor * y * pose.rocker[0] - 0.75 * factor * x * pose.rocker[1]
+}
+
+const T12: &str = "T12";
+
+fn statics_at(theta: f64, f13: Vector) -> Found {
+    let pose = four_bar_pose(theta);
+    let inverse = 2.0 / pose.k;
+    let (p, q) = (m3(&pose, f13) * inverse, m4(&pose, 1.0) * inverse);
+    let b = add(times(p, pose.rocker), times(q, pose.coupler));
+    let a = sub(b, f13);
+    let [x, y] = f14();
+    let mut found = vec![(T12, cross(pose.crank, a))];
+    force(&mut found, &[["A.x", "A.y"], ["A0.x", "A0.y"]], a);
+    force(&mut found, &[["B.x", "B.y"]], b);
+    force(&mut found, &[["B0.x", "B0.y"]], [-x - b[0], -y - b[1]]);
+    found
+}
+
+fn parts_at(theta: f64, f13: Vector) -> Found {
+    let pose = four_bar_pose(theta);
+    let inverse = 2.0 / pose.k;
+    let b = times(m3(&pose, f13) * inverse, pose.rocker);
+    let a = sub(b, f13);
+    let mut found = vec![("F13.T12", cross(pose.crank, a))];
+    force(&mut found, &[["F13.A.x", "F13.A.y"], ["F13.A0.x", "F13.A0.y"]], a);
+    force(&mut found, &[["F13.B.x", "F13.B.y"]], b);
+    force(&mut found, &[["F13.B0.x", "F13.B0.y"]], [-b[0], -b[1]]);
+    let b = times(m4(&pose, 1.0) * inverse, pose.coupler);
+    let [x, y] = f14();
+    found.push(("F14.T12", cross(pose.crank, b)));
+    force(&mut found, &[["F14.A.x", "F14.A.y"], ["F14.A0.x", "F14.A0.y"], ["F14.B.x", "F14.B.y"]], b);
+    force(&mut found, &[["F14.B0.x", "F14.B0.y"]], [-x - b[0], -y - b[1]]);
+    found
+}
+
+/// By the force in A, which has fewer products than the virtual velocities.
+fn torque_at(theta: f64, f13: Vector) -> Found {
+    let pose = four_bar_pose(theta);
+    let inverse = 2.0 / pose.k;
+    let (p, q) = (m3(&pose, f13) * inverse, m4(&pose, 1.0) * inverse);
+    let a = sub(add(times(p, pose.rocker), times(q, pose.coupler)), f13);
+    vec![(T12, cross(pose.crank, a))]
+}
+
+fn bearing_at(theta: f64) -> Found {
+    let (pose, _) = dyad(theta);
+    let mut found = Vec::new();
+    force(&mut found, &[["B.x", "B.y"]], times(m4(&pose, 2.0) / pose.k, pose.coupler));
+    found
+}
+
+/// Virtual velocities along the loads, and their work, for unit rate of the crank.
+fn terms_at(theta: f64, f13: Vector) -> Found {
+    let pose = four_bar_pose(theta);
+    let inverse = 2.0 / pose.k;
+    let of_coupler = cross(pose.rocker, pose.crank) * inverse;
+    let of_rocker = cross(pose.coupler, pose.crank) * inverse;
+    let (along, across) = place_of_c();
+    let [x, y] = pose.coupler;
+    let c = [along * x - across * y, along * y + across * x];
+    let v = [-(pose.crank[1] + of_coupler * c[1]), pose.crank[0] + of_coupler * c[0]];
+    count(6);
+    let size = f13[0].0.hypot(f13[1].0);
+    let unit = f13.map(|part| N(part.0 / size));
+    let part = 0.75 * of_rocker;
+    let v14 = [-(part * pose.rocker[1]), part * pose.rocker[0]];
+    let (sin, cos) = 200_f64.to_radians().sin_cos();
+    let velocity = v14[0] * cos + v14[1] * sin;
+    vec![
+        ("F13.velocity", dot(v, unit)),
+        ("F13.work", dot(v, f13)),
+        ("F14.velocity", velocity),
+        ("F14.work", 100.0 * velocity),
+    ]
+}
+
+fn places_at(theta: f64) -> Found {
+    let pose = four_bar_pose(theta);
+    let (along, across) = place_of_c();
+    let [x, y] = pose.coupler;
+    let c = add(pose.crank, [along * x - across * y, along * y + across * x]);
+    let d = [0.75 * pose.rocker[0] + 140.0, 0.75 * pose.rocker[1]];
+    let mut found = vec![
+        ("coupler_angle", pose.coupler[1].atan2(pose.coupler[0])),
+        ("rocker_angle", pose.rocker[1].atan2(pose.rocker[0])),
+    ];
+    force(&mut found, &[["A.x", "A.y"]], pose.crank);
+    force(&mut found, &[["B.x", "B.y"]], add(pose.crank, pose.coupler));
+    force(&mut found, &[["coupler_C.x", "coupler_C.y"]], c);
+    force(&mut found, &[["rocker_D.x", "rocker_D.y"]], d);
+    found
+}
+
+// --- the slider-crank -------------------------------------------------------------------------------------------------------------
+
+/// Weights of crank, rod and piston, N; how far that of the rod is from A, over the rod's length, and that of the crank from O, over its.
+const G: f64 = 9.80665;
+const WEIGHTS: [f64; 3] = [3.2 * G, 0.62 * G, 0.48 * G];
+const OF_ROD: f64 = 45.0 / 142.0;
+const OF_CRANK: f64 = 9.0 / 42.0;
+
+/// sin θ, the x of A, and the rod's vector (−g, h).
+fn slider_crank_pose(theta: f64) -> (N, N, N, N) {
+    let (sin, cos) = N(theta).sin_cos();
+    let a = 42.0 * cos;
+    let g = a - 1.0;
+    (sin, a, g, ((142.0 - g) * (142.0 + g)).sqrt())
+}
+
+fn hold_at(theta: f64, gas: Vector) -> Found {
+    let (sin, a, g, h) = slider_crank_pose(theta);
+    let [of_crank, of_rod, of_piston] = WEIGHTS;
+    let across = g * (gas[1] - (of_piston + OF_ROD * of_rod)) / h;
+    let b = of_piston - gas[1];
+    let at_a = b + of_rod;
+    let normal = gas[0] + across;
+    let mut found = vec![
+        ("T", a * (at_a + OF_CRANK * of_crank) - 42.0 * sin * across),
+        ("G.normal", normal),
+        ("G.couple", 30.0 * gas[0]),
+        ("G.force.x", -normal),
+    ];
+    force(&mut found, &[["B.x", "B.y"]], [across, b]);
+    force(&mut found, &[["A.x", "A.y"]], [across, at_a]);
+    force(&mut found, &[["O.x", "O.y"]], [across, at_a + of_crank]);
+    found
+}
+
+fn weights_at(theta: f64) -> Found {
+    let (sin, cos) = N(theta).sin_cos();
+    let a = 42.0 * cos;
+    let g = a - 1.0;
+    let lever = sin * (g / ((142.0 - g) * (142.0 + g)).sqrt());
+    let [of_crank, of_rod, of_piston] = WEIGHTS;
+    vec![
+        ("W.crank.T", 42.0 * OF_CRANK * of_crank * cos),
+        ("W.rod.T", of_rod * a + 42.0 * OF_ROD * of_rod * lever),
+        ("W.piston.T", of_piston * a + 42.0 * of_piston * lever),
+    ]
+}
+
+fn slider_crank_torque_at(theta: f64, gas: Vector) -> Found {
+    let (sin, a, g, h) = slider_crank_pose(theta);
+    let [of_crank, of_rod, of_piston] = WEIGHTS;
+    let across = g * (gas[1] - (of_piston + OF_ROD * of_rod)) / h;
+    vec![("T", a * ((of_piston + of_rod + OF_CRANK * of_crank) - gas[1]) - 42.0 * sin * across)]
+}
+
+// --- the page ---------------------------------------------------------------------------------------------------------------------
+
+/// The counts of the page: for each function of an example the least, and what is emitted.
+fn page(example: &str) -> BTreeMap<String, [Tally; 2]> {
+    let text = include_str!("../../docs/operations.md");
+    let chapter = text.split("\n## ").find(|chapter| chapter.starts_with(example)).expect("a chapter");
+    let rows = chapter.lines().filter_map(|line| line.strip_prefix("| `")?.split_once('`'));
+    let tally = |cell: &str| {
+        let mut tally = [0; 7];
+        for part in cell.split(',') {
+            let (number, word) = part.trim().split_once(' ').expect("a number and a word");
+            let which = WORDS.iter().position(|own| *own == word).expect("a word of the page");
+            tally[which] = number.parse().expect("a number");
+        }
+        tally
+    };
+    let row = |(name, rest): (&str, &str)| {
+        let cells: Vec<&str> = rest.trim_matches(['|', ' ']).split('|').collect();
+        let [least, emitted] = cells.as_slice() else { panic!("{name} has {} columns", cells.len()) };
+        (name.to_owned(), [tally(least), tally(emitted)])
+    };
+    rows.map(row).collect()
+}
+
+fn emitted(program: &Program) -> Tally {
+    let counts = program.counts();
+    assert_eq!((counts.fused, counts.solve, counts.search), (0, 0, 0), "{counts}");
+    [counts.add, counts.mul, counts.div, counts.sqrt, counts.sin_cos, counts.atan2, counts.unit]
+}
+
+/// Holds a scene's formulas, the page and the emitted function against each other.
+fn hold(
+    linkage: &Linkage,
+    page: &mut BTreeMap<String, [Tally; 2]>,
+    scene: &str,
+    formulas: impl Fn(f64, Vector) -> Found,
+) {
+    let index = linkage.model.scenes.iter().position(|own| own.name.text == scene).expect("a scene");
+    let program = &linkage.functions.scenes[index].direct;
+    let [least, most] = page.remove(&format!("{scene}_at")).unwrap_or_else(|| panic!("the page leaves out {scene}"));
+    for (theta, load) in [(1.0, [-31.0, 38.0]), (-2.5, [0.5, 700.0]), (0.25, [12.0, -3.0])] {
+        TALLY.set([0; 7]);
+        let found = formulas(theta, load.map(N));
+        assert_eq!(TALLY.get(), least, "{scene}: what the formulas count is not what the page says");
+
+        let loads = vec![load; linkage.model.loads.len()];
+        let arguments = Arguments { drives: vec![theta], loads, ..Arguments::default() };
+        let values = direct::<Double>(linkage, program, &arguments).expect("an answer");
+        let largest = values.iter().fold(1.0_f64, |largest, value| largest.max(value.0.abs()));
+        let mut compared = 0;
+        for ((path, _), value) in program.outputs.iter().zip(&values) {
+            let Some((_, own)) = found.iter().find(|(own, _)| own == path) else {
+                // Constants, and what is given, take no formula.
+                assert!([theta, 0.0, 140.0].contains(&value.0), "{scene} finds no {path}");
+                continue;
+            };
+            compared += 1;
+            assert!((own.0 - value.0).abs() <= 1e-13 * largest, "{scene}, {path}: {} and {}", own.0, value.0);
+        }
+        assert_eq!(compared, found.len(), "{scene}: {:?}", program.outputs);
+    }
+    let own = emitted(program);
+    assert!(own.iter().zip(&most).all(|(own, most)| own <= most), "{scene}: {own:?} is emitted, {most:?} on the page");
+}
+
+fn linkage(example: &str) -> Linkage {
+    linkage_codegen::analyse(declaration(example)).unwrap_or_else(|refusal| panic!("{:?}", refusal.errors))
+}
+
+#[test]
+fn four_bar() {
+    let linkage = linkage("four_bar");
+    let mut page = page("Four-bar");
+    let [least, most] = page.remove("Pose::at").expect("the pose");
+    TALLY.set([0; 7]);
+    let _ = four_bar_pose(1.0);
+    assert_eq!(TALLY.get(), least);
+    let own = emitted(&linkage.functions.pose);
+    assert!(own.iter().zip(&most).all(|(own, most)| own <= most), "{own:?} is emitted, {most:?} on the page");
+    hold(&linkage, &mut page, "statics", statics_at);
+    hold(&linkage, &mut page, "parts", parts_at);
+    hold(&linkage, &mut page, "torque", torque_at);
+    hold(&linkage, &mut page, "bearing", |theta, _| bearing_at(theta));
+    hold(&linkage, &mut page, "terms", terms_at);
+    hold(&linkage, &mut page, "places", |theta, _| places_at(theta));
+    assert!(page.is_empty(), "no scene has {page:?}");
+}
+
+#[test]
+fn slider_crank() {
+    let linkage = linkage("slider_crank");
+    let mut page = page("Slider-crank");
+    hold(&linkage, &mut page, "hold", hold_at);
+    hold(&linkage, &mut page, "weights", |theta, _| weights_at(theta));
+    hold(&linkage, &mut page, "torque", slider_crank_torque_at);
+    assert!(page.is_empty(), "no scene has {page:?}");
+}
