@@ -12,6 +12,9 @@
 //! its zeros the closure knows it better than the directions do. Where the lengths are constants of the same order, the vector along the
 //! longer link is that along the shorter one and d, `r₁u₁ − r₂u₂ = d`, and the step divides by the length too.
 //!
+//! Where a drive gives the length of one link, `r₁² = x² + y²` with a constant y, and D and r₂ are constants, the same four factors are
+//! taken together as `p = (D + r₂)² − r₁²`, `q = r₁² − (D − r₂)²`: there the constants fold.
+//!
 //! Forces, by the textbooks' resolution along and across the links: with `m₁`, `m₂` the moments of the loads about P and Q, the
 //! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`.
 
