@@ -80,7 +80,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
     }
     if has("--sweeps") {
         println!("{}", processor());
-        return sweeps::print(if quick { 51 } else { 501 });
+        return sweeps::print(if quick { 201 } else { 2001 });
     }
     let (rounds, least) = if quick { (101, Duration::from_micros(100)) } else { (1001, Duration::from_micros(200)) };
     if has("--pareto") {

@@ -223,7 +223,10 @@ fn marks(svg: &mut String, panel: &Panel, axes: Axes, names: &[(&str, Family)]) 
             );
             let _ = writeln!(svg, "<circle cx=\"{at_x:.1}\" cy=\"{at_y:.1}\" r=\"{}\" fill=\"#fff\"/>", NUMBER.0);
         }
-        let style = format!("fill=\"{colour}\" text-anchor=\"middle\" font-size=\"11\" font-weight=\"bold\"");
+        let style = format!(
+            "fill=\"{colour}\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\" text-anchor=\"middle\" \
+             font-size=\"11\" font-weight=\"bold\""
+        );
         text(svg, (at_x, at_y + 4.0), &style, &number.to_string());
     }
 }

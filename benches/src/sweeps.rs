@@ -55,7 +55,8 @@ fn registers() -> Vec<(&'static str, u8)> {
 
 /// Times three ways, in turns, and prints a row.
 fn row(title: &str, count: usize, rounds: usize, ways: &mut [&mut dyn FnMut(); 3]) {
-    let repeats = (100_000 / count).max(1);
+    // Shorter than what the system gives a program at a time: few of these times hold a pause.
+    let repeats = (16_384 / count).max(1);
     let mut times: Vec<[f64; 3]> = Vec::new();
     for _ in 0..rounds {
         times.push(ways.each_mut().map(|way| {
