@@ -86,6 +86,14 @@ impl<'a> Dyad<'a> {
         format!("({first} − {second})")
     }
 
+    fn name_sum(&self, leg: &Leg, sum: Expr<'a>) -> Expr<'a> {
+        let (mine, its) = (self.length_name(leg), self.length_name(self.other(leg)));
+        sum.named(
+            format!("sum_{}", self.link_name(leg)),
+            format!("D2_{} + {mine}² − {its}²", self.joint_name(self.inner)),
+        )
+    }
+
     fn separation_meaning(&self) -> String {
         let [first, second] = self.legs.each_ref().map(|leg| self.joint_name(leg.outer));
         format!("d, from {first} to {second}")
@@ -185,10 +193,27 @@ struct Closing<'m> {
     significant: Vec<(Expr<'m>, Expr<'m>)>,
 }
 
-impl Closing<'_> {
+impl<'m> Closing<'m> {
     /// The sign before `K`.
     fn sign(&self) -> String {
         self.sign.text()
+    }
+
+    /// The parts along and across d of a leg: its sum and K, each times the scale, which is named after something.
+    fn parts(
+        &self,
+        dyad: &Dyad<'_>,
+        leg: &Leg,
+        sum: Expr<'m>,
+        (scale, of, part): (Expr<'m>, &str, &str),
+    ) -> [Expr<'m>; 2] {
+        let (link, name) = (dyad.link_name(leg), dyad.joint_name(dyad.inner));
+        let along = (sum * scale).named(format!("along_{link}"), format!("sum_{link} · scale_{of}, {part} along d"));
+        let across = self.k * scale;
+        [
+            along,
+            across.named(format!("across_{link}"), format!("{}K_{name} · scale_{of}, the part across d", self.sign())),
+        ]
     }
 }
 
@@ -281,18 +306,15 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
 /// Both vectors have the rounding of the shorter link and of d, which is at most twice as long as the longer link.
 fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     let lengths = dyad.lengths();
-    let Closing { d, d2, k, .. } = *closing;
+    let Closing { d, d2, .. } = *closing;
     let name = dyad.joint_name(dyad.inner);
     let [short, long] = if (lengths[0] - lengths[1]).sign() == Some(1) { [1, 0] } else { [0, 1] };
     let (leg, link) = (&dyad.legs[short], dyad.link_name(&dyad.legs[short]));
     let sum = d2 + (lengths[short] - lengths[long]) * (lengths[short] + lengths[long]);
-    let (mine, its) = (dyad.length_name(leg), dyad.length_name(&dyad.legs[long]));
-    let sum = sum.named(format!("sum_{link}"), format!("D2_{name} + {mine}² − {its}²"));
+    let sum = dyad.name_sum(leg, sum);
     let scale =
         (d2.graph().constant(&Number::ratio(1, 2)) / d2).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
-    let along = (sum * scale).named(format!("along_{link}"), format!("sum_{link} · scale_{name}, the part along d"));
-    let across = (k * scale)
-        .named(format!("across_{link}"), format!("{}K_{name} · scale_{name}, the part across d", closing.sign()));
+    let [along, across] = closing.parts(dyad, leg, sum, (scale, name, "the part"));
     let (sense, minus) = if short == 0 { (1, "") } else { (-1, "−") };
     let mut vectors = [d; 2];
     vectors[short] = (d.scaled(sense * along) + d.perp().scaled(across)).named(
@@ -313,21 +335,20 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
 /// The directions of both legs, each by itself: for lengths that are not known before run time, or that differ by far.
 fn rough_directions<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     let [r1, r2] = dyad.lengths();
-    let Closing { d, d2, k, .. } = *closing;
+    let Closing { d, d2, .. } = *closing;
     let name = dyad.joint_name(dyad.inner);
-    let difference = if closing.sums.is_some() { d2 } else { (r1 - r2) * (r1 + r2) };
     let inverse = (d2.graph().one() / d2).named(format!("inverse_D2_{name}"), "");
-    let sums = closing.sums.unwrap_or_else(|| [d2 + difference, d2 - difference]);
+    let sums = closing.sums.unwrap_or_else(|| {
+        let difference = (r1 - r2) * (r1 + r2);
+        [d2 + difference, d2 - difference]
+    });
     let [first, second] = &dyad.legs;
     [(first, r1, r2, sums[0], 1), (second, r2, r1, sums[1], -1)].map(|(leg, own, other, sum, sense)| {
         let link = dyad.link_name(leg);
-        let (mine, its) = (dyad.length_name(leg), dyad.length_name(dyad.other(leg)));
-        let sum = sum.named(format!("sum_{link}"), format!("D2_{name} + {mine}² − {its}²"));
-        let scale = (inverse / (2 * own)).named(format!("scale_{link}"), format!("1/(2 {mine} D2_{name})"));
-        let along = (sum * scale)
-            .named(format!("along_{link}"), format!("sum_{link} · scale_{link}, the part of the direction along d"));
-        let across = (k * scale)
-            .named(format!("across_{link}"), format!("{}K_{name} · scale_{link}, the part across d", closing.sign()));
+        let sum = dyad.name_sum(leg, sum);
+        let scale = inverse / (2 * own);
+        let scale = scale.named(format!("scale_{link}"), format!("1/(2 {} D2_{name})", dyad.length_name(leg)));
+        let [along, across] = closing.parts(dyad, leg, sum, (scale, &link, "the part of the direction"));
         let rough = d.scaled(sense * along) + d.perp().scaled(across);
         let rough = rough.named_direction(
             &format!("rough_{link}"),
@@ -483,16 +504,15 @@ fn by_half_angle<'m>(
         (false, _) => (margin.value.non_negative(), graph.one()),
     };
     let ((from_p, p_factor), (from_q, q_factor)) = (root_of(p, c), root_of(q, s));
-    // What is at hand before the root is multiplied first.
-    let factor = (p_factor * q_factor).sqrt();
     let root = match (p.folds, q.folds) {
-        (true, true) => (factor * from_p) * from_q,
-        (true, false) => (factor * from_p) * from_q.sqrt(),
-        (false, true) => (factor * from_q) * from_p.sqrt(),
-        (false, false) => factor * (from_p * from_q).sqrt(),
+        (true, true) => from_p * from_q,
+        (true, false) => from_p * from_q.sqrt(),
+        (false, true) => from_q * from_p.sqrt(),
+        (false, false) => (from_p * from_q).sqrt(),
     };
+    let factor = (p_factor * q_factor).sqrt();
     let sign = side_sign(dyad, (closure, side), arms, [p.folds, q.folds])?;
-    let k = sign.of(root.named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})")));
+    let k = sign.of((factor * root).named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})")));
     let significant = [(p, c), (q, s)].map(|(margin, half)| {
         if margin.folds {
             (half.abs().named(format!("fold_{joint}"), "distance from the fold"), angle_rounding)
