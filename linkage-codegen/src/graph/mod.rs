@@ -666,7 +666,7 @@ impl Graph {
         Vector { x: self.zero(), y: self.zero() }
     }
 
-    fn intern_number(&self, value: &Number) -> NumberId {
+    pub(crate) fn intern_number(&self, value: &Number) -> NumberId {
         let mut arena = self.arena.borrow_mut();
         let key = value.key();
         if let Some(id) = arena.number_index.get(&key) {

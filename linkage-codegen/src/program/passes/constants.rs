@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 
 use crate::graph::number::Number;
-use crate::graph::{Graph, NumberId, Op};
-use crate::program::{Definition, Program, Step, Value, ValueId};
+use crate::graph::{Graph, Op};
+use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn merge(program: Program, graph: &Graph) -> Program {
     let uses = program.uses();
@@ -32,15 +32,11 @@ struct Merging<'g> {
 
 impl Merging<'_> {
     fn constant(&self, value: ValueId) -> Option<Number> {
-        match self.program.op(value) {
-            Some(Op::Constant(number)) => Some(self.graph.number(*number)),
-            _ => None,
-        }
+        self.program.constant(self.graph, value)
     }
 
-    /// A value that only one other reads, and that has no name of its own.
     fn is_inner(&self, value: ValueId) -> bool {
-        self.uses.get(value.index()) == Some(&1) && self.program.value(value).label.is_none()
+        self.program.is_inner(value, &self.uses)
     }
 
     /// A product with a constant: the constant and the rest.
@@ -73,7 +69,6 @@ impl Merging<'_> {
         let (ka, x) = left.unwrap_or((Number::one(), a));
         let (kb, y) = right.unwrap_or((Number::one(), b));
         let rest = self.add(value, Op::Mul(x, y));
-        self.uses.resize(self.program.values.len(), 1);
         self.constant_times(value, &ka.mul(&kb), rest);
     }
 
@@ -115,22 +110,14 @@ impl Merging<'_> {
     }
 
     fn number(&mut self, before: ValueId, number: &Number) -> ValueId {
-        let id: Option<NumberId> = match self.graph.constant(number).op() {
-            Op::Constant(id) => Some(id),
-            _ => None,
-        };
-        let section = self.program.value(before).section.clone();
-        let op = id.map_or(Op::Neg(before), Op::Constant);
-        self.program.values.push(Value { definition: Definition::Computed(op), label: None, section });
+        let id = self.program.add_constant(self.graph, number, before);
         self.uses.resize(self.program.values.len(), 1);
-        ValueId::new(self.program.values.len() - 1)
+        id
     }
 
     fn add(&mut self, before: ValueId, op: Op<ValueId>) -> ValueId {
-        let section = self.program.value(before).section.clone();
-        self.program.values.push(Value { definition: Definition::Computed(op), label: None, section });
+        let id = self.program.add(op, before);
         self.uses.resize(self.program.values.len(), 1);
-        let id = ValueId::new(self.program.values.len() - 1);
         self.before.entry(before).or_default().push(id);
         id
     }

@@ -2,7 +2,7 @@
 //! is a line of the derivation and stays a number of its own, rounded as such.
 
 use crate::graph::{Graph, Kernel, Op};
-use crate::program::{Definition, Program, Step, Value, ValueId};
+use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn contract(mut program: Program, graph: &Graph) -> Program {
     if !graph.is_fused() {
@@ -44,21 +44,13 @@ fn operands(program: &mut Program, graph: &Graph, sum: ValueId, steps: &mut Vec<
 
 /// The negative of a value, which is exact.
 fn negative(program: &mut Program, graph: &Graph, value: ValueId, steps: &mut Vec<Step>) -> ValueId {
-    let op = match program.op(value) {
-        Some(Op::Neg(positive)) => return *positive,
-        Some(Op::Constant(number)) => match graph.constant(&graph.number(*number).neg()).op() {
-            Op::Constant(negated) => Some(Op::Constant(negated)),
-            _ => None,
-        },
-        _ => None,
-    };
-    let is_constant = op.is_some();
-    let definition = Definition::Computed(op.unwrap_or(Op::Neg(value)));
-    let section = program.value(value).section.clone();
-    program.values.push(Value { definition, label: None, section });
-    let negative = ValueId::new(program.values.len() - 1);
-    if !is_constant {
-        steps.push(Step::Let(negative));
+    if let Some(Op::Neg(positive)) = program.op(value) {
+        return *positive;
     }
+    if let Some(number) = program.constant(graph, value) {
+        return program.add_constant(graph, &number.neg(), value);
+    }
+    let negative = program.add(Op::Neg(value), value);
+    steps.push(Step::Let(negative));
     negative
 }

@@ -9,10 +9,12 @@ mod reciprocals;
 mod signs;
 mod unused;
 
-use super::Program;
+use super::{Definition, Program, Value, ValueId};
+use crate::graph::number::Number;
+use crate::graph::{Graph, Op};
 
 /// A pass.
-pub type Pass = fn(Program, &crate::graph::Graph) -> Program;
+pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
 pub const PASSES: [(&str, Pass); 8] = [
@@ -26,14 +28,41 @@ pub const PASSES: [(&str, Pass); 8] = [
     ("fused", fused::contract),
 ];
 
+impl Program {
+    /// A new value without a name, under the heading of another one.
+    fn add(&mut self, op: Op<ValueId>, beside: ValueId) -> ValueId {
+        let section = self.value(beside).section.clone();
+        self.values.push(Value { definition: Definition::Computed(op), label: None, section });
+        ValueId::new(self.values.len() - 1)
+    }
+
+    /// A new constant.
+    fn add_constant(&mut self, graph: &Graph, number: &Number, beside: ValueId) -> ValueId {
+        self.add(Op::Constant(graph.intern_number(number)), beside)
+    }
+
+    /// What a constant is.
+    fn constant(&self, graph: &Graph, value: ValueId) -> Option<Number> {
+        match self.op(value) {
+            Some(Op::Constant(number)) => Some(graph.number(*number)),
+            _ => None,
+        }
+    }
+
+    /// Whether only one other value reads it, and it has no name of its own.
+    fn is_inner(&self, value: ValueId, uses: &[usize]) -> bool {
+        uses.get(value.index()) == Some(&1) && self.value(value).label.is_none()
+    }
+}
+
 /// A program after the passes that leave every bit of its results as it is.
 #[must_use]
-pub fn exact(program: Program, graph: &crate::graph::Graph) -> Program {
+pub fn exact(program: Program, graph: &Graph) -> Program {
     unused::remove(signs::absorb(program, graph), graph)
 }
 
 /// A program after all passes.
 #[must_use]
-pub fn optimised(program: Program, graph: &crate::graph::Graph) -> Program {
+pub fn optimised(program: Program, graph: &Graph) -> Program {
     PASSES.iter().fold(program, |program, (_, pass)| pass(program, graph))
 }

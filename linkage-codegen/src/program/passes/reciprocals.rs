@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::number::Number;
 use crate::graph::{Graph, Label, Op};
-use crate::program::{Definition, Program, Step, Value, ValueId};
+use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
     let mut divisors: BTreeMap<ValueId, usize> = BTreeMap::new();
@@ -23,7 +23,7 @@ pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
         if let Step::Let(value) = step
             && let Some(Op::Div(dividend, divisor)) = program.op(*value)
             && shared.contains(divisor)
-            && is_one(&program, graph, *dividend)
+            && program.constant(graph, *dividend).is_some_and(|number| number.is_one())
         {
             own.entry(*divisor).or_insert(*value);
         }
@@ -56,25 +56,12 @@ pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
     program
 }
 
-fn is_one(program: &Program, graph: &Graph, value: ValueId) -> bool {
-    match (program.op(value), graph.constant(&Number::one()).op()) {
-        (Some(Op::Constant(number)), Op::Constant(one)) => *number == one,
-        _ => false,
-    }
-}
-
 /// `1/divisor` as a new value, under the heading of its first use.
 fn reciprocal_of(program: &mut Program, graph: &Graph, divisor: ValueId, first_use: ValueId) -> ValueId {
-    let section = program.value(first_use).section.clone();
+    let one = program.add_constant(graph, &Number::one(), first_use);
+    let reciprocal = program.add(Op::Div(one, divisor), first_use);
     let named = program.value(divisor).label.clone();
-    let label = named.map(|label| Label { name: format!("inverse_{}", label.name), equation: String::new() });
-    let mut add = |definition, label| {
-        program.values.push(Value { definition: Definition::Computed(definition), label, section: section.clone() });
-        ValueId::new(program.values.len() - 1)
-    };
-    let one = match graph.constant(&Number::one()).op() {
-        Op::Constant(number) => add(Op::Constant(number), None),
-        _ => divisor,
-    };
-    add(Op::Div(one, divisor), label)
+    program.values[reciprocal.index()].label =
+        named.map(|label| Label { name: format!("inverse_{}", label.name), equation: String::new() });
+    reciprocal
 }

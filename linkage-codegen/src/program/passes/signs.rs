@@ -4,7 +4,7 @@
 //! component of a vector does, so that a compiler can work at both at once.
 
 use crate::graph::{Graph, Op};
-use crate::program::{Definition, Program, Step, Value, ValueId};
+use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
     let uses = program.uses();
@@ -13,7 +13,7 @@ pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
     for step in core::mem::take(&mut program.steps) {
         if let Step::Let(value) = step
             && let Some(Op::Neg(inner)) = program.op(value).cloned()
-            && is_own(&program, inner, &uses)
+            && program.is_inner(inner, &uses)
         {
             let op = match program.op(inner).cloned() {
                 Some(Op::Add(a, b)) => Some(negative_sum(&mut program, graph, [a, b], (&uses, &depths), &mut steps)),
@@ -27,11 +27,6 @@ pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
     }
     program.steps = steps;
     program
-}
-
-/// Whether only one other value reads this one, and no reader knows it by name.
-fn is_own(program: &Program, value: ValueId, uses: &[usize]) -> bool {
-    uses.get(value.index()) == Some(&1) && program.value(value).label.is_none()
 }
 
 /// The longest way from the inputs to each value, in operations.
@@ -56,16 +51,14 @@ fn negative_sum(
 ) -> Op<ValueId> {
     let [first, second] = if depths[b.index()] < depths[a.index()] { [b, a] } else { [a, b] };
     for (term, other) in [(first, second), (second, first)] {
-        if is_own(program, term, uses)
+        if program.is_inner(term, uses)
             && let Some(op) = negative(program, graph, term, uses)
         {
             program.values[term.index()].definition = Definition::Computed(op);
             return Op::Sub(term, other);
         }
     }
-    let section = program.value(first).section.clone();
-    program.values.push(Value { definition: Definition::Computed(Op::Neg(first)), label: None, section });
-    let negated = ValueId::new(program.values.len() - 1);
+    let negated = program.add(Op::Neg(first), first);
     steps.push(Step::Let(negated));
     Op::Sub(negated, second)
 }
@@ -76,17 +69,12 @@ fn negative(program: &mut Program, graph: &Graph, value: ValueId, uses: &[usize]
         Op::Sub(a, b) => Some(Op::Sub(b, a)),
         Op::Neg(a) => Some(program.op(a).cloned()?),
         Op::Mul(k, x) => {
-            if let Some(Op::Constant(number)) = program.op(k).cloned()
-                && let Op::Constant(negated) = graph.constant(&graph.number(number).neg()).op()
-            {
-                let section = program.value(value).section.clone();
-                let constant = Definition::Computed(Op::Constant(negated));
-                program.values.push(Value { definition: constant, label: None, section });
-                return Some(Op::Mul(ValueId::new(program.values.len() - 1), x));
+            if let Some(number) = program.constant(graph, k) {
+                return Some(Op::Mul(program.add_constant(graph, &number.neg(), value), x));
             }
             // The sign passes on to a factor that nothing else reads.
             for factor in [k, x] {
-                if let (true, Some(Op::Sub(a, b))) = (is_own(program, factor, uses), program.op(factor).cloned()) {
+                if let (true, Some(Op::Sub(a, b))) = (program.is_inner(factor, uses), program.op(factor).cloned()) {
                     program.values[factor.index()].definition = Definition::Computed(Op::Sub(b, a));
                     return Some(Op::Mul(k, x));
                 }
