@@ -172,3 +172,66 @@ fn names(tokens: &TokenStream) -> BTreeSet<Ident> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use proc_macro2::TokenStream;
+    use quote::{format_ident, quote};
+
+    use super::{LENGTH, Stage, Work, operations, stages};
+
+    /// A sine, then a chain of sums of two numbers: `x1 = x0 + x0 * sine` and so on; every tenth has a condition and a result.
+    fn chain(links: usize) -> Vec<Stage> {
+        let mut statements = vec![quote!(let (sine, _) = math::short_sin_cos(angle);)];
+        let (mut conditions, mut results) = (Vec::new(), Vec::new());
+        for link in 0..links {
+            let (from, to) = (format_ident!("x{link}"), format_ident!("x{}", link + 1));
+            statements.push(quote!(let #to = #from + #from * sine;));
+            if link % 10 == 0 {
+                conditions.push(quote!((#to > angle)));
+                results.push(quote!(#to));
+            }
+        }
+        stages(Work { statements, conditions, results }, &[format_ident!("angle"), format_ident!("x0")])
+    }
+
+    #[test]
+    fn a_stage_reads_what_is_given_or_kept_before() {
+        let stages = chain(200);
+        let mut known: BTreeSet<String> = ["angle", "x0"].map(str::to_owned).into();
+        for stage in &stages {
+            assert!(stage.reads.iter().all(|name| known.contains(&name.to_string())), "{:?}", stage.reads);
+            known.extend(stage.keeps.iter().map(ToString::to_string));
+        }
+        // The sine, and the chain's last link.
+        assert!(stages[1..stages.len() - 1].iter().all(|stage| stage.reads.len() <= 3 && stage.keeps.len() == 1));
+        let numbers: BTreeSet<usize> =
+            stages.iter().flat_map(|stage| stage.results.iter().map(|(place, _)| *place)).collect();
+        assert_eq!(numbers, (0..20).collect());
+        assert_eq!(stages.iter().map(|stage| stage.conditions.len()).sum::<usize>(), 20);
+    }
+
+    #[test]
+    fn stages_are_neither_long_nor_many() {
+        let work = |stage: &Stage| operations(&stage.statements);
+        let stages = chain(200);
+        assert!(
+            stages.iter().all(|stage| work(stage) <= 2 * LENGTH),
+            "{:?}",
+            stages.iter().map(work).collect::<Vec<_>>()
+        );
+        assert!(stages.len() <= 2 + 400 / (LENGTH / 2));
+        // What is short stays together.
+        assert_eq!(chain(5).len(), 1);
+        assert_eq!(
+            super::stages(
+                Work { statements: Vec::new(), conditions: Vec::new(), results: vec![TokenStream::new()] },
+                &[]
+            )
+            .len(),
+            1
+        );
+    }
+}
