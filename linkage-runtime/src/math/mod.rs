@@ -1,9 +1,10 @@
 //! Elementary functions with the same bits on every target.
 //!
 //! Only `+ − × ÷`, the square root, comparisons, integer operations and bit casts, in the order written: no library of
-//! the platform, and no fused multiply-add but in the functions that are named for it, where it is IEEE 754's everywhere. The same source therefore gives the same bits on a microcontroller without
-//! a floating-point unit, on a desktop and in a browser, at every optimisation level. Nothing panics, nothing allocates,
-//! and [`f32`](mod@f32) never touches an `f64`, but for what a compiler's own routine does where the processor has no fused operation.
+//! the platform, and no fused multiply-add but in the functions that are named for it, where it is IEEE 754's. The same
+//! source therefore gives the same bits on a microcontroller without a floating-point unit, on a desktop and in a browser,
+//! at every optimisation level. Nothing panics, nothing allocates, and [`f32`](mod@f32) never touches an `f64`, but in
+//! the routine of the compiler that stands for a fused operation where the processor has none.
 //!
 //! | function | largest error found, `f64` and `f32` | promised |
 //! |---|---|---|
