@@ -91,11 +91,13 @@ impl<'m> Sign<'m> {
 /// How a group in two unknowns was closed: from what is left of its closure follows how far its solution is off.
 #[derive(Clone, Debug)]
 pub struct ClosedLoop<'m> {
+    /// The name of its error: that of the joint that closes it.
+    pub name: String,
     /// What should be zero, of the values as they are found.
     pub residual: Vector<'m>,
     /// What was found.
     pub found: [Found<'m>; 2],
-    /// The first column × the second one, in magnitude.
+    /// The first column × the second one.
     pub determinant: Expr<'m>,
     /// Values that the closure gave beside, each with the same from what was found.
     pub beside: Vec<(Expr<'m>, Expr<'m>)>,

@@ -9,8 +9,7 @@ use super::assembly::{ClosedLoop, Found};
 use super::output::Field;
 use super::{Assembly, Kept, Output};
 use crate::diagnostics::{Diagnostic, Sink};
-use crate::graph::number::Number;
-use crate::graph::rounding::{BoundOf, HeldBound, Rounding};
+use crate::graph::rounding::{BoundOf, Deviation, HeldBound, Rounding};
 use crate::graph::{Expr, Graph, NodeId, Op, Vector};
 use crate::model::Wanted;
 
@@ -63,8 +62,12 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
                 (format!("error_size_{direction}"), format!("the size of the direction carried by `{direction}`"))
             }
         };
+        let (name, meaning) = match held.source.map(|source| rounding.name_of(source)) {
+            Some(by) => (format!("{name}_by_{by}"), format!("share of the rounding error of {what} that comes with that of `{by}`")),
+            None => (name, format!("bound of the rounding error of {what}, but for its shares")),
+        };
         graph.name_kept(held.bound, &name);
-        Kept { name, meaning: format!("bound of the rounding error of {what}"), node: held.bound.id() }
+        Kept { name, meaning, node: held.bound.id() }
     };
     rounding.held.iter().map(keep).collect()
 }
@@ -74,52 +77,81 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>) {
     let graph = closed.determinant.graph();
     let exact: Vec<Expr<'g>> = closed.found.iter().flat_map(Found::values).collect();
     let ClosedLoop { residual, .. } = closed;
-    let [x, y] = [residual.x, residual.y].map(|part| part.abs() + rounding.error_from(part, &exact));
-    // How far directions are from unit size.
-    let half = graph.constant(&Number::ratio(1, 2));
+    let [x, y] = [residual.x, residual.y].map(|part| rounding.deviation_from(part, &exact));
     let stretch = closed.found.each_ref().map(|found| match found {
-        Found::Direction { direction, .. } => {
-            let excess = direction.squared() - graph.one();
-            half * (excess.abs() + rounding.error_from(excess, &exact))
-        }
+        Found::Direction { direction, .. } => rounding.stretch(*direction),
         Found::Length { .. } => graph.zero(),
     });
-    // |v × column| of what the residual may be, and of what the sizes of the directions bring into it.
-    let across = |column: Vector<'g>| {
-        let stretched = closed.found.iter().zip(stretch).fold(graph.zero(), |sum, (found, stretch)| match found {
-            Found::Direction { arm, .. } => sum + stretch * arm.cross(column).abs(),
-            Found::Length { .. } => sum,
-        });
-        x * column.y.abs() + y * column.x.abs() + stretched
+    // Of what has no source: by how much the parts of the residual, and the sizes of directions, may change a product with the residual.
+    let (own_x, own_y) = (residual.x.abs() + x.rest, residual.y.abs() + y.rest);
+    let own = |parts: Vector<'g>, arms: &dyn Fn(Vector<'g>) -> Expr<'g>| {
+        closed.found.iter().zip(stretch).fold(parts.x.abs() * own_x + parts.y.abs() * own_y, |sum, (found, stretch)| {
+            match found {
+                Found::Direction { arm, .. } => sum + stretch * arms(*arm).abs(),
+                Found::Length { .. } => sum,
+            }
+        })
     };
     let columns = closed.found.each_ref().map(Found::column);
-    let first_order = [across(columns[1]), across(columns[0])].map(|sum| sum / closed.determinant);
-    // What these may change of the columns, and these of the determinant.
-    let sum_of = |angles: bool| {
-        let counted = closed.found.iter().zip(first_order).filter(|(found, _)| found.is_direction() == angles);
-        counted.fold(graph.zero(), |sum, (_, error)| sum + error)
+    let [first, second] = columns;
+    let size = closed.determinant.abs();
+    // What earlier sources bring, as the unknowns would follow the change of the residual.
+    let shares = [(first, second, -1), (second, first, 1)].map(|(_, other, sign)| {
+        Deviation::shares_of(&x, &y, |dx, dy| sign * (dx * other.y - dy * other.x) / closed.determinant)
+    });
+    // The rest as a source: the first unknown, which the second follows, but for what is along its column.
+    let decisive = own(second.perp(), &|arm| arm.cross(second)) / size;
+    let square = second.squared();
+    let follows = -(first.dot(second) / square);
+    let beside = own(second, &|arm| arm.dot(second)) / square;
+    let firsts = [&shares[0], &shares[1]].map(Deviation::total);
+    let change = beyond_first_order(closed, [firsts[0] + decisive, firsts[1] + follows.abs() * decisive + beside]);
+    let along = second.x.abs() + second.y.abs();
+    let source = rounding.source(&closed.name);
+    let decisive = decisive + change * along / size;
+    let beside = beside + change * along / square;
+    let [one, other] = shares;
+    let one = one.plus(&Deviation::of(source, decisive));
+    let other = other.plus(&Deviation::of(source, follows * decisive));
+    let other = match second_source(rounding, &closed.name) {
+        Some(source) => other.plus(&Deviation::of(source, beside)),
+        None => other.and(beside),
     };
-    let (turned, longer) = (sum_of(true), sum_of(false));
-    let size = |column: Vector<'g>| column.x.abs() + column.y.abs();
-    let [first, second] = columns.map(size);
-    let [change, other_change] = [first, second].map(|size| size * turned + longer);
-    let changed = 2 * (change * second + first * other_change);
-    let least = closed.determinant - changed;
-    let factor = closed.determinant / least.where_above(least, graph.zero());
-    for ((found, error), stretch) in closed.found.iter().zip(first_order).zip(stretch) {
-        let error = error * factor;
+    for ((found, deviation), stretch) in closed.found.iter().zip([one, other]).zip(stretch) {
         match found {
-            Found::Direction { direction, .. } => {
-                rounding.state_direction(*direction, error, stretch);
-            }
-            Found::Length { length, .. } => rounding.state(*length, error),
+            Found::Direction { direction, .. } => rounding.state_direction(*direction, deviation, stretch),
+            Found::Length { length, .. } => rounding.state(*length, deviation),
         }
     }
     for (value, again) in &closed.beside {
         let difference = *again - *value;
-        let error = rounding.error_from(difference, &[*value]);
-        rounding.state(*value, difference.abs() + error);
+        let deviation = rounding.deviation(again.id()).and(difference.abs());
+        rounding.state(*value, deviation);
     }
+}
+
+fn second_source(rounding: &mut Rounding<'_>, name: &str) -> Option<crate::graph::rounding::Source> {
+    std::env::var("SECOND").is_ok().then(|| rounding.source(&format!("{name}_beside")))
+}
+
+/// By how much the residual is off what is linear in the unknowns. Let these be off by no more than y = 2T, twice what first order says: then
+/// that is `Σ |c| y²/2` over the directions, and `y₁ y₂` if a length lies along a direction. If what it makes of the unknowns is no more
+/// than T, there is a solution as near as y, and it is the one on the same side; or else nothing is known: infinite.
+fn beyond_first_order<'g>(closed: &ClosedLoop<'g>, totals: [Expr<'g>; 2]) -> Expr<'g> {
+    let graph = closed.determinant.graph();
+    let sizes = closed.found.each_ref().map(|found| {
+        let column = found.column();
+        if found.is_direction() { column.x.abs() + column.y.abs() } else { graph.one() }
+    });
+    let curved = |index: usize| {
+        if closed.found[index].is_direction() { sizes[index] * totals[index].squared() } else { graph.zero() }
+    };
+    let [first, second] = &closed.found;
+    let both = if first.is_direction() == second.is_direction() { graph.zero() } else { 2 * (totals[0] * totals[1]) };
+    let change = 2 * (curved(0) + curved(1) + both);
+    let size = closed.determinant.abs();
+    let small = graph.one().where_above(size * totals[0], change * sizes[1]);
+    change / small.where_above(size * totals[1], change * sizes[0])
 }
 
 impl<'g> Found<'g> {

@@ -283,13 +283,14 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     if let [u1, u2] = closed[..] {
         let legs = [u1.scaled(r1), u2.scaled(-r2)];
         assembly.closed(|| ClosedLoop {
+            name: name.to_owned(),
             residual: legs[0] + legs[1] - closing.d,
             found: [(u1, legs[0]), (u2, legs[1])].map(|(direction, arm)| Found::Direction {
                 direction,
                 column: arm.perp(),
                 arm,
             }),
-            determinant: (r1 * r2 * sine).abs(),
+            determinant: -(r1 * r2 * sine),
             beside: vec![(sine, u1.cross(u2))],
         });
     }
