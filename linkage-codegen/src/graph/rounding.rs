@@ -168,8 +168,6 @@ pub struct Rounding<'g> {
     open: HashSet<NodeId>,
     /// What has been found since, where some values are supposed to be exact.
     supposed: Option<Vec<NodeId>>,
-    /// Values whose rests are sources of errors.
-    decisive: HashMap<NodeId, Source>,
     /// The names of the sources.
     sources: Vec<String>,
     /// Whether a bound would have to be known of what is found by iteration, which it is not.
@@ -189,7 +187,6 @@ impl<'g> Rounding<'g> {
             pairs: HashMap::new(),
             open: HashSet::new(),
             supposed: None,
-            decisive: HashMap::new(),
             sources: Vec::new(),
             searched: false,
             held: Vec::new(),
@@ -211,12 +208,6 @@ impl<'g> Rounding<'g> {
     /// Says that two values are a direction.
     pub fn is_direction(&mut self, unit: Vector<'g>) {
         self.pairs.extend([unit.x, unit.y].map(|part| (part.id(), unit)));
-    }
-
-    /// Says that the rest of a value is to be a source of errors.
-    pub fn is_decisive(&mut self, value: Expr<'g>, name: &str) {
-        let source = self.source(name);
-        self.decisive.insert(value.id(), source);
     }
 
     /// States the deviation of a direction's angle and the bound of that of its size.
@@ -325,6 +316,14 @@ impl<'g> Rounding<'g> {
         deviation
     }
 
+    /// The deviation of a value as its own operations tell, whatever is stated of it.
+    pub fn by_operations(&mut self, of: Expr<'g>) -> Deviation<'g> {
+        match of.op() {
+            Op::Quantity(inner) => self.deviation(inner),
+            _ => self.deviation_of(of.id()),
+        }
+    }
+
     /// The deviation of a value.
     pub fn deviation(&mut self, of: NodeId) -> Deviation<'g> {
         if let Some(deviation) = self.done.get(&of) {
@@ -333,10 +332,7 @@ impl<'g> Rounding<'g> {
         if self.direction_of(of).is_some() {
             return self.done[&of].clone();
         }
-        let mut deviation = self.deviation_of(of);
-        if let Some(source) = self.decisive.get(&of).copied() {
-            deviation = Deviation { rest: self.graph.zero(), ..deviation }.plus(&Deviation::of(source, deviation.rest));
-        }
+        let deviation = self.deviation_of(of);
         let deviation = self.named(of, deviation);
         self.found(of, deviation.clone());
         deviation
@@ -369,7 +365,13 @@ impl<'g> Rounding<'g> {
             Op::Symbol(_) => Deviation::within(graph.zero()),
             Op::Neg(a) => self.deviation(a).opposite(),
             // No further than the value, but which way is open where that may change its sign.
-            Op::Abs(a) | Op::NonNegative(a) => Deviation::within(self.deviation(a).total()),
+            Op::Abs(a) => Deviation::within(self.deviation(a).total()),
+            // It follows the value unless that may be negative.
+            Op::NonNegative(a) => {
+                let deviation = self.deviation(a);
+                let total = deviation.total();
+                deviation.and((2 * total).where_above(total, graph.expr(a)))
+            }
             Op::Quantity(a) | Op::Checked { value: a, .. } => self.deviation(a),
             // What is not significant counts as zero: then it is an error to divide by it.
             Op::Where { then, .. } => self.deviation(then),

@@ -99,8 +99,19 @@ pub struct ClosedLoop<'m> {
     pub found: [Found<'m>; 2],
     /// The first column × the second one.
     pub determinant: Expr<'m>,
-    /// Values that the closure gave beside, each with the same from what was found.
-    pub beside: Vec<(Expr<'m>, Expr<'m>)>,
+    /// The pivot, if the closure gave it by itself.
+    pub pivot: Option<Pivot<'m>>,
+}
+
+/// A pivot that a closure knows by itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Pivot<'m> {
+    /// Its value.
+    pub value: Expr<'m>,
+    /// The same from what was found.
+    pub again: Expr<'m>,
+    /// How it changes with the two unknowns.
+    pub slopes: [Expr<'m>; 2],
 }
 
 /// An unknown of a closed loop, and by what vector the residual changes with it.

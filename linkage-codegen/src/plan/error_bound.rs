@@ -5,10 +5,11 @@
 //! `c` by which it changes with the two unknowns, each of these is off by no more than `|ρ × c'|/|c × c'|`, c' the other's column, as long
 //! as this is too little to change `c × c'` much.
 
-use super::assembly::{ClosedLoop, Found};
+use super::assembly::{ClosedLoop, Found, Pivot};
 use super::output::Field;
 use super::{Assembly, Kept, Output};
 use crate::diagnostics::{Diagnostic, Sink};
+use crate::graph::number::Number;
 use crate::graph::rounding::{BoundOf, Deviation, HeldBound, Rounding};
 use crate::graph::{Expr, Graph, NodeId, Op, Vector};
 use crate::model::Wanted;
@@ -29,7 +30,7 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
         }
     }
     for closed in &assembly.loops {
-        state(&mut rounding, closed);
+        state(&mut rounding, closed, assembly.loops.len() > 1);
     }
     for (scene, output) in model.scenes.iter().zip(scenes) {
         if !scene.results.contains(&Wanted::ErrorBound) {
@@ -73,7 +74,7 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
 }
 
 /// The errors of a loop's unknowns.
-fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>) {
+fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: bool) {
     let graph = closed.determinant.graph();
     let exact: Vec<Expr<'g>> = closed.found.iter().flat_map(Found::values).collect();
     let ClosedLoop { residual, .. } = closed;
@@ -92,30 +93,42 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>) {
             }
         })
     };
-    let columns = closed.found.each_ref().map(Found::column);
-    let [first, second] = columns;
+    let [first, second] = closed.found.each_ref().map(Found::column);
     let size = closed.determinant.abs();
     // What earlier sources bring, as the unknowns would follow the change of the residual.
-    let shares = [(first, second, -1), (second, first, 1)].map(|(_, other, sign)| {
-        Deviation::shares_of(&x, &y, |dx, dy| sign * (dx * other.y - dy * other.x) / closed.determinant)
+    let [one, other] = [(second, -1), (first, 1)].map(|(column, sign)| {
+        Deviation::shares_of(&x, &y, |dx, dy| sign * (dx * column.y - dy * column.x) / closed.determinant)
     });
     // The rest as a source: the first unknown, which the second follows, but for what is along its column.
-    let decisive = own(second.perp(), &|arm| arm.cross(second)) / size;
     let square = second.squared();
     let follows = -(first.dot(second) / square);
+    let decisive = own(second.perp(), &|arm| arm.cross(second)) / size;
     let beside = own(second, &|arm| arm.dot(second)) / square;
-    let firsts = [&shares[0], &shares[1]].map(Deviation::total);
-    let change = beyond_first_order(closed, [firsts[0] + decisive, firsts[1] + follows.abs() * decisive + beside]);
+    let totals = [one.total() + decisive, other.total() + follows.abs() * decisive + beside];
+    let change = beyond_first_order(closed, totals);
     let along = second.x.abs() + second.y.abs();
+    let (decisive, beside) = (decisive + change * along / size, beside + change * along / square);
+    // Near a dead centre the pivot, by its own operations, may tell more than the residual does.
+    let pivot = closed.pivot.map(|pivot| {
+        let (by_itself, again) = (rounding.by_operations(pivot.value), rounding.deviation_from(pivot.again, &exact).rest);
+        (pivot, by_itself, again)
+    });
+    let decisive = pivot.as_ref().map_or(decisive, |(pivot, by_itself, again)| {
+        let Pivot { value, slopes, .. } = *pivot;
+        let unexpected = by_itself.clone().plus(&one.scaled(-slopes[0])).plus(&other.scaled(-slopes[1])).total();
+        let stretched = pivot.again.abs() * (stretch[0] + stretch[1]);
+        let curved = 2 * (totals[0] + totals[1]).squared();
+        let sum = unexpected + (pivot.again - value).abs() + *again + stretched + slopes[1].abs() * beside + curved;
+        lesser(decisive, sum / (slopes[0] + slopes[1] * follows).abs())
+    });
     let source = rounding.source(&closed.name);
-    let decisive = decisive + change * along / size;
-    let beside = beside + change * along / square;
-    let [one, other] = shares;
     let one = one.plus(&Deviation::of(source, decisive));
     let other = other.plus(&Deviation::of(source, follows * decisive));
-    let other = match second_source(rounding, &closed.name) {
-        Some(source) => other.plus(&Deviation::of(source, beside)),
-        None => other.and(beside),
+    let other = if leads_on {
+        let source = rounding.source(&format!("{}_beside", closed.name));
+        other.plus(&Deviation::of(source, beside))
+    } else {
+        other.and(beside)
     };
     for ((found, deviation), stretch) in closed.found.iter().zip([one, other]).zip(stretch) {
         match found {
@@ -123,15 +136,24 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>) {
             Found::Length { length, .. } => rounding.state(*length, deviation),
         }
     }
-    for (value, again) in &closed.beside {
-        let difference = *again - *value;
-        let deviation = rounding.deviation(again.id()).and(difference.abs());
-        rounding.state(*value, deviation);
+    if let Some((Pivot { value, again, .. }, by_itself, _)) = pivot {
+        let found = rounding.deviation(again.id()).and((again - value).abs());
+        rounding.state(value, lesser_deviation(&found, &by_itself));
     }
 }
 
-fn second_source(rounding: &mut Rounding<'_>, name: &str) -> Option<crate::graph::rounding::Source> {
-    std::env::var("SECOND").is_ok().then(|| rounding.source(&format!("{name}_beside")))
+/// The lesser of two bounds; the first if the second is no number.
+fn lesser<'g>(one: Expr<'g>, other: Expr<'g>) -> Expr<'g> {
+    lesser_deviation(&Deviation::within(one), &Deviation::within(other)).rest
+}
+
+/// The deviation with the lesser bound; the first if that of the second is no number.
+fn lesser_deviation<'g>(one: &Deviation<'g>, other: &Deviation<'g>) -> Deviation<'g> {
+    let graph = one.rest.graph();
+    let half = graph.constant(&Number::ratio(1, 2));
+    let second = graph.one().where_above(one.total(), other.total());
+    let pick = |one: Expr<'g>, other: Expr<'g>| one.where_above(half, second) + other.where_above(second, half);
+    Deviation::shares_of(one, other, pick).and(pick(one.rest, other.rest))
 }
 
 /// By how much the residual is off what is linear in the unknowns. Let these be off by no more than y = 2T, twice what first order says: then

@@ -224,7 +224,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
             Found::Length { length: s, column: direction },
         ],
         determinant: -s,
-        beside: Vec::new(),
+        pivot: None,
     });
     place(assembly, dyad, direction)?;
     let travel =

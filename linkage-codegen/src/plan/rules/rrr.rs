@@ -24,7 +24,7 @@ use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Scalar, Vector};
 use crate::model::{Closure, End, Model, Side};
-use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Sign};
+use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Pivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::half_angle::{HalfAngle, first_dyad_on};
@@ -291,7 +291,11 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
                 arm,
             }),
             determinant: -(r1 * r2 * sine),
-            beside: vec![(sine, u1.cross(u2))],
+            pivot: Some(Pivot {
+                value: sine,
+                again: u1.cross(u2),
+                slopes: [-u1.dot(u2), u1.dot(u2)],
+            }),
         });
     }
     let pivot = closing.significant.iter().fold(sine, |pivot, (value, limit)| pivot.where_above(*value, *limit));
