@@ -248,13 +248,8 @@ impl<'g> Rounding<'g> {
             if !self.open.insert(unit.x.id()) {
                 return None;
             }
-            let [x, y] = [unit.x, unit.y].map(|part| {
-                let deviation = self.deviation_of(part.id());
-                self.named(part.id(), deviation)
-            });
+            let turn = self.turn_by_operations(unit);
             self.open.remove(&unit.x.id());
-            let turn = Deviation::shares_of(&x, &y, |dx, dy| unit.x * dy - unit.y * dx);
-            let turn = turn.and(unit.x.abs() * y.rest + unit.y.abs() * x.rest);
             self.state_direction(unit, turn, self.stretch(unit));
         }
         self.directions.get(&part).cloned()
@@ -322,6 +317,13 @@ impl<'g> Rounding<'g> {
             Op::Quantity(inner) => self.deviation(inner),
             _ => self.deviation_of(of.id()),
         }
+    }
+
+    /// The deviation of a direction's angle as the operations of its components tell.
+    pub fn turn_by_operations(&mut self, unit: Vector<'g>) -> Deviation<'g> {
+        let [x, y] = [unit.x, unit.y].map(|part| self.by_operations(part));
+        let turn = Deviation::shares_of(&x, &y, |dx, dy| unit.x * dy - unit.y * dx);
+        turn.and(unit.x.abs() * y.rest + unit.y.abs() * x.rest)
     }
 
     /// The deviation of a value.

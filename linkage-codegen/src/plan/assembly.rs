@@ -101,6 +101,8 @@ pub struct ClosedLoop<'m> {
     pub determinant: Expr<'m>,
     /// The pivot, if the closure gave it by itself.
     pub pivot: Option<Pivot<'m>>,
+    /// Whether lengths may differ by so much that a direction is found better than what is left of the closure tells.
+    pub apart: bool,
 }
 
 /// A pivot that a closure knows by itself.

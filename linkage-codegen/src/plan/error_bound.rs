@@ -64,7 +64,10 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
             }
         };
         let (name, meaning) = match held.source.map(|source| rounding.name_of(source)) {
-            Some(by) => (format!("{name}_by_{by}"), format!("share of the rounding error of {what} that comes with that of `{by}`")),
+            Some(by) => (
+                format!("{name}_by_{by}"),
+                format!("share of the rounding error of {what} that comes with that of `{by}`"),
+            ),
             None => (name, format!("bound of the rounding error of {what}, but for its shares")),
         };
         graph.name_kept(held.bound, &name);
@@ -110,7 +113,8 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
     let (decisive, beside) = (decisive + change * along / size, beside + change * along / square);
     // Near a dead centre the pivot, by its own operations, may tell more than the residual does.
     let pivot = closed.pivot.map(|pivot| {
-        let (by_itself, again) = (rounding.by_operations(pivot.value), rounding.deviation_from(pivot.again, &exact).rest);
+        let (by_itself, again) =
+            (rounding.by_operations(pivot.value), rounding.deviation_from(pivot.again, &exact).rest);
         (pivot, by_itself, again)
     });
     let decisive = pivot.as_ref().map_or(decisive, |(pivot, by_itself, again)| {
@@ -121,6 +125,10 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
         let sum = unexpected + (pivot.again - value).abs() + *again + stretched + slopes[1].abs() * beside + curved;
         lesser(decisive, sum / (slopes[0] + slopes[1] * follows).abs())
     });
+    let own_turns = closed.found.each_ref().map(|found| match found {
+        Found::Direction { direction, .. } if closed.apart => Some(rounding.turn_by_operations(*direction)),
+        _ => None,
+    });
     let source = rounding.source(&closed.name);
     let one = one.plus(&Deviation::of(source, decisive));
     let other = other.plus(&Deviation::of(source, follows * decisive));
@@ -130,7 +138,11 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
     } else {
         other.and(beside)
     };
-    for ((found, deviation), stretch) in closed.found.iter().zip([one, other]).zip(stretch) {
+    let deviations = [(one, &own_turns[0]), (other, &own_turns[1])].map(|(deviation, own)| match own {
+        Some(own) => lesser_deviation(&deviation, own),
+        None => deviation,
+    });
+    for ((found, deviation), stretch) in closed.found.iter().zip(deviations).zip(stretch) {
         match found {
             Found::Direction { direction, .. } => rounding.state_direction(*direction, deviation, stretch),
             Found::Length { length, .. } => rounding.state(*length, deviation),

@@ -34,18 +34,6 @@ pub fn ratios<T: Number>(
         let error = Extended::exactly(value.to_f64()).sub(&exact[path]).to_f64().abs();
         let bound = found[&format!("error_bound.{path}")].to_f64();
         assert!(error <= bound, "{path} = {} is off by {error:e}, bound {bound:e}\n{context}", value.to_f64());
-        if std::env::var("DEBUG").is_ok() { println!("RATIO {path} value {:.3e} error {error:.2e} ratio {:.1} drive {:?} {}", value.to_f64(), bound / error, arguments.drives, context.len()); }
-        if std::env::var("DEBUG2").is_ok() && bound / error > 2500.0 && path == "T" {
-            println!("{context} loads {:?}", arguments.loads);
-            let pose = super::pose::<super::numbers::Double>(linkage, arguments).unwrap();
-            for kept in &linkage.plan.pose { println!("   {} = {:e}", kept.name, pose[&kept.node].0); }
-            let program = &linkage.functions.scenes.iter().zip(&linkage.model.scenes).find(|(_, s)| s.name.text == "bounded").unwrap().0.direct;
-            let mut program = program.clone();
-            program.outputs = program.steps.iter().filter_map(|step| match step { linkage_codegen::program::Step::Let(v) => program.value(*v).label.as_ref().map(|l| (l.name.clone(), *v)), _ => None }).collect();
-            let values = super::direct::<super::numbers::Double>(linkage, &program, arguments).unwrap();
-            for ((name, _), value) in program.outputs.iter().zip(values) { println!("   {name} = {:e}", value.0); }
-            panic!("stop");
-        }
         (error > 0.0).then(|| bound / error)
     });
     ratios.collect()

@@ -77,6 +77,7 @@ impl Rule for Prp {
             found: [Found::Length { length: own, column: along }, Found::Length { length: other, column: -e }],
             determinant: -sine,
             pivot: None,
+            apart: false,
         });
         dyad.set_travel(assembly, first.outer, first.link(), own);
         dyad.set_travel(assembly, second.outer, second.link(), other);

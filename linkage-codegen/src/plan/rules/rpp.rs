@@ -81,6 +81,7 @@ impl Rule for Rpp {
             found: [Found::Length { length: own, column: along }, Found::Length { length: further, column: e }],
             determinant: sine,
             pivot: None,
+            apart: false,
         });
         dyad.set_travel(assembly, slider.outer, slider.link(), own);
         dyad.set_travel(assembly, dyad.inner, pinned.tip.end.link, further);

@@ -225,6 +225,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         ],
         determinant: -s,
         pivot: None,
+        apart: false,
     });
     place(assembly, dyad, direction)?;
     let travel =

@@ -177,6 +177,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
             again: direction.dot(e),
             slopes: [direction.perp().dot(e), e.graph().zero()],
         }),
+        apart: false,
     });
     assembly.placement.set_travel(slide, travel);
     assembly.pivots.state(u, e, None, Some(pivot));

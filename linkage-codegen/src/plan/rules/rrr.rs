@@ -291,11 +291,8 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
                 arm,
             }),
             determinant: -(r1 * r2 * sine),
-            pivot: Some(Pivot {
-                value: sine,
-                again: u1.cross(u2),
-                slopes: [-u1.dot(u2), u1.dot(u2)],
-            }),
+            pivot: Some(Pivot { value: sine, again: u1.cross(u2), slopes: [-u1.dot(u2), u1.dot(u2)] }),
+            apart: closing.sums.is_some(),
         });
     }
     let pivot = closing.significant.iter().fold(sine, |pivot, (value, limit)| pivot.where_above(*value, *limit));

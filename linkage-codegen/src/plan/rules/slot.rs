@@ -258,6 +258,7 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<'
         ],
         determinant: -s,
         pivot: None,
+        apart: false,
     });
     assembly.placement.orient(link, Orientation { direction, axis });
     assembly.placement.connect(held);
@@ -325,6 +326,7 @@ fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<
             again: direction.dot(e),
             slopes: [direction.perp().dot(e), e.graph().zero()],
         }),
+        apart: false,
     });
     assembly.placement.set_travel(slot, travel);
     let u = assembly.placement.turned(link, axis);
@@ -374,6 +376,7 @@ impl Rule for SlotAndSlide {
             found: [Found::Length { length: ahead, column: taken }, Found::Length { length: run, column: e }],
             determinant: if parts.carries { -sine } else { sine },
             pivot: None,
+            apart: false,
         });
         let travel = parts.signed(slot, run).named(format!("travel_{at}"), format!("travel in the slot {at}"));
         assembly.placement.set_travel(slot, travel);
