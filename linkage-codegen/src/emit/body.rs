@@ -113,9 +113,9 @@ impl<'a> Body<'a> {
     }
 
     /// All statements, without a branch, and the conditions under which the results mean something.
-    pub(super) fn straight(mut self) -> (TokenStream, Vec<TokenStream>, Self) {
+    pub(super) fn straight(mut self) -> (Vec<TokenStream>, Vec<TokenStream>, Self) {
         self.checks = Checks::Gathered;
-        let (statements, body) = self.statements();
+        let (statements, body) = self.each_statement();
         let angles: BTreeSet<(Kernel, Vec<ValueId>)> = body.kernels().collect();
         let angles = angles.into_iter().filter_map(|(kernel, args)| body.is_short(kernel, &args));
         let checks = body.program.steps.iter().filter_map(|step| match step {
@@ -327,11 +327,13 @@ impl<'a> Body<'a> {
     fn call(&self, kernel: Kernel, args: &[ValueId]) -> TokenStream {
         let args = args.iter().map(|arg| self.value(*arg)).collect::<Vec<_>>();
         match kernel {
-            Kernel::SinCos if self.checks == Checks::Gathered => quote!(math::short_sin_cos(#(#args),*)),
-            Kernel::SinCos => quote!(math::sin_cos(#(#args),*)),
+            Kernel::SinCos => {
+                let function = self.sin_cos("sin_cos");
+                quote!(math::#function(#(#args),*))
+            }
             Kernel::SinCosSum(phase) => {
-                let function = if self.checks == Checks::Gathered { "short_sin_cos_sum" } else { "sin_cos_sum" };
-                let (function, (high, low)) = (ident(function), split(&self.graph.number(phase), self.graph.scalar()));
+                let function = self.sin_cos("sin_cos_sum");
+                let (high, low) = split(&self.graph.number(phase), self.graph.scalar());
                 quote!(math::#function(#(#args),*, #high, #low))
             }
             Kernel::Atan2 => quote!(math::atan2(#(#args),*)),
@@ -356,8 +358,20 @@ impl<'a> Body<'a> {
         }
     }
 
+    /// The function for sine and cosine in the linkage's arithmetic; without its branch if the checks are gathered.
+    fn sin_cos(&self, function: &str) -> proc_macro2::Ident {
+        let short = if self.checks == Checks::Gathered { "short_" } else { "" };
+        let fused = if self.graph.is_fused() { "fused_" } else { "" };
+        ident(&format!("{short}{fused}{function}"))
+    }
+
     /// All statements.
-    pub(super) fn statements(mut self) -> (TokenStream, Self) {
+    pub(super) fn statements(self) -> (TokenStream, Self) {
+        let (statements, body) = self.each_statement();
+        (statements.into_iter().collect(), body)
+    }
+
+    fn each_statement(mut self) -> (Vec<TokenStream>, Self) {
         let mut calls: Calls = BTreeMap::new();
         for step in &self.program.steps {
             if let Step::Let(value) = step
@@ -366,9 +380,9 @@ impl<'a> Body<'a> {
                 calls.entry((*kernel, args.clone())).or_default().push((*part, *value));
             }
         }
-        let mut statements = TokenStream::new();
+        let mut statements = Vec::new();
         for step in &self.program.steps {
-            statements.extend(match step {
+            statements.push(match step {
                 Step::Let(value) => self.let_statement(*value, &mut calls),
                 _ if self.checks == Checks::Gathered => TokenStream::new(),
                 Step::Check { guard, .. } => self.check(guard),
@@ -380,6 +394,7 @@ impl<'a> Body<'a> {
                 Step::FiniteResults(groups) => self.finite_results(groups),
             });
         }
+        statements.retain(|statement| !statement.is_empty());
         (statements, self)
     }
 

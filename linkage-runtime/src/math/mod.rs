@@ -1,7 +1,7 @@
 //! Elementary functions with the same bits on every target.
 //!
-//! Only `+ − × ÷`, the square root, comparisons, integer operations and bit casts, in the order written: no fused
-//! multiply-add, no library of the platform. The same source therefore gives the same bits on a microcontroller without
+//! Only `+ − × ÷`, the square root, comparisons, integer operations and bit casts, in the order written: no library of
+//! the platform, and no fused multiply-add but in the functions that are named for it, where it is IEEE 754's everywhere. The same source therefore gives the same bits on a microcontroller without
 //! a floating-point unit, on a desktop and in a browser, at every optimisation level. Nothing panics, nothing allocates,
 //! and [`f32`](mod@f32) never touches an `f64`.
 //!
@@ -25,9 +25,10 @@ macro_rules! horner {
 
 /// The same polynomial with six coefficients, in pairs that do not wait for each other (Estrin 1960).
 macro_rules! estrin {
-    ($z:expr; $c0:expr, $c1:expr, $c2:expr, $c3:expr, $c4:expr, $c5:expr) => {{
-        let (z, z2) = ($z, $z * $z);
-        ($c0 + z * $c1) + z2 * (($c2 + z * $c3) + z2 * ($c4 + z * $c5))
+    ($z:expr; $c:expr) => {{
+        let (z, [c0, c1, c2, c3, c4, c5]) = ($z, $c);
+        let z2 = z * z;
+        ((c0 + z * c1) + z2 * (c2 + z * c3)) + (z2 * z2) * (c4 + z * c5)
     }};
 }
 
