@@ -168,6 +168,8 @@ pub struct Rounding<'g> {
     open: HashSet<NodeId>,
     /// What has been found since, where some values are supposed to be exact.
     supposed: Option<Vec<NodeId>>,
+    /// The names of values whose rests are sources of errors too.
+    passed_on: HashSet<String>,
     /// The names of the sources.
     sources: Vec<String>,
     /// Whether a bound would have to be known of what is found by iteration, which it is not.
@@ -187,6 +189,7 @@ impl<'g> Rounding<'g> {
             pairs: HashMap::new(),
             open: HashSet::new(),
             supposed: None,
+            passed_on: HashSet::new(),
             sources: Vec::new(),
             searched: false,
             held: Vec::new(),
@@ -208,6 +211,11 @@ impl<'g> Rounding<'g> {
     /// Says that two values are a direction.
     pub fn is_direction(&mut self, unit: Vector<'g>) {
         self.pairs.extend([unit.x, unit.y].map(|part| (part.id(), unit)));
+    }
+
+    /// Says that what has this name is passed on, and met again, by much: its rest becomes a source of errors.
+    pub fn is_passed_on(&mut self, name: String) {
+        self.passed_on.insert(name);
     }
 
     /// States the deviation of a direction's angle and the bound of that of its size.
@@ -335,7 +343,12 @@ impl<'g> Rounding<'g> {
             return self.done[&of].clone();
         }
         let deviation = self.deviation_of(of);
-        let deviation = self.named(of, deviation);
+        let mut deviation = self.named(of, deviation);
+        if let Some(label) = self.graph.label(of).filter(|label| self.passed_on.contains(&label.name)) {
+            let rest = core::mem::replace(&mut deviation.rest, self.graph.zero());
+            let source = self.source(&label.name);
+            deviation = deviation.plus(&Deviation::of(source, rest));
+        }
         self.found(of, deviation.clone());
         deviation
     }

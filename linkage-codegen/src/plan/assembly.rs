@@ -112,8 +112,8 @@ pub struct Pivot<'m> {
     pub value: Expr<'m>,
     /// The same from what was found.
     pub again: Expr<'m>,
-    /// How it changes with the two unknowns.
-    pub slopes: [Expr<'m>; 2],
+    /// How it changes with the two unknowns, if its own operations may tell more than what is left of the closure.
+    pub slopes: Option<[Expr<'m>; 2]>,
 }
 
 /// An unknown of a closed loop, and by what vector the residual changes with it.

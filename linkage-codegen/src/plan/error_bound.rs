@@ -13,6 +13,7 @@ use crate::graph::number::Number;
 use crate::graph::rounding::{BoundOf, Deviation, HeldBound, Rounding};
 use crate::graph::{Expr, Graph, NodeId, Op, Vector};
 use crate::model::Wanted;
+use crate::model::ids::GROUND;
 
 /// Adds their bounds to the results of the scenes that want them. What a pose has to keep for that comes back.
 pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept], sink: &Sink) -> Vec<Kept> {
@@ -27,6 +28,16 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
         let Vector { x, y } = assembly.placement.direction(link);
         if let (Op::Held(x), Op::Held(y)) = (x.op(), y.op()) {
             rounding.is_direction(Vector::new(graph.expr(x), graph.expr(y)));
+        }
+    }
+    // Forces from group to group.
+    let between = assembly.topology.forces.iter().flat_map(|group| &group.outer).filter(|joint| {
+        let ends = model.joint(**joint).ends();
+        ends.iter().all(|end| end.link != GROUND)
+    });
+    for joint in between {
+        for part in ["x", "y"] {
+            rounding.is_passed_on(format!("{}_{part}", model.joint(*joint).name));
         }
     }
     for closed in &assembly.loops {
@@ -112,19 +123,20 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
     let along = second.x.abs() + second.y.abs();
     let (decisive, beside) = (decisive + change * along / size, beside + change * along / square);
     // Near a dead centre the pivot, by its own operations, may tell more than the residual does.
-    let pivot = closed.pivot.map(|pivot| {
-        let (by_itself, again) =
-            (rounding.by_operations(pivot.value), rounding.deviation_from(pivot.again, &exact).rest);
-        (pivot, by_itself, again)
-    });
-    let decisive = pivot.as_ref().map_or(decisive, |(pivot, by_itself, again)| {
-        let Pivot { value, slopes, .. } = *pivot;
-        let unexpected = by_itself.clone().plus(&one.scaled(-slopes[0])).plus(&other.scaled(-slopes[1])).total();
-        let stretched = pivot.again.abs() * (stretch[0] + stretch[1]);
-        let curved = 2 * (totals[0] + totals[1]).squared();
-        let sum = unexpected + (pivot.again - value).abs() + *again + stretched + slopes[1].abs() * beside + curved;
-        lesser(decisive, sum / (slopes[0] + slopes[1] * follows).abs())
-    });
+    let mut by_itself = None;
+    let decisive = match closed.pivot {
+        Some(Pivot { value, again, slopes: Some(slopes) }) => {
+            let own = rounding.by_operations(value);
+            let unexpected = own.clone().plus(&one.scaled(-slopes[0])).plus(&other.scaled(-slopes[1])).total();
+            let stretched = again.abs() * (stretch[0] + stretch[1]);
+            let rounded = rounding.deviation_from(again, &exact).rest + (again - value).abs();
+            let curved = 2 * (totals[0] + totals[1]).squared();
+            let sum = unexpected + rounded + stretched + slopes[1].abs() * beside + curved;
+            by_itself = Some(own);
+            lesser(decisive, sum / (slopes[0] + slopes[1] * follows).abs())
+        }
+        _ => decisive,
+    };
     let own_turns = closed.found.each_ref().map(|found| match found {
         Found::Direction { direction, .. } if closed.apart => Some(rounding.turn_by_operations(*direction)),
         _ => None,
@@ -148,9 +160,10 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
             Found::Length { length, .. } => rounding.state(*length, deviation),
         }
     }
-    if let Some((Pivot { value, again, .. }, by_itself, _)) = pivot {
+    if let Some(Pivot { value, again, .. }) = closed.pivot {
         let found = rounding.deviation(again.id()).and((again - value).abs());
-        rounding.state(value, lesser_deviation(&found, &by_itself));
+        let deviation = by_itself.map_or_else(|| found.clone(), |own| lesser_deviation(&found, &own));
+        rounding.state(value, deviation);
     }
 }
 

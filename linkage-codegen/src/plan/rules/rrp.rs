@@ -172,11 +172,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
             Found::Length { length: travel, column: -along },
         ],
         determinant: if forwards { r * cosine } else { -(r * cosine) },
-        pivot: Some(Pivot {
-            value: cosine,
-            again: direction.dot(e),
-            slopes: [direction.perp().dot(e), e.graph().zero()],
-        }),
+        pivot: Some(Pivot { value: cosine, again: direction.dot(e), slopes: None }),
         apart: false,
     });
     assembly.placement.set_travel(slide, travel);

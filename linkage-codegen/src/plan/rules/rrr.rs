@@ -291,7 +291,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
                 arm,
             }),
             determinant: -(r1 * r2 * sine),
-            pivot: Some(Pivot { value: sine, again: u1.cross(u2), slopes: [-u1.dot(u2), u1.dot(u2)] }),
+            pivot: Some(Pivot { value: sine, again: u1.cross(u2), slopes: Some([-u1.dot(u2), u1.dot(u2)]) }),
             apart: closing.sums.is_some(),
         });
     }

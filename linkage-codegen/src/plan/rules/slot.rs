@@ -321,11 +321,7 @@ fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<
             Found::Length { length: travel, column: -along },
         ],
         determinant: parts.signed(slot, r * cosine),
-        pivot: Some(Pivot {
-            value: cosine,
-            again: direction.dot(e),
-            slopes: [direction.perp().dot(e), e.graph().zero()],
-        }),
+        pivot: Some(Pivot { value: cosine, again: direction.dot(e), slopes: None }),
         apart: false,
     });
     assembly.placement.set_travel(slot, travel);
