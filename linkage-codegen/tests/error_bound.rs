@@ -210,3 +210,27 @@ fn of_motion() {
     println!("motion: {count} results, median of bound over error {median:.1}");
     assert!(count > 500 && median < LOOSEST, "{count} results, median {median:.1}");
 }
+
+/// Where nothing can be said of errors, the bounds are the largest number, from a pose too: a pose is not refused for what it keeps of
+/// its errors.
+#[test]
+fn where_nothing_is_known() {
+    let text = "pub mod sample; ground { A0: (0, 0), B0: (1.5m, 0) } link crank { A0 -> A: 0.5m }
+         link coupler { A -> B: 1m, C: (0.25m, 0.125m) } link rocker { B0 -> B: 1m, D: (0.5m, -0.25m) }
+         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+         drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0);
+         load F: force(coupler.C); load H: force(rocker.D);";
+    let linkage = with_bounds(text).expect("closes");
+    let (mut known, mut unknown) = (0, 0);
+    for exponent in 1..=14 {
+        let arguments = Arguments {
+            drives: vec![core::f64::consts::PI - 10f64.powi(-exponent)],
+            loads: vec![[10.0, -20.0], [-5.0, 30.0]],
+            ..Arguments::default()
+        };
+        check::<Double>(&linkage, &arguments, text);
+        let found = scene::<Double>(&linkage, "bounded", &arguments).expect("not yet a dead centre");
+        if found["error_bound.T"].to_f64() < f64::MAX { known += 1 } else { unknown += 1 }
+    }
+    assert!(known >= 6 && unknown > 0, "{known} known, {unknown} not");
+}

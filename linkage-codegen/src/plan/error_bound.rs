@@ -1,9 +1,19 @@
 //! Bounds of the rounding errors of a scene's results.
 //!
 //! They follow the operations (see [`Rounding`]), but for what closes a loop: there the operations' own bounds would add up what in truth
-//! makes up for each other. What the closure leaves over, which is computed, says more: with the residual `ρ` of the loop and the columns
-//! `c` by which it changes with the two unknowns, each of these is off by no more than `|ρ × c'|/|c × c'|`, c' the other's column, as long
-//! as this is too little to change `c × c'` much.
+//! makes up for each other. What the closure leaves over, which is computed, says more: with the residual `ρ` of the loop, known to its
+//! own rounding, and the columns `c`, `c'` by which it changes with the two unknowns, these are off by y and y' with `c y + c' y' = ρ`:
+//!
+//! ```text
+//! y = (ρ × c')/(c × c')        y' = −y (c·c')/(c'·c') + (ρ·c')/(c'·c')
+//! ```
+//!
+//! Near a dead centre, where `c × c'` vanishes, only the first is large, and the second follows it. So y is a source of errors, of which
+//! all that is placed through the loop has a share; where more loops follow, the little beside it in y' is another one, and so are the
+//! errors of the forces that one group passes on to the next.
+//!
+//! Of three pins, half angles and constants that fold know the sine of the transmission angle, `s = u × u'`, better near its zeros than the
+//! residual does: `δs = (u·u')(y' − y)` is a second bound of y. The lesser of the two is taken.
 
 use super::assembly::{ClosedLoop, Found, Pivot};
 use super::output::Field;
@@ -62,6 +72,10 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
         }
     }
     let named = |node: NodeId| kept.iter().find(|kept| kept.node == node).map(|kept| kept.name.clone());
+    let shared = |held: &HeldBound<'_>| {
+        let same = |other: &HeldBound<'_>| (other.value, other.what) == (held.value, held.what);
+        rounding.held.iter().any(|other| same(other) && other.source.is_some())
+    };
     let keep = |held: &HeldBound<'_>| {
         let value = named(held.value).unwrap_or_else(|| format!("value_{}", held.value.index()));
         let direction = value.strip_suffix("_cos").unwrap_or(&value);
@@ -79,10 +93,11 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
                 format!("{name}_by_{by}"),
                 format!("share of the rounding error of {what} that comes with that of `{by}`"),
             ),
-            None => (name, format!("bound of the rounding error of {what}, but for its shares")),
+            None if shared(held) => (name, format!("bound of the rounding error of {what} beside its shares")),
+            None => (name, format!("bound of the rounding error of {what}")),
         };
         graph.name_kept(held.bound, &name);
-        Kept { name, meaning, node: held.bound.id() }
+        Kept { name, meaning, node: held.bound.id(), is_bound: true }
     };
     rounding.held.iter().map(keep).collect()
 }
