@@ -1,5 +1,5 @@
-//! The bound of the rounding errors: never too small, and not far too large: how far grows with the number of groups that follow each
-//! other, because bounds add up what in truth often cancels.
+//! The bound of the rounding errors: never too small, and as a median within a hundred times the error, for every kind of dyad, and where
+//! several follow each other.
 
 mod support;
 
@@ -42,6 +42,9 @@ fn in_single_precision(arguments: &Arguments) -> Arguments {
     }
 }
 
+/// How far above the errors their bounds may be, as a median.
+const LOOSEST: f64 = 100.0;
+
 fn median(mut ratios: Vec<f64>) -> f64 {
     ratios.sort_by(f64::total_cmp);
     ratios[ratios.len() / 2]
@@ -69,7 +72,7 @@ fn random_linkages(seeds: core::ops::Range<u64>, scalar: &'static str) {
     let count = all.len();
     let median = median(all);
     println!("{scalar}: {count} results, median of bound over error {median:.1}");
-    assert!(count > 100 && median < 600.0, "{scalar}: {count} results, median {median:.1}");
+    assert!(count > 100 && median < LOOSEST, "{scalar}: {count} results, median {median:.1}");
 }
 
 #[test]
@@ -88,28 +91,28 @@ fn of_thousands_of_random_linkages() {
 /// Poses all around, dead centres among them, of every kind of dyad.
 fn around(seed: u64, count: usize, poses: usize) {
     type Text = fn(&mut Random) -> String;
-    let kinds: [(&str, f64, Text); 6] = [
-        ("four-bars", 150.0, |random| four_bar([0; 4].map(|_| length(random, 0.1, 2.0)), random)),
-        ("slider-cranks", 100.0, |random| {
+    let kinds: [(&str, Text); 6] = [
+        ("four-bars", |random| four_bar([0; 4].map(|_| length(random, 0.1, 2.0)), random)),
+        ("slider-cranks", |random| {
             slider_crank([length(random, 0.1, 1.0), length(random, 0.3, 3.0), length(random, -0.5, 0.5)], random)
         }),
-        ("oscillating blocks", 100.0, |random| {
+        ("oscillating blocks", |random| {
             oscillating_block([length(random, 0.3, 2.0), length(random, 0.1, 2.0), length(random, -0.5, 0.5)], random)
         }),
-        ("tangent mechanisms", 100.0, |random| {
+        ("tangent mechanisms", |random| {
             tangent_mechanism(
                 [length(random, 0.3, 2.0), length(random, -0.5, 0.5), length(random, 60.0, 120.0)],
                 random,
             )
         }),
-        ("Scotch yokes", 100.0, |random| {
+        ("Scotch yokes", |random| {
             scotch_yoke([length(random, 0.3, 2.0), length(random, -0.5, 0.5), length(random, 45.0, 135.0)], random)
         }),
-        ("booms", 250.0, |random| {
+        ("booms", |random| {
             boom([length(random, 0.5, 2.0), length(random, 0.5, 2.0), length(random, -0.2, 0.2)], random)
         }),
     ];
-    for (name, limit, text) in kinds {
+    for (name, text) in kinds {
         let mut random = Random(seed);
         let mut all = Vec::new();
         for _ in 0..count {
@@ -129,7 +132,7 @@ fn around(seed: u64, count: usize, poses: usize) {
         let count = all.len();
         let median = median(all);
         println!("{name}: {count} results, median of bound over error {median:.1}");
-        assert!(count > 100 && median < limit, "{name}: {count} results, median {median:.1}");
+        assert!(count > 100 && median < LOOSEST, "{name}: {count} results, median {median:.1}");
     }
 }
 
@@ -205,5 +208,29 @@ fn of_motion() {
     }
     let (count, median) = (all.len(), median(all));
     println!("motion: {count} results, median of bound over error {median:.1}");
-    assert!(count > 500 && median < 300.0, "{count} results, median {median:.1}");
+    assert!(count > 500 && median < LOOSEST, "{count} results, median {median:.1}");
+}
+
+/// Where nothing can be said of errors, the bounds are the largest number, from a pose too: a pose is not refused for what it keeps of
+/// its errors.
+#[test]
+fn where_nothing_is_known() {
+    let text = "pub mod sample; ground { A0: (0, 0), B0: (1.5m, 0) } link crank { A0 -> A: 0.5m }
+         link coupler { A -> B: 1m, C: (0.25m, 0.125m) } link rocker { B0 -> B: 1m, D: (0.5m, -0.25m) }
+         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+         drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0);
+         load F: force(coupler.C); load H: force(rocker.D);";
+    let linkage = with_bounds(text).expect("closes");
+    let (mut known, mut unknown) = (0, 0);
+    for exponent in 1..=14 {
+        let arguments = Arguments {
+            drives: vec![core::f64::consts::PI - 10f64.powi(-exponent)],
+            loads: vec![[10.0, -20.0], [-5.0, 30.0]],
+            ..Arguments::default()
+        };
+        check::<Double>(&linkage, &arguments, text);
+        let found = scene::<Double>(&linkage, "bounded", &arguments).expect("not yet a dead centre");
+        if found["error_bound.T"].to_f64() < f64::MAX { known += 1 } else { unknown += 1 }
+    }
+    assert!(known >= 6 && unknown > 0, "{known} known, {unknown} not");
 }

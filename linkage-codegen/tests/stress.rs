@@ -617,6 +617,16 @@ fn share(measures: &Measures) -> (f64, &'static str) {
     all.into_iter().fold((0.0, ""), |worst, one| if one.0 > worst.0 { one } else { worst })
 }
 
+/// How far above the errors their bounds may be, as a median over the results of a kind in a family, if these are many enough to tell:
+/// the results of one pose often share one error.
+const LOOSEST: f64 = 100.0;
+const ENOUGH: usize = 400;
+
+fn median(ratios: &mut [f64]) -> Option<f64> {
+    ratios.sort_by(f64::total_cmp);
+    ratios.get(ratios.len() / 2).copied()
+}
+
 impl Cell {
     fn add<T: Number>(&mut self, which: usize, family: &Family, bounded: bool) {
         let (scalar, epsilon) = [("f64", f64::EPSILON), ("f32", f64::from(f32::EPSILON))][which];
@@ -651,22 +661,23 @@ impl Cell {
     /// A line of the table, and what is beyond its bar.
     fn report(mut self, kind: &Kind, family: &str) -> String {
         let [(double, of), (single, and)] = self.worst.map(|worst| share(&worst));
-        self.bounds.sort_by(f64::total_cmp);
-        let median =
-            self.bounds.get(self.bounds.len() / 2).map_or_else(String::new, |x| format!("  bound/error {x:.0}"));
+        let median = median(&mut self.bounds);
+        let loose = median.is_some_and(|median| median > LOOSEST) && self.bounds.len() >= ENOUGH;
+        let median = median.map_or_else(String::new, |x| format!("  bound/error {x:.0}"));
         println!(
             "{:46} {family:14} {:8} poses  f64 {double:5.2} {of:9}  f32 {single:5.2} {and:9}{median}",
             kind.name, self.poses
         );
         let beyond = self.example.into_iter().flatten().filter(|(share, _)| *share > 1.0);
-        beyond.map(|(_, example)| [kind.name, ", ", family, ": ", &example, "\n"].concat()).collect()
+        let loose = loose.then(|| (0.0, format!("bounds are too far from errors:{median}")));
+        beyond.chain(loose).map(|(_, example)| [kind.name, ", ", family, ": ", &example, "\n"].concat()).collect()
     }
 }
 
 /// All families of a kind, and as many random poses as are asked for.
 fn run(kind: &Kind, members: usize, random_poses: usize) {
     let mut beyond = String::new();
-    let mut total = 0;
+    let (mut total, mut bounds) = (0, Vec::new());
     for (number, (family, make)) in (0..).zip(&FAMILIES) {
         let mut random = Random(number);
         let mut cell = Cell::default();
@@ -676,6 +687,7 @@ fn run(kind: &Kind, members: usize, random_poses: usize) {
             }
         }
         total += cell.poses;
+        bounds.extend_from_slice(&cell.bounds);
         if cell.poses > 0 {
             beyond += &cell.report(kind, family);
         }
@@ -693,6 +705,9 @@ fn run(kind: &Kind, members: usize, random_poses: usize) {
     }
     println!("{:46} {total} poses", kind.name);
     assert!(beyond.is_empty(), "{beyond}");
+    let median = median(&mut bounds);
+    assert!(median.is_none_or(|median| median <= LOOSEST), "{}: bound/error {median:?}", kind.name);
+    assert_eq!(median.is_none(), kind.is_iterated(), "{}: bounds", kind.name);
 }
 
 /// The results of a scene by name, bit for bit.

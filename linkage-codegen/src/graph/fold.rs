@@ -266,17 +266,26 @@ impl Graph {
     #[must_use]
     pub fn is_non_negative(&self, a: Expr<'_>) -> bool {
         let of = |id| self.is_non_negative(self.expr(id));
-        if self.arena.borrow().positive.contains(&a.id()) {
+        let known = {
+            let arena = self.arena.borrow();
+            arena.positive.contains(&a.id()) || arena.non_negative.contains(&a.id())
+        };
+        if known {
             return true;
         }
-        match a.op() {
+        let found = match a.op() {
             Op::Constant(_) => a.sign() != Some(-1),
             Op::Mul(x, y) if x == y => true,
             Op::Add(x, y) | Op::Mul(x, y) | Op::Div(x, y) => of(x) && of(y),
             Op::Quantity(x) | Op::Held(x) | Op::Checked { value: x, .. } | Op::Where { then: x, .. } => of(x),
             Op::Sqrt(_) | Op::Abs(_) | Op::NonNegative(_) => true,
             _ => false,
+        };
+        if found {
+            // Sums of sums of what is not negative share their parts: each is looked through once.
+            self.arena.borrow_mut().non_negative.insert(a.id());
         }
+        found
     }
 }
 

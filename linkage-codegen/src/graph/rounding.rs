@@ -1,33 +1,133 @@
-//! Running error analysis (Wilkinson 1963; Higham, *Accuracy and Stability of Numerical Algorithms*, § 3.3): beside every value a bound of
-//! how far rounding has taken it from what exact arithmetic would give.
+//! Running error analysis (Wilkinson 1963; Higham, *Accuracy and Stability of Numerical Algorithms*, § 3.3) in affine forms (Comba, Stolfi
+//! 1993; de Figueiredo, Stolfi, *Self-Validated Numerical Methods and Applications*, 1997): beside every value what is known of how far
+//! rounding has taken it from what exact arithmetic would give.
 //!
-//! With `u` half the distance from 1 to the next number, and `e(x)` the bound of a computed value `x`:
+//! The error of a closure is in all that is placed or loaded through it, and much of it cancels where these meet. So the deviation of a
+//! computed value x from the exact one is kept as
 //!
 //! ```text
-//! e(a ± b) = e(a) + e(b) + u|a ± b|               e(√a) = √a (t + t²)/2 + u√a, t = e(a)/a
-//! e(a b)   = |a| e(b) + (|b| + e(b)) e(a) + u|ab|   e(a/b) = (e(a) + |a/b| e(b))/(|b| − e(b)) + 2u|a/b|
+//! Σ xⱼ sⱼ + r     |sⱼ| ≤ 1, |r| ≤ R(x)     E(x) = Σ |xⱼ| + R(x)
 //! ```
 //!
-//! The errors of the two components of a direction are not independent: they are those of its angle, `δ`, and of its size, `ν`. So a sum
+//! with the same numbers sⱼ, one for each source of errors, for all values: of them nothing is known but their bounds. The shares xⱼ have
+//! signs, and pass through operations as derivatives do. What is not linear in the deviations, the rounding of each operation, and whatever
+//! has no source goes to the rest R. With `u` half the distance from 1 to the next number:
+//!
+//! ```text
+//! a ± b   aⱼ ± bⱼ             R(a) + R(b) + u|a ± b|
+//! a b     a bⱼ + b aⱼ         |a| R(b) + |b| R(a) + E(a) E(b) + u|a b|
+//! q = a/b (aⱼ − q bⱼ)/b       (R(a) + |q| R(b))/|b| + E(a − q b)/|b| · E(b)/(|b| − E(b)) + 2u|q|
+//! q = √a  aⱼ/(2q)             R(a)/(2q) + q t²/2 + u q, t = E(a)/a
+//! ```
+//!
+//! The deviations of the two components of a direction are those of its angle, `δ`, which has shares too, and of its size, `ν`. So a sum
 //! of products with them (a projection, a moment, a turned vector) has
 //!
 //! ```text
-//! e(x a + y b) = |x b − y a| δ + |x a + y b| ν + |x| e(a) + |y| e(b) + u(|x a| + |y b| + |x a + y b|)
+//! x a + y b   (x b − y a) δⱼ + x aⱼ + y bⱼ
+//!             |x b − y a| R(δ) + |x a + y b| ν + |x| R(a) + |y| R(b) + E(δ)² (|a| + |b|) + E(δ) (E(a) + E(b))
+//!               + u(|x a| + |y b| + |x a + y b|)
 //! ```
 //!
 //! A quotient counts twice, because it may become a product with a reciprocal. What is given (drives, parameters, loads) is exact; constants
-//! are rounded once. Bounds are not exact either: what all of them lack is made up for where a result takes its bound.
+//! are rounded once. Shares and bounds are rounded as well: what all of them lack is of second order, and made up for where a result takes its
+//! bound.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::number::Number;
 use super::{Expr, Graph, Kernel, NodeId, Op, Scalar, Vector};
 
-/// A direction, and the bounds of the errors of its angle and of its size.
-#[derive(Clone, Copy, Debug)]
+/// A source of errors that many values share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Source(usize);
+
+/// How far a value may be off: by its shares of the sources' errors, and by a rest.
+#[derive(Clone, Debug)]
+pub struct Deviation<'g> {
+    /// With their signs.
+    shares: BTreeMap<Source, Expr<'g>>,
+    /// The bound of the rest.
+    pub rest: Expr<'g>,
+}
+
+impl<'g> Deviation<'g> {
+    /// No more than this, whatever it comes from.
+    #[must_use]
+    pub fn within(rest: Expr<'g>) -> Self {
+        Self { shares: BTreeMap::new(), rest }
+    }
+
+    /// A share of one source.
+    #[must_use]
+    pub fn of(source: Source, share: Expr<'g>) -> Self {
+        let rest = share.graph().zero();
+        Self { shares: BTreeMap::from([(source, share)]), rest }
+    }
+
+    /// Whether the value is exact.
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.shares.is_empty() && self.rest.is_zero()
+    }
+
+    /// The bound of all of it.
+    #[must_use]
+    pub fn total(&self) -> Expr<'g> {
+        self.shares.values().fold(self.rest, |sum, share| sum + share.abs())
+    }
+
+    /// That of a multiple of the value.
+    #[must_use]
+    pub fn scaled(&self, factor: Expr<'g>) -> Self {
+        let rest = if self.rest.is_zero() { self.rest } else { factor.abs() * self.rest };
+        self.each(|share| factor * share, rest)
+    }
+
+    /// That of a sum, before it is rounded.
+    #[must_use]
+    pub fn plus(mut self, other: &Self) -> Self {
+        for (source, share) in &other.shares {
+            let sum = self.shares.get(source).map_or(*share, |own| *own + *share);
+            self.shares.insert(*source, sum);
+        }
+        self.shares.retain(|_, share| !share.is_zero());
+        Self { rest: self.rest + other.rest, ..self }
+    }
+
+    /// That of the opposite.
+    #[must_use]
+    pub fn opposite(&self) -> Self {
+        self.each(|share| -share, self.rest)
+    }
+
+    /// With so much more of a rest.
+    #[must_use]
+    pub fn and(self, rest: Expr<'g>) -> Self {
+        Self { rest: self.rest + rest, ..self }
+    }
+
+    /// The shares of two deviations, taken together; what is zero by structure is zero.
+    pub fn shares_of(x: &Self, y: &Self, of: impl Fn(Expr<'g>, Expr<'g>) -> Expr<'g>) -> Self {
+        let zero = x.rest.graph().zero();
+        let part = |deviation: &Self, source: &Source| deviation.shares.get(source).copied().unwrap_or(zero);
+        let sources = x.shares.keys().chain(y.shares.keys());
+        let shares: BTreeMap<Source, Expr<'g>> =
+            sources.map(|source| (*source, of(part(x, source), part(y, source)))).collect();
+        Self { shares: shares.into_iter().filter(|(_, share)| !share.is_zero()).collect(), rest: zero }
+    }
+
+    fn each(&self, share: impl Fn(Expr<'g>) -> Expr<'g>, rest: Expr<'g>) -> Self {
+        let shares = self.shares.iter().map(|(source, own)| (*source, share(*own)));
+        Self { shares: shares.filter(|(_, share)| !share.is_zero()).collect(), rest }
+    }
+}
+
+/// A direction, how far its angle may be off, and a bound of how far its size is.
+#[derive(Clone, Debug)]
 struct Direction<'g> {
     unit: Vector<'g>,
-    turn: Expr<'g>,
+    turn: Deviation<'g>,
     stretch: Expr<'g>,
 }
 
@@ -42,29 +142,39 @@ pub enum BoundOf {
     Size,
 }
 
-/// A bound that a pose keeps.
+/// A share or a bound that a pose keeps.
 #[derive(Clone, Copy, Debug)]
 pub struct HeldBound<'g> {
     /// The kept value.
     pub value: NodeId,
-    /// What of it is bounded.
+    /// What of it is off.
     pub what: BoundOf,
-    /// The bound.
+    /// Whose error it has a share of; nothing if it is the bound of the rest.
+    pub source: Option<Source>,
+    /// The share or the bound.
     pub bound: Expr<'g>,
 }
 
-/// Bounds of the rounding errors of nodes.
+/// Deviations of nodes.
 #[derive(Debug)]
 pub struct Rounding<'g> {
     graph: &'g Graph,
-    done: HashMap<NodeId, Expr<'g>>,
+    done: HashMap<NodeId, Deviation<'g>>,
     /// Directions, by either component.
     directions: HashMap<NodeId, Direction<'g>>,
     /// Which values are directions.
     pairs: HashMap<NodeId, Vector<'g>>,
+    /// Those of which the deviation is being found.
+    open: HashSet<NodeId>,
+    /// What has been found since, where some values are supposed to be exact.
+    supposed: Option<Vec<NodeId>>,
+    /// The names of values whose rests are sources of errors too.
+    passed_on: HashSet<String>,
+    /// The names of the sources.
+    sources: Vec<String>,
     /// Whether a bound would have to be known of what is found by iteration, which it is not.
     pub searched: bool,
-    /// The bounds that belong to values that a pose keeps; they are kept beside them.
+    /// What belongs to values that a pose keeps; it is kept beside them.
     pub held: Vec<HeldBound<'g>>,
 }
 
@@ -77,9 +187,25 @@ impl<'g> Rounding<'g> {
             done: HashMap::new(),
             directions: HashMap::new(),
             pairs: HashMap::new(),
+            open: HashSet::new(),
+            supposed: None,
+            passed_on: HashSet::new(),
+            sources: Vec::new(),
             searched: false,
             held: Vec::new(),
         }
+    }
+
+    /// A new source of errors.
+    pub fn source(&mut self, name: &str) -> Source {
+        self.sources.push(name.to_owned());
+        Source(self.sources.len() - 1)
+    }
+
+    /// What a source is called.
+    #[must_use]
+    pub fn name_of(&self, source: Source) -> &str {
+        &self.sources[source.0]
     }
 
     /// Says that two values are a direction.
@@ -87,168 +213,237 @@ impl<'g> Rounding<'g> {
         self.pairs.extend([unit.x, unit.y].map(|part| (part.id(), unit)));
     }
 
-    /// States the bounds of a direction's angle and size.
-    pub fn state_direction(&mut self, unit: Vector<'g>, turn: Expr<'g>, stretch: Expr<'g>) {
-        let found = Direction { unit, turn, stretch };
-        for (part, other) in [(unit.x, unit.y), (unit.y, unit.x)] {
-            self.directions.insert(part.id(), found);
-            self.done.insert(part.id(), other.abs() * turn + part.abs() * stretch + turn * turn);
+    /// Says that what has this name is passed on, and met again, by much: its rest becomes a source of errors.
+    pub fn is_passed_on(&mut self, name: String) {
+        self.passed_on.insert(name);
+    }
+
+    /// States the deviation of a direction's angle and the bound of that of its size.
+    pub fn state_direction(&mut self, unit: Vector<'g>, turn: Deviation<'g>, stretch: Expr<'g>) {
+        let total = turn.total();
+        for (part, turned) in [(unit.x, -unit.y), (unit.y, unit.x)] {
+            let deviation = turn.scaled(turned).and(part.abs() * stretch + total * total);
+            self.found(part.id(), deviation);
         }
+        let found = Direction { unit, turn, stretch };
+        for part in [unit.x, unit.y] {
+            self.directions.insert(part.id(), found.clone());
+        }
+    }
+
+    /// The bound of how far a computed direction is from unit size: `|u·u − 1|/2` and its rounding.
+    #[must_use]
+    pub fn stretch(&self, unit: Vector<'g>) -> Expr<'g> {
+        let half = self.graph.constant(&Number::ratio(1, 2));
+        half * (unit.squared() - self.graph.one()).abs() + self.graph.epsilons(1)
     }
 
     /// What is known of a direction that a value is a component of.
     fn direction_of(&mut self, part: NodeId) -> Option<Direction<'g>> {
         if let Some(found) = self.directions.get(&part) {
-            return Some(*found);
+            return Some(found.clone());
         }
         if let Op::Held(inner) = self.graph.op(part) {
             let Direction { unit, turn, stretch } = self.direction_of(inner)?;
             let unit = unit.held();
             let value = unit.x.id();
-            let (turn, stretch) = (self.keep(value, BoundOf::Angle, turn), self.keep(value, BoundOf::Size, stretch));
+            let turn = self.keep(value, BoundOf::Angle, &turn);
+            let stretch = self.keep(value, BoundOf::Size, &Deviation::within(stretch)).rest;
             self.state_direction(unit, turn, stretch);
         } else {
             let unit = *self.pairs.get(&part)?;
             // Its components are as far off as their operations tell, also where one is computed from the other.
-            self.pairs.retain(|_, other| *other != unit);
-            let [ex, ey] = [unit.x, unit.y].map(|part| {
-                let error = self.error_of(part.id());
-                self.named(part.id(), error)
-            });
-            let (x, y) = (unit.x.abs(), unit.y.abs());
-            self.state_direction(unit, y * ex + x * ey, x * ex + y * ey);
+            if !self.open.insert(unit.x.id()) {
+                return None;
+            }
+            let turn = self.turn_by_operations(unit);
+            self.open.remove(&unit.x.id());
+            self.state_direction(unit, turn, self.stretch(unit));
         }
-        self.directions.get(&part).copied()
+        self.directions.get(&part).cloned()
     }
 
-    /// The bound of a kept value, as a pose keeps it.
-    fn keep(&mut self, value: NodeId, what: BoundOf, error: Expr<'g>) -> Expr<'g> {
-        let bound = error.held();
-        let known = self.held.iter().any(|held| (held.value, held.what) == (value, what));
-        if matches!(bound.op(), Op::Held(_)) && !known {
-            self.held.push(HeldBound { value, what, bound });
-        }
-        bound
+    /// The deviation of a kept value, as a pose keeps it.
+    fn keep(&mut self, value: NodeId, what: BoundOf, deviation: &Deviation<'g>) -> Deviation<'g> {
+        let mut kept = |source: Option<Source>, own: Expr<'g>| {
+            let bound = own.held();
+            let known = self.held.iter().any(|held| (held.value, held.what, held.source) == (value, what, source));
+            if matches!(bound.op(), Op::Held(_)) && !known {
+                self.held.push(HeldBound { value, what, source, bound });
+            }
+            bound
+        };
+        let shares = deviation.shares.iter().map(|(source, share)| (*source, kept(Some(*source), *share))).collect();
+        Deviation { shares, rest: kept(None, deviation.rest) }
     }
 
     /// The bound of a result's error: that of its value, and a little more for the rounding of the bound itself. Where nothing can be
     /// said, because something was divided by what may be zero, it is the largest number.
     pub fn bound(&mut self, of: Expr<'g>) -> Expr<'g> {
         let graph = self.graph;
-        let error = self.error(of.id());
+        let error = self.deviation(of.id()).total();
         if error.value().is_some() {
             return error;
         }
-        // More than thousands of operations on bounds can lose.
-        let generous = Number::one().add(&Number::power_of_two(match graph.scalar() {
-            Scalar::F64 => -40,
-            Scalar::F32 => -11,
-        }));
+        // More than thousands of operations on bounds can lose, and more than what signs may cancel in the shares: of a share's roundings
+        // each is 2u of an error, where the value's own are u of the value.
+        let generous = Number::one().add(&Number::power_of_two(-7));
         let (bound, largest) = (graph.constant(&generous) * error, graph.largest());
         let known = graph.one().where_above(largest, bound);
         bound.where_above(largest, bound) + largest * (graph.one() - known)
     }
 
-    /// States the bound of a value that is known better than its operations tell.
-    pub fn state(&mut self, of: Expr<'g>, error: Expr<'g>) {
+    /// States the deviation of a value that is known better than its operations tell.
+    pub fn state(&mut self, of: Expr<'g>, deviation: Deviation<'g>) {
         if of.value().is_none() {
-            self.done.insert(of.id(), self.named(of.id(), error));
+            let deviation = self.named(of.id(), deviation);
+            self.found(of.id(), deviation);
         }
     }
 
-    /// The bound of the error with which an expression is computed from some values, were these exact.
-    pub fn error_from(&mut self, of: Expr<'g>, exact: &[Expr<'g>]) -> Expr<'g> {
-        let before = (self.done.clone(), self.directions.clone(), self.pairs.clone());
+    /// The deviation with which an expression is computed from some values, were these exact.
+    pub fn deviation_from(&mut self, of: Expr<'g>, exact: &[Expr<'g>]) -> Deviation<'g> {
+        self.supposed = Some(Vec::new());
+        let nothing = Deviation::within(self.graph.zero());
         for value in exact {
-            let zero = self.graph.zero();
-            self.done.insert(value.id(), zero);
-            let known = self.directions.get(&value.id()).map(|direction| direction.unit);
-            if let Some(unit) = known.or_else(|| self.pairs.get(&value.id()).copied()) {
-                self.directions.insert(value.id(), Direction { unit, turn: zero, stretch: zero });
+            self.found(value.id(), nothing.clone());
+            if let Some(unit) = self.pairs.get(&value.id()).copied() {
+                self.state_direction(unit, nothing.clone(), self.graph.zero());
             }
         }
-        let error = self.error(of.id());
-        (self.done, self.directions, self.pairs) = before;
-        error
+        let deviation = self.deviation(of.id());
+        for node in core::mem::take(&mut self.supposed).unwrap_or_default() {
+            self.done.remove(&node);
+            self.directions.remove(&node);
+        }
+        deviation
     }
 
-    fn named(&self, of: NodeId, error: Expr<'g>) -> Expr<'g> {
-        match self.graph.label(of) {
-            Some(label) => error.named(format!("error_{}", label.name), format!("of {}", label.name)),
-            None => error,
+    /// The deviation of a value as its own operations tell, whatever is stated of it.
+    pub fn by_operations(&mut self, of: Expr<'g>) -> Deviation<'g> {
+        match of.op() {
+            Op::Quantity(inner) => self.deviation(inner),
+            _ => self.deviation_of(of.id()),
         }
     }
 
-    fn error(&mut self, of: NodeId) -> Expr<'g> {
-        if let Some(error) = self.done.get(&of) {
-            return *error;
+    /// The deviation of a direction's angle as the operations of its components tell.
+    pub fn turn_by_operations(&mut self, unit: Vector<'g>) -> Deviation<'g> {
+        let [x, y] = [unit.x, unit.y].map(|part| self.by_operations(part));
+        let turn = Deviation::shares_of(&x, &y, |dx, dy| unit.x * dy - unit.y * dx);
+        turn.and(unit.x.abs() * y.rest + unit.y.abs() * x.rest)
+    }
+
+    /// The deviation of a value.
+    pub fn deviation(&mut self, of: NodeId) -> Deviation<'g> {
+        if let Some(deviation) = self.done.get(&of) {
+            return deviation.clone();
         }
         if self.direction_of(of).is_some() {
-            return self.done[&of];
+            return self.done[&of].clone();
         }
-        let error = self.error_of(of);
-        let error = self.named(of, error);
-        self.done.insert(of, error);
-        error
+        let deviation = self.deviation_of(of);
+        let mut deviation = self.named(of, deviation);
+        if let Some(label) = self.graph.label(of).filter(|label| self.passed_on.contains(&label.name)) {
+            let rest = core::mem::replace(&mut deviation.rest, self.graph.zero());
+            let source = self.source(&label.name);
+            deviation = deviation.plus(&Deviation::of(source, rest));
+        }
+        self.found(of, deviation.clone());
+        deviation
     }
 
-    fn error_of(&mut self, of: NodeId) -> Expr<'g> {
+    fn found(&mut self, of: NodeId, deviation: Deviation<'g>) {
+        self.done.insert(of, deviation);
+        if let Some(supposed) = &mut self.supposed {
+            supposed.push(of);
+        }
+    }
+
+    fn named(&self, of: NodeId, deviation: Deviation<'g>) -> Deviation<'g> {
+        let Some(label) = self.graph.label(of) else { return deviation };
+        let of = label.name;
+        let share = |(source, share): (&Source, &Expr<'g>)| {
+            let by = self.name_of(*source);
+            (*source, share.named(format!("error_{of}_by_{by}"), format!("of {of}, its share of the error of {by}")))
+        };
+        let shares: BTreeMap<_, _> = deviation.shares.iter().map(share).collect();
+        let what = if shares.is_empty() { format!("of {of}") } else { format!("of {of}, the rest") };
+        Deviation { shares, rest: deviation.rest.named(format!("error_{of}"), what) }
+    }
+
+    fn deviation_of(&mut self, of: NodeId) -> Deviation<'g> {
         let graph = self.graph;
         let value = graph.expr(of);
         match graph.op(of) {
-            Op::Constant(_) => {
-                if self.is_exact(value) {
-                    graph.zero()
-                } else {
-                    self.rounded(value)
-                }
+            Op::Constant(_) => Deviation::within(if self.is_exact(value) { graph.zero() } else { self.rounded(value) }),
+            Op::Symbol(_) => Deviation::within(graph.zero()),
+            Op::Neg(a) => self.deviation(a).opposite(),
+            // No further than the value, but which way is open where that may change its sign.
+            Op::Abs(a) => Deviation::within(self.deviation(a).total()),
+            // It follows the value unless that may be negative.
+            Op::NonNegative(a) => {
+                let deviation = self.deviation(a);
+                let total = deviation.total();
+                deviation.and((2 * total).where_above(total, graph.expr(a)))
             }
-            Op::Symbol(_) => graph.zero(),
-            Op::Neg(a) | Op::Abs(a) | Op::NonNegative(a) | Op::Quantity(a) | Op::Checked { value: a, .. } => {
-                self.error(a)
-            }
+            Op::Quantity(a) | Op::Checked { value: a, .. } => self.deviation(a),
             // What is not significant counts as zero: then it is an error to divide by it.
-            Op::Where { then, .. } => self.error(then),
+            Op::Where { then, .. } => self.deviation(then),
             Op::Held(a) => {
-                let error = self.error(a);
-                self.keep(of, BoundOf::Value, error)
+                let deviation = self.deviation(a);
+                self.keep(of, BoundOf::Value, &deviation)
             }
-            Op::Add(a, b) | Op::Sub(a, b) => match self.error_of_projection(value, [a, b]) {
-                Some(error) => error,
-                None => self.error(a) + self.error(b) + self.rounded(value),
+            Op::Add(a, b) | Op::Sub(a, b) => match self.of_projection(value, [a, b]) {
+                Some(deviation) => deviation,
+                None => {
+                    let other = self.deviation(b);
+                    let other = if matches!(value.op(), Op::Sub(..)) { other.opposite() } else { other };
+                    self.deviation(a).plus(&other).and(self.rounded(value))
+                }
             },
+            Op::Mul(a, b) if a == b => {
+                let (own, a) = (self.deviation(a), graph.expr(a));
+                let total = own.total();
+                own.scaled(2 * a).and(total * total + self.rounded(value))
+            }
             Op::Mul(a, b) => {
-                let (ea, eb) = (self.error(a), self.error(b));
+                let (da, db) = (self.deviation(a), self.deviation(b));
                 let (a, b) = (graph.expr(a), graph.expr(b));
-                let passed = a.abs() * eb + (b.abs() + eb) * ea;
-                if is_power_of_two(a) || is_power_of_two(b) { passed } else { passed + self.rounded(value) }
+                let both = if da.is_zero() || db.is_zero() { graph.zero() } else { da.total() * db.total() };
+                let passed = db.scaled(a).plus(&da.scaled(b)).and(both);
+                if is_power_of_two(a) || is_power_of_two(b) { passed } else { passed.and(self.rounded(value)) }
             }
             Op::Div(a, b) => {
-                let (ea, eb) = (self.error(a), self.error(b));
-                let rounded = 2 * self.rounded(value);
-                if ea.is_zero() && eb.is_zero() {
-                    return rounded;
+                let (da, db) = (self.deviation(a), self.deviation(b));
+                let (b, rounded) = (graph.expr(b), 2 * self.rounded(value));
+                let passed = da.plus(&db.scaled(value).opposite());
+                let passed = Deviation { rest: passed.rest / b.abs(), ..passed.each(|share| share / b, graph.zero()) };
+                if db.is_zero() {
+                    return passed.and(rounded);
                 }
-                let least = graph.expr(b).abs() - eb;
+                let (error, total) = (db.total(), passed.total());
                 // Nothing is known of a quotient by what may be zero: infinite, here.
-                (ea + value.abs() * eb) / least.where_above(least, graph.zero()) + rounded
+                let least = b.abs() - error;
+                passed.and(total * (error / least.where_above(least, graph.zero())) + rounded)
             }
             Op::Sqrt(a) => {
-                let ea = self.error(a);
-                if ea.is_zero() {
-                    return self.rounded(value);
+                let da = self.deviation(a);
+                if da.is_zero() {
+                    return Deviation::within(self.rounded(value));
                 }
-                // 1 − √(1 − t) ≤ (t + t²)/2.
-                let part = ea / graph.expr(a);
                 let half = graph.constant(&Number::ratio(1, 2));
-                value * (half * (part + part * part)) + self.rounded(value)
+                let factor = half / value;
+                // √a (1 − t/2 − √(1 − t)) ≤ √a t²/2.
+                let part = da.total() / graph.expr(a);
+                da.scaled(factor).and(half * (value * (part * part)) + self.rounded(value))
             }
-            Op::Kernel { kernel, args, part } => self.error_of_kernel(value, kernel, &args, part),
+            Op::Kernel { kernel, args, part } => self.of_kernel(value, kernel, &args, part),
         }
     }
 
-    /// The error of a sum or a difference of products with the components of one direction.
-    fn error_of_projection(&mut self, value: Expr<'g>, terms: [NodeId; 2]) -> Option<Expr<'g>> {
+    /// The deviation of a sum or a difference of products with the components of one direction.
+    fn of_projection(&mut self, value: Expr<'g>, terms: [NodeId; 2]) -> Option<Deviation<'g>> {
         let graph = self.graph;
         let factors = |term: NodeId| match graph.op(term) {
             Op::Mul(a, b) => Some([[a, b], [b, a]]),
@@ -257,99 +452,109 @@ impl<'g> Rounding<'g> {
         let (first, second) = (factors(terms[0])?, factors(terms[1])?);
         let minus = matches!(value.op(), Op::Sub(..));
         let signed = |x: Expr<'g>| if minus { -x } else { x };
+        // With the angle, x changes by −y and y by x.
+        let turned = |of: Expr<'g>, unit: Vector<'g>| if of == unit.x { -unit.y } else { unit.x };
         for [p, a] in first {
-            let Some(direction) = self.direction_of(p) else { continue };
+            let Some(Direction { unit, turn, stretch }) = self.direction_of(p) else { continue };
             for [q, b] in second {
-                let Direction { unit, turn, stretch } = direction;
                 if p == q || ![unit.x.id(), unit.y.id()].contains(&q) {
                     continue;
                 }
                 let (p, q, a, b) = (graph.expr(p), graph.expr(q), graph.expr(a), graph.expr(b));
-                // With the angle, x changes by −y and y by x.
-                let turned = |of: Expr<'g>, unit: Vector<'g>| if of == unit.x { -unit.y } else { unit.x };
                 let change = turned(p, unit) * a + signed(turned(q, unit) * b);
-                let own = change.abs() * turn + value.abs() * stretch + turn * turn * (a.abs() + b.abs());
+                let angle = turn.total();
+                let own = turn.scaled(change).and(value.abs() * stretch + angle * angle * (a.abs() + b.abs()));
                 let others = match (self.direction_of(a.id()), self.direction_of(b.id())) {
                     (Some(other), Some(same)) if other.unit == same.unit && a != b => {
                         let change = p * turned(a, other.unit) + signed(q * turned(b, other.unit));
-                        change.abs() * other.turn
-                            + value.abs() * other.stretch
-                            + other.turn * (other.turn + turn) * (p.abs() + q.abs())
+                        let its = other.turn.total();
+                        let both = its * (its + angle) * (p.abs() + q.abs());
+                        other.turn.scaled(change).and(value.abs() * other.stretch + both)
                     }
                     _ => {
-                        let (ea, eb) = (self.error(a.id()), self.error(b.id()));
-                        (p.abs() + turn) * ea + (q.abs() + turn) * eb
+                        let (da, db) = (self.deviation(a.id()), self.deviation(b.id()));
+                        let both = if angle.is_zero() { angle } else { angle * (da.total() + db.total()) };
+                        da.scaled(p).plus(&db.scaled(signed(q))).and(both)
                     }
                 };
                 let products = (p * a).abs() + (q * b).abs();
-                return Some(own + others + self.rounded(products) + self.rounded(value));
+                return Some(own.plus(&others).and(self.rounded(products) + self.rounded(value)));
             }
         }
         None
     }
 
-    fn error_of_kernel(&mut self, value: Expr<'g>, kernel: Kernel, args: &[NodeId], part: u8) -> Expr<'g> {
+    fn of_kernel(&mut self, value: Expr<'g>, kernel: Kernel, args: &[NodeId], part: u8) -> Deviation<'g> {
         let graph = self.graph;
-        let errors: Vec<Expr<'g>> = args.iter().map(|arg| self.error(*arg)).collect();
+        let deviations: Vec<Deviation<'g>> = args.iter().map(|arg| self.deviation(*arg)).collect();
         let args: Vec<Expr<'g>> = args.iter().map(|arg| graph.expr(*arg)).collect();
         // 0.82 ulp of a sine, 0.70 of an angle, and no ulp is more than 2u|x|; 1.5 ε of a direction.
         let ulps = Number::ratio(164, 100);
         let own = graph.constant(&ulps) * self.rounded(value);
+        let of_sine = |own: Expr<'g>| {
+            let other = graph.kernel(kernel, &args, 1 - part);
+            let total = deviations[0].total();
+            deviations[0].scaled(if part == 0 { other } else { -other }).and(total * total + own)
+        };
         match kernel {
-            Kernel::SinCos => own + graph.kernel(kernel, &args, 1 - part).abs() * errors[0] + errors[0] * errors[0],
+            Kernel::SinCos => of_sine(own),
             Kernel::SinCosSum(_) => {
                 // Besides, ε² max(4, |x|).
                 let tail = graph.epsilons(1).squared() * (args[0].abs() + graph.integer(4));
-                own + tail + graph.kernel(kernel, &args, 1 - part).abs() * errors[0] + errors[0] * errors[0]
+                of_sine(own + tail)
             }
-            Kernel::Atan2 => {
-                let (y, x) = (args[0], args[1]);
-                let (ey, ex) = (errors[0], errors[1]);
-                if ey.is_zero() && ex.is_zero() {
-                    return own;
-                }
-                // The angle of an error ρ across a vector of size r ≥ ρ is at most (π/2) ρ/r.
-                let size = (x * x + y * y).sqrt();
-                let error = ex + ey;
-                let least = (size - error).where_above(size, error);
-                own + 2 * (error / least)
-            }
+            Kernel::Atan2 => self.of_angle(Vector::new(args[1], args[0]), [&deviations[1], &deviations[0]]).and(own),
             Kernel::MulAdd => {
-                args[0].abs() * errors[1] + (args[1].abs() + errors[1]) * errors[0] + errors[2] + self.rounded(value)
+                let [a, b, c] = [&deviations[0], &deviations[1], &deviations[2]];
+                let both = a.total() * b.total();
+                b.scaled(args[0]).plus(&a.scaled(args[1])).plus(c).and(both + self.rounded(value))
             }
             Kernel::Unit => {
-                let error = errors[0] + errors[1];
                 let own = 3 * self.rounded(value);
-                if error.is_zero() {
-                    return own;
-                }
-                let size = (args[0] * args[0] + args[1] * args[1]).sqrt();
-                let least = (size - error).where_above(size, error);
-                own + 2 * (error / least)
+                let vector = Vector::new(args[0], args[1]);
+                let turn = self.of_angle(vector, [&deviations[0], &deviations[1]]);
+                let unit = graph.unit(vector);
+                let total = turn.total();
+                turn.scaled(if part == 0 { -unit.y } else { unit.x }).and(total * total + own)
             }
-            Kernel::Solve2 => self.error_of_solution(kernel, &args, &errors, part, 2),
-            Kernel::Solve3 => self.error_of_solution(kernel, &args, &errors, part, 3),
+            Kernel::Solve2 => self.of_solution(kernel, &args, &deviations, part, 2),
+            Kernel::Solve3 => self.of_solution(kernel, &args, &deviations, part, 3),
             // How far from singular it is only decides.
-            Kernel::Solve(size) if part == size => graph.zero(),
-            Kernel::Solve(size) => self.error_of_solution(kernel, &args, &errors, part, usize::from(size)),
+            Kernel::Solve(size) if part == size => Deviation::within(graph.zero()),
+            Kernel::Solve(size) => self.of_solution(kernel, &args, &deviations, part, usize::from(size)),
             Kernel::Search { .. } => {
                 self.searched = true;
-                graph.zero()
+                Deviation::within(graph.zero())
             }
         }
     }
 
+    /// The deviation of a vector's angle. With ρ the bound of the vector's error over its size, what is not linear in it is no more than
+    /// `ρ²/(2 − 2ρ)`.
+    fn of_angle(&self, vector: Vector<'g>, [x, y]: [&Deviation<'g>; 2]) -> Deviation<'g> {
+        if x.is_zero() && y.is_zero() {
+            return Deviation::within(self.graph.zero());
+        }
+        let square = vector.squared();
+        let linear = Deviation::shares_of(x, y, |dx, dy| (vector.x * dy - vector.y * dx) / square);
+        let rest = (vector.x.abs() * y.rest + vector.y.abs() * x.rest) / square;
+        let (size, error) = (square.sqrt(), x.total() + y.total());
+        let least = size - error;
+        linear.and(rest + (error / size) * (error / least.where_above(size, 2 * error)))
+    }
+
     /// `|x̂ − x| ≤ 2 |A⁻¹| (E|x̂| + e + γ(|A||x̂| + |b|))` for equations `A x = b` with errors E and e of their numbers, as long as these are
     /// far from making A singular; `γ` stands for the elimination with row pivoting.
-    fn error_of_solution(
+    fn of_solution(
         &self,
         kernel: Kernel,
         args: &[Expr<'g>],
-        errors: &[Expr<'g>],
+        deviations: &[Deviation<'g>],
         part: u8,
         size: usize,
-    ) -> Expr<'g> {
+    ) -> Deviation<'g> {
         let graph = self.graph;
+        let errors: Vec<Expr<'g>> = deviations.iter().map(Deviation::total).collect();
         // Between coefficients and right sides there may be the sizes of the coefficients.
         let (before, right) = args.split_at(args.len() - size);
         let (matrix, matrix_errors) = (&args[..size * size], &errors[..size * size]);
@@ -368,7 +573,7 @@ impl<'g> Rounding<'g> {
             let equations: Vec<Expr<'g>> = before.iter().copied().chain(unit).collect();
             sum = sum + graph.kernel(kernel, &equations, part).abs() * residual;
         }
-        2 * sum
+        Deviation::within(2 * sum)
     }
 
     /// `u|x|`: what rounding a result of this size may change.

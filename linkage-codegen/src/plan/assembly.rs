@@ -91,14 +91,29 @@ impl<'m> Sign<'m> {
 /// How a group in two unknowns was closed: from what is left of its closure follows how far its solution is off.
 #[derive(Clone, Debug)]
 pub struct ClosedLoop<'m> {
+    /// The name of its error: that of the joint that closes it.
+    pub name: String,
     /// What should be zero, of the values as they are found.
     pub residual: Vector<'m>,
     /// What was found.
     pub found: [Found<'m>; 2],
-    /// The first column × the second one, in magnitude.
+    /// The first column × the second one.
     pub determinant: Expr<'m>,
-    /// Values that the closure gave beside, each with the same from what was found.
-    pub beside: Vec<(Expr<'m>, Expr<'m>)>,
+    /// The pivot, if the closure gave it by itself.
+    pub pivot: Option<Pivot<'m>>,
+    /// Whether lengths may differ by so much that a direction is found better than what is left of the closure tells.
+    pub apart: bool,
+}
+
+/// A pivot that a closure knows by itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Pivot<'m> {
+    /// Its value.
+    pub value: Expr<'m>,
+    /// The same from what was found.
+    pub again: Expr<'m>,
+    /// How it changes with the two unknowns, if its own operations may tell more than what is left of the closure.
+    pub slopes: Option<[Expr<'m>; 2]>,
 }
 
 /// An unknown of a closed loop, and by what vector the residual changes with it.

@@ -1,18 +1,29 @@
 //! Bounds of the rounding errors of a scene's results.
 //!
 //! They follow the operations (see [`Rounding`]), but for what closes a loop: there the operations' own bounds would add up what in truth
-//! makes up for each other. What the closure leaves over, which is computed, says more: with the residual `ρ` of the loop and the columns
-//! `c` by which it changes with the two unknowns, each of these is off by no more than `|ρ × c'|/|c × c'|`, c' the other's column, as long
-//! as this is too little to change `c × c'` much.
+//! makes up for each other. What the closure leaves over, which is computed, says more: with the residual `ρ` of the loop, known to its
+//! own rounding, and the columns `c`, `c'` by which it changes with the two unknowns, these are off by y and y' with `c y + c' y' = ρ`:
+//!
+//! ```text
+//! y = (ρ × c')/(c × c')        y' = −y (c·c')/(c'·c') + (ρ·c')/(c'·c')
+//! ```
+//!
+//! Near a dead centre, where `c × c'` vanishes, only the first is large, and the second follows it. So y is a source of errors, of which
+//! all that is placed through the loop has a share; where more loops follow, the little beside it in y' is another one, and so are the
+//! errors of the forces that one group passes on to the next.
+//!
+//! Of three pins, half angles and constants that fold know the sine of the transmission angle, `s = u × u'`, better near its zeros than the
+//! residual does: `δs = (u·u')(y' − y)` is a second bound of y. The lesser of the two is taken.
 
-use super::assembly::{ClosedLoop, Found};
+use super::assembly::{ClosedLoop, Found, Pivot};
 use super::output::Field;
 use super::{Assembly, Kept, Output};
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::graph::number::Number;
-use crate::graph::rounding::{BoundOf, HeldBound, Rounding};
+use crate::graph::rounding::{BoundOf, Deviation, HeldBound, Rounding};
 use crate::graph::{Expr, Graph, NodeId, Op, Vector};
 use crate::model::Wanted;
+use crate::model::ids::GROUND;
 
 /// Adds their bounds to the results of the scenes that want them. What a pose has to keep for that comes back.
 pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept], sink: &Sink) -> Vec<Kept> {
@@ -29,8 +40,18 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
             rounding.is_direction(Vector::new(graph.expr(x), graph.expr(y)));
         }
     }
+    // Forces from group to group.
+    let between = assembly.topology.forces.iter().flat_map(|group| &group.outer).filter(|joint| {
+        let ends = model.joint(**joint).ends();
+        ends.iter().all(|end| end.link != GROUND)
+    });
+    for joint in between {
+        for part in ["x", "y"] {
+            rounding.is_passed_on(format!("{}_{part}", model.joint(*joint).name));
+        }
+    }
     for closed in &assembly.loops {
-        state(&mut rounding, closed);
+        state(&mut rounding, closed, assembly.loops.len() > 1);
     }
     for (scene, output) in model.scenes.iter().zip(scenes) {
         if !scene.results.contains(&Wanted::ErrorBound) {
@@ -51,6 +72,10 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
         }
     }
     let named = |node: NodeId| kept.iter().find(|kept| kept.node == node).map(|kept| kept.name.clone());
+    let shared = |held: &HeldBound<'_>| {
+        let same = |other: &HeldBound<'_>| (other.value, other.what) == (held.value, held.what);
+        rounding.held.iter().any(|other| same(other) && other.source.is_some())
+    };
     let keep = |held: &HeldBound<'_>| {
         let value = named(held.value).unwrap_or_else(|| format!("value_{}", held.value.index()));
         let direction = value.strip_suffix("_cos").unwrap_or(&value);
@@ -63,63 +88,132 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
                 (format!("error_size_{direction}"), format!("the size of the direction carried by `{direction}`"))
             }
         };
+        let (name, meaning) = match held.source.map(|source| rounding.name_of(source)) {
+            Some(by) => (
+                format!("{name}_by_{by}"),
+                format!("share of the rounding error of {what} that comes with that of `{by}`"),
+            ),
+            None if shared(held) => (name, format!("bound of the rounding error of {what} beside its shares")),
+            None => (name, format!("bound of the rounding error of {what}")),
+        };
         graph.name_kept(held.bound, &name);
-        Kept { name, meaning: format!("bound of the rounding error of {what}"), node: held.bound.id() }
+        Kept { name, meaning, node: held.bound.id(), is_bound: true }
     };
     rounding.held.iter().map(keep).collect()
 }
 
 /// The errors of a loop's unknowns.
-fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>) {
+fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: bool) {
     let graph = closed.determinant.graph();
     let exact: Vec<Expr<'g>> = closed.found.iter().flat_map(Found::values).collect();
     let ClosedLoop { residual, .. } = closed;
-    let [x, y] = [residual.x, residual.y].map(|part| part.abs() + rounding.error_from(part, &exact));
-    // How far directions are from unit size.
-    let half = graph.constant(&Number::ratio(1, 2));
+    let [x, y] = [residual.x, residual.y].map(|part| rounding.deviation_from(part, &exact));
     let stretch = closed.found.each_ref().map(|found| match found {
-        Found::Direction { direction, .. } => {
-            let excess = direction.squared() - graph.one();
-            half * (excess.abs() + rounding.error_from(excess, &exact))
-        }
+        Found::Direction { direction, .. } => rounding.stretch(*direction),
         Found::Length { .. } => graph.zero(),
     });
-    // |v × column| of what the residual may be, and of what the sizes of the directions bring into it.
-    let across = |column: Vector<'g>| {
-        let stretched = closed.found.iter().zip(stretch).fold(graph.zero(), |sum, (found, stretch)| match found {
-            Found::Direction { arm, .. } => sum + stretch * arm.cross(column).abs(),
-            Found::Length { .. } => sum,
-        });
-        x * column.y.abs() + y * column.x.abs() + stretched
-    };
-    let columns = closed.found.each_ref().map(Found::column);
-    let first_order = [across(columns[1]), across(columns[0])].map(|sum| sum / closed.determinant);
-    // What these may change of the columns, and these of the determinant.
-    let sum_of = |angles: bool| {
-        let counted = closed.found.iter().zip(first_order).filter(|(found, _)| found.is_direction() == angles);
-        counted.fold(graph.zero(), |sum, (_, error)| sum + error)
-    };
-    let (turned, longer) = (sum_of(true), sum_of(false));
-    let size = |column: Vector<'g>| column.x.abs() + column.y.abs();
-    let [first, second] = columns.map(size);
-    let [change, other_change] = [first, second].map(|size| size * turned + longer);
-    let changed = 2 * (change * second + first * other_change);
-    let least = closed.determinant - changed;
-    let factor = closed.determinant / least.where_above(least, graph.zero());
-    for ((found, error), stretch) in closed.found.iter().zip(first_order).zip(stretch) {
-        let error = error * factor;
-        match found {
-            Found::Direction { direction, .. } => {
-                rounding.state_direction(*direction, error, stretch);
+    // Of what has no source: by how much the parts of the residual, and the sizes of directions, may change a product with the residual.
+    let (own_x, own_y) = (residual.x.abs() + x.rest, residual.y.abs() + y.rest);
+    let own = |parts: Vector<'g>, arms: &dyn Fn(Vector<'g>) -> Expr<'g>| {
+        closed.found.iter().zip(stretch).fold(parts.x.abs() * own_x + parts.y.abs() * own_y, |sum, (found, stretch)| {
+            match found {
+                Found::Direction { arm, .. } => sum + stretch * arms(*arm).abs(),
+                Found::Length { .. } => sum,
             }
-            Found::Length { length, .. } => rounding.state(*length, error),
+        })
+    };
+    let [first, second] = closed.found.each_ref().map(Found::column);
+    let size = closed.determinant.abs();
+    // What earlier sources bring, as the unknowns would follow the change of the residual.
+    let [one, other] = [(second, -1), (first, 1)].map(|(column, sign)| {
+        Deviation::shares_of(&x, &y, |dx, dy| sign * (dx * column.y - dy * column.x) / closed.determinant)
+    });
+    // The rest as a source: the first unknown, which the second follows, but for what is along its column.
+    let square = second.squared();
+    let follows = -(first.dot(second) / square);
+    let decisive = own(second.perp(), &|arm| arm.cross(second)) / size;
+    let beside = own(second, &|arm| arm.dot(second)) / square;
+    let totals = [one.total() + decisive, other.total() + follows.abs() * decisive + beside];
+    let change = beyond_first_order(closed, totals);
+    let along = second.x.abs() + second.y.abs();
+    let (decisive, beside) = (decisive + change * along / size, beside + change * along / square);
+    // Near a dead centre the pivot, by its own operations, may tell more than the residual does.
+    let mut by_itself = None;
+    let decisive = match closed.pivot {
+        Some(Pivot { value, again, slopes: Some(slopes) }) => {
+            let own = rounding.by_operations(value);
+            let unexpected = own.clone().plus(&one.scaled(-slopes[0])).plus(&other.scaled(-slopes[1])).total();
+            let stretched = again.abs() * (stretch[0] + stretch[1]);
+            let rounded = rounding.deviation_from(again, &exact).rest + (again - value).abs();
+            let curved = 2 * (totals[0] + totals[1]).squared();
+            let sum = unexpected + rounded + stretched + slopes[1].abs() * beside + curved;
+            by_itself = Some(own);
+            lesser(decisive, sum / (slopes[0] + slopes[1] * follows).abs())
+        }
+        _ => decisive,
+    };
+    let own_turns = closed.found.each_ref().map(|found| match found {
+        Found::Direction { direction, .. } if closed.apart => Some(rounding.turn_by_operations(*direction)),
+        _ => None,
+    });
+    let source = rounding.source(&closed.name);
+    let one = one.plus(&Deviation::of(source, decisive));
+    let other = other.plus(&Deviation::of(source, follows * decisive));
+    let other = if leads_on {
+        let source = rounding.source(&format!("{}_beside", closed.name));
+        other.plus(&Deviation::of(source, beside))
+    } else {
+        other.and(beside)
+    };
+    let deviations = [(one, &own_turns[0]), (other, &own_turns[1])].map(|(deviation, own)| match own {
+        Some(own) => lesser_deviation(&deviation, own),
+        None => deviation,
+    });
+    for ((found, deviation), stretch) in closed.found.iter().zip(deviations).zip(stretch) {
+        match found {
+            Found::Direction { direction, .. } => rounding.state_direction(*direction, deviation, stretch),
+            Found::Length { length, .. } => rounding.state(*length, deviation),
         }
     }
-    for (value, again) in &closed.beside {
-        let difference = *again - *value;
-        let error = rounding.error_from(difference, &[*value]);
-        rounding.state(*value, difference.abs() + error);
+    if let Some(Pivot { value, again, .. }) = closed.pivot {
+        let found = rounding.deviation(again.id()).and((again - value).abs());
+        let deviation = by_itself.map_or_else(|| found.clone(), |own| lesser_deviation(&found, &own));
+        rounding.state(value, deviation);
     }
+}
+
+/// The lesser of two bounds; the first if the second is no number.
+fn lesser<'g>(one: Expr<'g>, other: Expr<'g>) -> Expr<'g> {
+    lesser_deviation(&Deviation::within(one), &Deviation::within(other)).rest
+}
+
+/// The deviation with the lesser bound; the first if that of the second is no number.
+fn lesser_deviation<'g>(one: &Deviation<'g>, other: &Deviation<'g>) -> Deviation<'g> {
+    let graph = one.rest.graph();
+    let half = graph.constant(&Number::ratio(1, 2));
+    let second = graph.one().where_above(one.total(), other.total());
+    let pick = |one: Expr<'g>, other: Expr<'g>| one.where_above(half, second) + other.where_above(second, half);
+    Deviation::shares_of(one, other, pick).and(pick(one.rest, other.rest))
+}
+
+/// By how much the residual is off what is linear in the unknowns. Let these be off by no more than y = 2T, twice what first order says: then
+/// that is `Σ |c| y²/2` over the directions, and `y₁ y₂` if a length lies along a direction. If what it makes of the unknowns is no more
+/// than T, there is a solution as near as y, and it is the one on the same side; or else nothing is known: infinite.
+fn beyond_first_order<'g>(closed: &ClosedLoop<'g>, totals: [Expr<'g>; 2]) -> Expr<'g> {
+    let graph = closed.determinant.graph();
+    let sizes = closed.found.each_ref().map(|found| {
+        let column = found.column();
+        if found.is_direction() { column.x.abs() + column.y.abs() } else { graph.one() }
+    });
+    let curved = |index: usize| {
+        if closed.found[index].is_direction() { sizes[index] * totals[index].squared() } else { graph.zero() }
+    };
+    let [first, second] = &closed.found;
+    let both = if first.is_direction() == second.is_direction() { graph.zero() } else { 2 * (totals[0] * totals[1]) };
+    let change = 2 * (curved(0) + curved(1) + both);
+    let size = closed.determinant.abs();
+    let small = graph.one().where_above(size * totals[0], change * sizes[1]);
+    change / small.where_above(size * totals[1], change * sizes[0])
 }
 
 impl<'g> Found<'g> {

@@ -117,6 +117,8 @@ pub struct Kept {
     pub meaning: String,
     /// Its node.
     pub node: NodeId,
+    /// Whether it only says how far others may be off: infinite, or no number, where nothing can be said.
+    pub is_bound: bool,
 }
 
 /// A method of a pose.
@@ -298,7 +300,7 @@ fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
     let mut keep = |name: String, meaning: String, value: Expr<'_>| {
         if matches!(value.op(), Op::Held(_)) && all.iter().all(|kept| kept.node != value.id()) {
             model.graph.name_kept(value, &name);
-            all.push(Kept { name, meaning, node: value.id() });
+            all.push(Kept { name, meaning, node: value.id(), is_bound: false });
         }
     };
     for link in model.moving_links() {

@@ -54,9 +54,11 @@ impl Functions {
         };
         let single = |results: &[(String, NodeId)]| results.iter().map(|(_, node)| vec![*node]).collect::<Vec<_>>();
         let kept: Vec<(String, NodeId)> = plan.pose.iter().map(|kept| (kept.name.clone(), kept.node)).collect();
-        let pose = program(Form::Direct, &kept, &single(&kept));
+        let finite: Vec<Vec<NodeId>> =
+            plan.pose.iter().filter(|kept| !kept.is_bound).map(|kept| vec![kept.node]).collect();
+        let pose = program(Form::Direct, &kept, &finite);
         let searches = graph.searches();
-        let near = (!searches.is_empty()).then(|| program(Form::Near, &kept, &single(&kept)));
+        let near = (!searches.is_empty()).then(|| program(Form::Near, &kept, &finite));
         let searches: Vec<SearchFunctions> = searches
             .into_iter()
             .map(|(id, search)| {

@@ -21,7 +21,7 @@ use super::{Rule, RuleResult};
 use crate::graph::Vector;
 use crate::model::Model;
 use crate::model::ids::{GROUND, JointId};
-use crate::plan::assembly::Assembly;
+use crate::plan::assembly::{Assembly, ClosedLoop, Found};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::velocities::{Motion, Twist};
@@ -59,7 +59,8 @@ impl Rule for Prp {
         let pin = dyad.joint_name(dyad.inner);
         let [first_name, second_name] = [first, second].map(|leg| dyad.link_name(leg));
         let e = assembly.placement.slide_direction(second.outer);
-        let gap = assembly.placement.way(first.tip, second.tip).resolved_along(e);
+        let way = assembly.placement.way(first.tip, second.tip);
+        let gap = way.resolved_along(e);
         let gap = gap.named(
             &format!("g_{pin}"),
             &format!(
@@ -69,6 +70,15 @@ impl Rule for Prp {
         );
         let own = (-gap.y / sine).named(format!("t_{first_name}"), format!("t₁ = (g × e₂)/sin_mu_{pin}"));
         let other = (own * cosine - gap.x).named(format!("t_{second_name}"), "t₂ = t₁ (e₁·e₂) − g·e₂");
+        let along = assembly.placement.slide_direction(first.outer);
+        assembly.closed(|| ClosedLoop {
+            name: pin.to_owned(),
+            residual: along.scaled(own) - e.scaled(other) - way.vector(),
+            found: [Found::Length { length: own, column: along }, Found::Length { length: other, column: -e }],
+            determinant: -sine,
+            pivot: None,
+            apart: false,
+        });
         dyad.set_travel(assembly, first.outer, first.link(), own);
         dyad.set_travel(assembly, second.outer, second.link(), other);
         assembly.placement.connect(dyad.inner);

@@ -18,7 +18,7 @@ use super::dyad::{Dyad, dyad};
 use super::{Rule, RuleResult};
 use crate::model::Model;
 use crate::model::ids::{GROUND, JointId};
-use crate::plan::assembly::Assembly;
+use crate::plan::assembly::{Assembly, ClosedLoop, Found};
 use crate::plan::balance::Balance;
 use crate::plan::velocities::Motion;
 use crate::topology::Group;
@@ -63,7 +63,8 @@ impl Rule for Rpp {
         let [outer, inner] = slides(&dyad).map(|slide| dyad.joint_name(slide));
         let pin = dyad.joint_name(pinned.outer);
         let e = assembly.placement.slide_direction(dyad.inner);
-        let gap = assembly.placement.way(pinned.near, pinned.far).resolved_along(e);
+        let way = assembly.placement.way(pinned.near, pinned.far);
+        let gap = way.resolved_along(e);
         let gap = gap.named(
             &format!("g_{pin}"),
             &format!(
@@ -73,6 +74,15 @@ impl Rule for Rpp {
         );
         let own = (-gap.y / sine).named(format!("t_{outer}"), format!("tₒ = (g × eᵢ)/{}", dyad.pivot_name()));
         let further = (gap.x - own * cosine).named(format!("t_{inner}"), "tᵢ = g·eᵢ − tₒ (eₒ·eᵢ)");
+        let along = assembly.placement.slide_direction(slider.outer);
+        assembly.closed(|| ClosedLoop {
+            name: pin.to_owned(),
+            residual: along.scaled(own) + e.scaled(further) - way.vector(),
+            found: [Found::Length { length: own, column: along }, Found::Length { length: further, column: e }],
+            determinant: sine,
+            pivot: None,
+            apart: false,
+        });
         dyad.set_travel(assembly, slider.outer, slider.link(), own);
         dyad.set_travel(assembly, dyad.inner, pinned.tip.end.link, further);
         assembly.placement.connect(pinned.outer);

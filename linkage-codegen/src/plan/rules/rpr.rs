@@ -217,13 +217,15 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let direction = towards_unit(rough, &name).named_direction(slide, &format!("direction of the slide {slide}"));
     let arm = direction.scaled(s) + direction.perp().scaled(h);
     assembly.closed(|| ClosedLoop {
+        name: slide.to_owned(),
         residual: arm - d,
         found: [
             Found::Direction { direction, column: arm.perp(), arm },
             Found::Length { length: s, column: direction },
         ],
-        determinant: s.abs(),
-        beside: Vec::new(),
+        determinant: -s,
+        pivot: None,
+        apart: false,
     });
     place(assembly, dyad, direction)?;
     let travel =

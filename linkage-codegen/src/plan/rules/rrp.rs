@@ -19,7 +19,7 @@ use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::JointId;
 use crate::model::{Model, Side};
-use crate::plan::assembly::{Assembly, DyadPivot, Sign};
+use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Pivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::placement::Way;
@@ -161,6 +161,20 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         format!("travel_{name}"),
         format!("travel of the slide {name}: {}", if forwards { "h − e·Q" } else { "e·Q − h" }),
     );
+    let run = e.scaled(travel);
+    let (run, along) = if forwards { (run, e) } else { (-run, -e) };
+    let arm = direction.scaled(r);
+    assembly.closed(|| ClosedLoop {
+        name: inner.to_owned(),
+        residual: arm - (way.vector() + run),
+        found: [
+            Found::Direction { direction, column: arm.perp(), arm },
+            Found::Length { length: travel, column: -along },
+        ],
+        determinant: if forwards { r * cosine } else { -(r * cosine) },
+        pivot: Some(Pivot { value: cosine, again: direction.dot(e), slopes: None }),
+        apart: false,
+    });
     assembly.placement.set_travel(slide, travel);
     assembly.pivots.state(u, e, None, Some(pivot));
     assembly.dyads.push(DyadPivot::sine(dyad.model, dyad.inner, pivot));

@@ -24,7 +24,7 @@ use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Scalar, Vector};
 use crate::model::{Closure, End, Model, Side};
-use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Sign};
+use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Pivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::half_angle::{HalfAngle, first_dyad_on};
@@ -283,14 +283,16 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     if let [u1, u2] = closed[..] {
         let legs = [u1.scaled(r1), u2.scaled(-r2)];
         assembly.closed(|| ClosedLoop {
+            name: name.to_owned(),
             residual: legs[0] + legs[1] - closing.d,
             found: [(u1, legs[0]), (u2, legs[1])].map(|(direction, arm)| Found::Direction {
                 direction,
                 column: arm.perp(),
                 arm,
             }),
-            determinant: (r1 * r2 * sine).abs(),
-            beside: vec![(sine, u1.cross(u2))],
+            determinant: -(r1 * r2 * sine),
+            pivot: Some(Pivot { value: sine, again: u1.cross(u2), slopes: Some([-u1.dot(u2), u1.dot(u2)]) }),
+            apart: closing.sums.is_some(),
         });
     }
     let pivot = closing.significant.iter().fold(sine, |pivot, (value, limit)| pivot.where_above(*value, *limit));

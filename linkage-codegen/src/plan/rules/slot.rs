@@ -21,7 +21,7 @@ use super::{Rule, RuleResult};
 use crate::graph::{Expr, Failure, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model};
-use crate::plan::assembly::{Assembly, DyadPivot, Sign};
+use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Pivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
 use crate::plan::pivots::{Pivots, divisor};
@@ -248,6 +248,18 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<'
         (s, rough.scaled(correction.named(format!("correction_{name}"), "1.5 − 0.5 |rough|²")))
     };
     let direction = direction.named_direction(name, &format!("direction of the slot of {name}"));
+    let reach = direction.scaled(s) + direction.perp().scaled(h);
+    assembly.closed(|| ClosedLoop {
+        name: at.to_owned(),
+        residual: reach - d,
+        found: [
+            Found::Direction { direction, column: reach.perp(), arm: reach },
+            Found::Length { length: s, column: direction },
+        ],
+        determinant: -s,
+        pivot: None,
+        apart: false,
+    });
     assembly.placement.orient(link, Orientation { direction, axis });
     assembly.placement.connect(held);
     let travel = parts.signed(slot, s - datum.x).named(format!("travel_{at}"), format!("travel in the slot {at}"));
@@ -283,7 +295,7 @@ fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<
     let e = assembly.placement.slide_direction(slot);
     let way = assembly.placement.way(from, to);
     let Meeting { q, h, cosine, sine, pivot } = meet((r, slack), &way, e, ahead, [at, about], name.into());
-    let direction = Vector::new(cosine, sine).turned_by(e);
+    let mut direction = Vector::new(cosine, sine).turned_by(e);
     let axis = Vector::new(arm.x / r, arm.y / r);
     let orientation = if moves {
         // Its own slot moves the pin in the link: the link carries the direction of its frame.
@@ -293,11 +305,25 @@ fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<
         Orientation { direction, axis: Vector::new(r.graph().one(), r.graph().zero()) }
     } else {
         let meaning = format!("direction of {name} from {about} to {at}");
-        Orientation { direction: direction.named_direction(name, &meaning), axis }
+        direction = direction.named_direction(name, &meaning);
+        Orientation { direction, axis }
     };
     assembly.placement.orient(link, orientation);
     assembly.placement.connect(held);
     let travel = parts.signed(slot, h - q.x).named(format!("travel_{at}"), format!("travel in the slot {at}"));
+    let along = e.scaled(parts.signed(slot, r.graph().one()));
+    let reach = direction.scaled(r);
+    assembly.closed(|| ClosedLoop {
+        name: at.to_owned(),
+        residual: reach - (way.vector() + along.scaled(travel)),
+        found: [
+            Found::Direction { direction, column: reach.perp(), arm: reach },
+            Found::Length { length: travel, column: -along },
+        ],
+        determinant: parts.signed(slot, r * cosine),
+        pivot: Some(Pivot { value: cosine, again: direction.dot(e), slopes: None }),
+        apart: false,
+    });
     assembly.placement.set_travel(slot, travel);
     let u = assembly.placement.turned(link, axis);
     assembly.pivots.state(u, e, None, Some(pivot));
@@ -324,7 +350,9 @@ impl Rule for SlotAndSlide {
         assembly.placement.connect(slide);
         let carried_by_first = data.kind.line().is_some_and(|(carrier, _)| carrier == data.from.link);
         let (line, pin) = if carried_by_first { (data.from, data.to) } else { (data.to, data.from) };
-        let q = assembly.placement.way(line, pin).resolved_along(assembly.placement.slide_direction(slot));
+        let way = assembly.placement.way(line, pin);
+        let [e, m] = [slot, slide].map(|joint| assembly.placement.slide_direction(joint));
+        let q = way.resolved_along(e);
         let (sine, cosine) = inclination(&assembly.placement, &assembly.pivots, &parts);
         let (at, along) = (parts.joint_name(slot), parts.joint_name(slide));
         // Sliding forwards, the link takes the pin along, or the slot from under it.
@@ -337,6 +365,15 @@ impl Rule for SlotAndSlide {
             format!("travel of the slide {along}: {sign}(n·Q)/(n·m), Q from the slot {at} to its pin at no travel"),
         );
         assembly.placement.set_travel(slide, travel);
+        let taken = if parts.carries { m } else { -m };
+        assembly.closed(|| ClosedLoop {
+            name: at.to_owned(),
+            residual: e.scaled(run) + taken.scaled(ahead) - way.vector(),
+            found: [Found::Length { length: ahead, column: taken }, Found::Length { length: run, column: e }],
+            determinant: if parts.carries { -sine } else { sine },
+            pivot: None,
+            apart: false,
+        });
         let travel = parts.signed(slot, run).named(format!("travel_{at}"), format!("travel in the slot {at}"));
         assembly.placement.set_travel(slot, travel);
         Ok(())
