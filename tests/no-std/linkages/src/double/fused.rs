@@ -62,8 +62,12 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
         S_couple: &mut couple,
     };
     digest.sweep(linkage::cycle(&inputs, results));
-    for [p, q, r, s, t] in [torque, pin_x, pin_y, force_x, force_y, normal, couple] {
-        digest.put((((p, q), (r, s)), t));
+    let all = [torque, pin_x, pin_y, force_x, force_y, normal, couple];
+    let mut results = all.as_slice();
+    // By patterns: an iterator keeps a way to panic in unoptimised builds.
+    while let [[p, q, r, s, t], others @ ..] = results {
+        digest.put((((*p, *q), (*r, *s)), *t));
+        results = others;
     }
     let pose = match linkage::Pose::at(theta) {
         Ok(pose) => pose,
