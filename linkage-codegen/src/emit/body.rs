@@ -327,11 +327,13 @@ impl<'a> Body<'a> {
     fn call(&self, kernel: Kernel, args: &[ValueId]) -> TokenStream {
         let args = args.iter().map(|arg| self.value(*arg)).collect::<Vec<_>>();
         match kernel {
-            Kernel::SinCos if self.checks == Checks::Gathered => quote!(math::short_sin_cos(#(#args),*)),
-            Kernel::SinCos => quote!(math::sin_cos(#(#args),*)),
+            Kernel::SinCos => {
+                let function = self.sin_cos("sin_cos");
+                quote!(math::#function(#(#args),*))
+            }
             Kernel::SinCosSum(phase) => {
-                let function = if self.checks == Checks::Gathered { "short_sin_cos_sum" } else { "sin_cos_sum" };
-                let (function, (high, low)) = (ident(function), split(&self.graph.number(phase), self.graph.scalar()));
+                let function = self.sin_cos("sin_cos_sum");
+                let (high, low) = split(&self.graph.number(phase), self.graph.scalar());
                 quote!(math::#function(#(#args),*, #high, #low))
             }
             Kernel::Atan2 => quote!(math::atan2(#(#args),*)),
@@ -354,6 +356,13 @@ impl<'a> Body<'a> {
             }
             Kernel::Search { search, .. } => super::search::call(self.graph, &self.graph.search(search), &args),
         }
+    }
+
+    /// The function for sine and cosine in the linkage's arithmetic; without its branch if the checks are gathered.
+    fn sin_cos(&self, function: &str) -> proc_macro2::Ident {
+        let short = if self.checks == Checks::Gathered { "short_" } else { "" };
+        let fused = if self.graph.is_fused() { "fused_" } else { "" };
+        ident(&format!("{short}{fused}{function}"))
     }
 
     /// All statements.

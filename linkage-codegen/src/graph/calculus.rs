@@ -177,6 +177,8 @@ impl Graph {
     pub fn apply<T: Real>(&self, kernel: Kernel, args: &[T]) -> Vec<T> {
         let pair = |(first, second): (T, T)| vec![first, second];
         match kernel {
+            Kernel::SinCos if self.is_fused() => pair(args[0].fused_sin_cos()),
+            Kernel::SinCosSum(phase) if self.is_fused() => pair(args[0].fused_sin_cos_sum(&self.number(phase))),
             Kernel::SinCos => pair(args[0].sin_cos()),
             Kernel::SinCosSum(phase) => pair(args[0].sin_cos_sum(&self.number(phase))),
             Kernel::Atan2 => vec![args[0].atan2(&args[1])],

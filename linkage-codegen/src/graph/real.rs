@@ -41,6 +41,16 @@ pub trait Real: Clone {
     /// Sine and cosine of the sum with a constant.
     #[must_use]
     fn sin_cos_sum(&self, phase: &Number) -> (Self, Self);
+    /// [`sin_cos`](Real::sin_cos) in fused operations.
+    #[must_use]
+    fn fused_sin_cos(&self) -> (Self, Self) {
+        self.sin_cos()
+    }
+    /// [`sin_cos_sum`](Real::sin_cos_sum) in fused operations.
+    #[must_use]
+    fn fused_sin_cos_sum(&self, phase: &Number) -> (Self, Self) {
+        self.sin_cos_sum(phase)
+    }
     /// Angle of the direction `(x, self)`.
     #[must_use]
     fn atan2(&self, x: &Self) -> Self;

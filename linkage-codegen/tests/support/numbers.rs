@@ -58,6 +58,16 @@ macro_rules! scalar {
                 let (s, c) = math::$scalar::sin_cos_sum(self.0, high, rest.$to());
                 (Self(s), Self(c))
             }
+            fn fused_sin_cos(&self) -> (Self, Self) {
+                let (s, c) = math::$scalar::fused_sin_cos(self.0);
+                (Self(s), Self(c))
+            }
+            fn fused_sin_cos_sum(&self, phase: &Constant) -> (Self, Self) {
+                let high = phase.$to();
+                let rest = phase.sub(&Constant::from_f64(f64::from(high)).expect("finite"));
+                let (s, c) = math::$scalar::fused_sin_cos_sum(self.0, high, rest.$to());
+                (Self(s), Self(c))
+            }
             fn atan2(&self, x: &Self) -> Self {
                 Self(math::$scalar::atan2(self.0, x.0))
             }

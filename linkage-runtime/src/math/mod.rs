@@ -25,9 +25,10 @@ macro_rules! horner {
 
 /// The same polynomial with six coefficients, in pairs that do not wait for each other (Estrin 1960).
 macro_rules! estrin {
-    ($z:expr; $c0:expr, $c1:expr, $c2:expr, $c3:expr, $c4:expr, $c5:expr) => {{
-        let (z, z2) = ($z, $z * $z);
-        ($c0 + z * $c1) + z2 * (($c2 + z * $c3) + z2 * ($c4 + z * $c5))
+    ($z:expr; $c:expr) => {{
+        let (z, [c0, c1, c2, c3, c4, c5]) = ($z, $c);
+        let z2 = z * z;
+        ((c0 + z * c1) + z2 * (c2 + z * c3)) + (z2 * z2) * (c4 + z * c5)
     }};
 }
 

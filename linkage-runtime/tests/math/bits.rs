@@ -50,14 +50,18 @@ fn bits_of_f64() {
         Hash::of(4, |random| (double::atan2(random.signed(), random.signed()), 0.0), pair),
         Hash::of(5, |random| double::unit(random.signed(), random.signed()), pair),
         Hash::of(6, |random| double::polar(random.signed(), angle(random)), pair),
+        Hash::of(1, |random| double::fused_sin_cos(angle(random)), pair),
+        Hash::of(2, |random| double::fused_sin_cos_sum(angle(random), random.signed(), 1e-17 * random.signed()), pair),
     ];
     let pinned = [
-        0x238F_DB4A_4F8D_2A46,
-        0x146F_36FE_6E35_95FB,
+        0xA729_7BAE_3813_A92C,
+        0x9A27_209D_39B8_9488,
         0x3049_C228_8AAC_E864,
         0x3EA2_5F75_3044_C477,
         0x23EA_CDDF_90C3_D9FB,
-        0xE3EB_6549_7CAD_37B5,
+        0x9593_89C8_8FF9_49E3,
+        0xE2E8_6942_AB62_0CA9,
+        0x1741_2071_77C5_5D8E,
     ];
     assert_eq!(hashes, pinned, "{hashes:#X?}");
 }
@@ -72,6 +76,12 @@ fn bits_of_f32() {
         Hash::of(4, |random| (single::atan2(single(random), single(random)), 0.0), pair_f32),
         Hash::of(5, |random| single::unit(single(random), single(random)), pair_f32),
         Hash::of(6, |random| single::polar(single(random), angle_f32(random)), pair_f32),
+        Hash::of(1, |random| single::fused_sin_cos(angle_f32(random)), pair_f32),
+        Hash::of(
+            2,
+            |random| single::fused_sin_cos_sum(angle_f32(random), single(random), 1e-8 * single(random)),
+            pair_f32,
+        ),
     ];
     let pinned = [
         0xD9A7_2E17_3351_DBB8,
@@ -80,6 +90,8 @@ fn bits_of_f32() {
         0x4169_0337_EFE5_A823,
         0xB8E3_C961_BB4C_A400,
         0x207C_37C7_9266_E64F,
+        0xC505_8C60_1F06_F7A3,
+        0xE88C_F708_CE83_7CC1,
     ];
     assert_eq!(hashes, pinned, "{hashes:#X?}");
 }

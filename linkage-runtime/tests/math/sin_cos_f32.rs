@@ -1,4 +1,4 @@
-//! `math::f32::sin_cos` and `sin_cos_sum`, against those of `f64`.
+//! `math::f32::sin_cos` and `sin_cos_sum`, and both in fused operations, against those of `f64`.
 
 use linkage_runtime::math::{f32 as single, f64 as double};
 
@@ -12,17 +12,20 @@ const LAST: u32 = f32::MAX.to_bits();
 const BORDER: f32 = 402.0;
 
 fn check(name: &str, patterns: impl IntoIterator<Item = u32>) {
-    let mut worst = [Worst::default(), Worst::default()];
+    let mut worst = <[Worst; 4]>::default();
     for x in patterns.into_iter().map(f32::from_bits) {
-        let (sin, cos) = single::sin_cos(x);
-        let (true_sin, true_cos) = double::sin_cos(f64::from(x));
-        worst[0].see(ulps_f32(sin, true_sin), || format!("{x:e}"));
-        worst[1].see(ulps_f32(cos, true_cos), || format!("{x:e}"));
-        let (mirrored_sin, mirrored_cos) = single::sin_cos(-x);
-        assert_eq!((mirrored_sin.to_bits(), mirrored_cos.to_bits()), ((-sin).to_bits(), cos.to_bits()), "{x:e}");
+        let truth = double::sin_cos(f64::from(x));
+        for (functions, of) in worst.chunks_exact_mut(2).zip([single::sin_cos, single::fused_sin_cos]) {
+            let (sin, cos) = of(x);
+            functions[0].see(ulps_f32(sin, truth.0), || format!("{x:e}"));
+            functions[1].see(ulps_f32(cos, truth.1), || format!("{x:e}"));
+            let (mirrored_sin, mirrored_cos) = of(-x);
+            assert_eq!((mirrored_sin.to_bits(), mirrored_cos.to_bits()), ((-sin).to_bits(), cos.to_bits()), "{x:e}");
+        }
     }
-    worst[0].is_at_most(bounds::SIN_COS, &format!("sin, {name}"));
-    worst[1].is_at_most(bounds::SIN_COS, &format!("cos, {name}"));
+    for (worst, what) in worst.iter().zip(["sin", "cos", "fused sin", "fused cos"]) {
+        worst.is_at_most(bounds::SIN_COS, &format!("{what}, {name}"));
+    }
 }
 
 fn sums(count: usize) {
@@ -33,10 +36,11 @@ fn sums(count: usize) {
             let hi = (4.0 * random.signed()) as f32;
             let lo = hi * (random.signed() as f32) * f32::EPSILON;
             let x = make(&mut random, hi);
-            let (sin, cos) = single::sin_cos_sum(x, hi, lo);
+            let ((sin, cos), (fused_sin, fused_cos)) =
+                (single::sin_cos_sum(x, hi, lo), single::fused_sin_cos_sum(x, hi, lo));
             let (true_sin, true_cos) = double::sin_cos_sum(f64::from(x), f64::from(hi), f64::from(lo));
             let allowed = bounds::SUM_ALLOWANCE * f64::from(f32::EPSILON).powi(2) * f64::from(x.abs()).max(4.0);
-            for (got, truth) in [(sin, true_sin), (cos, true_cos)] {
+            for (got, truth) in [(sin, true_sin), (cos, true_cos), (fused_sin, true_sin), (fused_cos, true_cos)] {
                 let ulp = f64::from((truth as f32).abs().next_up() - (truth as f32).abs());
                 worst.see(ulps_f32(got, truth) - allowed / ulp, || format!("{x:e} + {hi:e} + {lo:e}"));
             }

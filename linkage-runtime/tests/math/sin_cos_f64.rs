@@ -1,6 +1,6 @@
-//! `math::f64::sin_cos` and `sin_cos_sum`.
+//! `math::f64::sin_cos` and `sin_cos_sum`, and both in fused operations.
 
-use linkage_runtime::math::f64::{sin_cos, sin_cos_sum};
+use linkage_runtime::math::f64::{fused_sin_cos, fused_sin_cos_sum, sin_cos, sin_cos_sum};
 
 use crate::bounds;
 use crate::reference::{Real, Reference, Worst, real, ulps};
@@ -10,15 +10,18 @@ use crate::sample::Random;
 const FAST_QUARTERS: u64 = 261_014;
 
 fn check(name: &str, arguments: impl IntoIterator<Item = f64>) {
-    let (mut reference, mut worst) = (Reference::new(), [Worst::default(), Worst::default()]);
+    let (mut reference, mut worst) = (Reference::new(), <[Worst; 4]>::default());
     for x in arguments {
-        let (sin, cos) = sin_cos(x);
         let (true_sin, true_cos) = reference.sin_cos(&real(x));
-        worst[0].see(ulps(sin, &true_sin), || format!("{x:e}"));
-        worst[1].see(ulps(cos, &true_cos), || format!("{x:e}"));
+        let ((sin, cos), (fused_sin, fused_cos)) = (sin_cos(x), fused_sin_cos(x));
+        let found = [(sin, &true_sin), (cos, &true_cos), (fused_sin, &true_sin), (fused_cos, &true_cos)];
+        for (worst, (got, truth)) in worst.iter_mut().zip(found) {
+            worst.see(ulps(got, truth), || format!("{x:e}"));
+        }
     }
-    worst[0].is_at_most(bounds::SIN_COS, &format!("sin, {name}"));
-    worst[1].is_at_most(bounds::SIN_COS, &format!("cos, {name}"));
+    for (worst, what) in worst.iter().zip(["sin", "cos", "fused sin", "fused cos"]) {
+        worst.is_at_most(bounds::SIN_COS, &format!("{what}, {name}"));
+    }
 }
 
 fn near_multiples(quarters: impl Iterator<Item = u64>) -> impl Iterator<Item = f64> {
@@ -70,11 +73,12 @@ fn phase(random: &mut Random) -> (f64, f64) {
 fn check_sums(name: &str, arguments: impl IntoIterator<Item = (f64, (f64, f64))>) {
     let (mut reference, mut worst) = (Reference::new(), Worst::default());
     for (x, (hi, lo)) in arguments {
-        let (sin, cos) = sin_cos_sum(x, hi, lo);
         let (true_sin, true_cos) = reference.sin_cos(&(real(x) + real(hi) + real(lo)));
         let allowed = bounds::SUM_ALLOWANCE * f64::EPSILON.powi(2) * x.abs().max(4.0);
-        worst.see(beyond(sin, &true_sin, allowed), || format!("sin, {x:e} + {hi:e} + {lo:e}"));
-        worst.see(beyond(cos, &true_cos, allowed), || format!("cos, {x:e} + {hi:e} + {lo:e}"));
+        for (what, (sin, cos)) in [("", sin_cos_sum(x, hi, lo)), ("fused ", fused_sin_cos_sum(x, hi, lo))] {
+            worst.see(beyond(sin, &true_sin, allowed), || format!("{what}sin, {x:e} + {hi:e} + {lo:e}"));
+            worst.see(beyond(cos, &true_cos, allowed), || format!("{what}cos, {x:e} + {hi:e} + {lo:e}"));
+        }
     }
     worst.is_at_most(bounds::SUM, &format!("sums, {name}"));
 }

@@ -6,7 +6,9 @@ macro_rules! special_values {
         mod $type {
             use std::$type::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-            use linkage_runtime::math::$type::{atan2, polar, sin_cos, sin_cos_sum, sqrt, unit};
+            use linkage_runtime::math::$type::{
+                atan2, fused_sin_cos, fused_sin_cos_sum, polar, sin_cos, sin_cos_sum, sqrt, unit,
+            };
 
             const BAD: [$type; 3] = [$type::NAN, $type::INFINITY, $type::NEG_INFINITY];
             const GOOD: [$type; 9] = [0.0, -0.0, 1.0, -2.5, $type::MAX, $type::MIN, $type::MIN_POSITIVE, TINY, 1e5];
@@ -24,15 +26,17 @@ macro_rules! special_values {
             #[test]
             fn what_is_not_finite_becomes_nan() {
                 for bad in BAD {
-                    assert!(all_nan(sin_cos(bad)));
-                    assert!(all_nan(sin_cos_sum(bad, 1.0, 0.0)));
+                    assert!(all_nan(sin_cos(bad)) && all_nan(fused_sin_cos(bad)));
+                    assert!(all_nan(sin_cos_sum(bad, 1.0, 0.0)) && all_nan(fused_sin_cos_sum(bad, 1.0, 0.0)));
                     for good in GOOD.into_iter().chain(BAD) {
                         for (a, b) in [(bad, good), (good, bad)] {
                             assert!(atan2(a, b).is_nan(), "atan2({a:e}, {b:e})");
                             assert!(all_nan(unit(a, b)), "unit({a:e}, {b:e})");
                             assert!(all_nan(polar(a, b)), "polar({a:e}, {b:e})");
                         }
-                        assert!(all_nan(sin_cos_sum(good, bad, 0.0)) && all_nan(sin_cos_sum(good, 1.0, bad)));
+                        for sum in [sin_cos_sum, fused_sin_cos_sum] {
+                            assert!(all_nan(sum(good, bad, 0.0)) && all_nan(sum(good, 1.0, bad)));
+                        }
                     }
                 }
                 assert!(sqrt($type::NAN).is_nan());
@@ -41,8 +45,9 @@ macro_rules! special_values {
             #[test]
             fn what_is_finite_stays_finite() {
                 for a in GOOD {
-                    let (sin, cos) = sin_cos(a);
-                    assert!(sin.abs() <= 1.0 && cos.abs() <= 1.0, "{a:e}");
+                    for (sin, cos) in [sin_cos(a), fused_sin_cos(a)] {
+                        assert!(sin.abs() <= 1.0 && cos.abs() <= 1.0, "{a:e}");
+                    }
                     for b in GOOD {
                         assert!(atan2(a, b).abs() <= PI, "atan2({a:e}, {b:e})");
                         let (x, y) = unit(a, b);
@@ -56,10 +61,12 @@ macro_rules! special_values {
             #[test]
             fn sine_of_small_angles_is_the_angle() {
                 for x in [0.0, TINY, 7.0 * TINY, $type::MIN_POSITIVE, 1e-30, $type::EPSILON / 4.0] {
-                    let ((sin, cos), (negative, _)) = (sin_cos(x), sin_cos(-x));
-                    same(sin, x);
-                    same(negative, -x);
-                    same(cos, 1.0);
+                    for sin_cos in [sin_cos, fused_sin_cos] {
+                        let ((sin, cos), (negative, _)) = (sin_cos(x), sin_cos(-x));
+                        same(sin, x);
+                        same(negative, -x);
+                        same(cos, 1.0);
+                    }
                 }
             }
 
@@ -110,9 +117,12 @@ macro_rules! special_values {
 
             #[test]
             fn a_sum_of_zeros_is_zero() {
-                assert_eq!(sin_cos_sum(0.0, 0.0, 0.0), (0.0, 1.0));
-                assert_eq!(sin_cos_sum(-1.5, 1.5, TINY), (TINY, 1.0));
+                for sum in [sin_cos_sum, fused_sin_cos_sum] {
+                    assert_eq!(sum(0.0, 0.0, 0.0), (0.0, 1.0));
+                    assert_eq!(sum(-1.5, 1.5, TINY), (TINY, 1.0));
+                }
                 assert_eq!(sin_cos_sum(1.25, 0.0, 0.0), sin_cos(1.25));
+                assert_eq!(fused_sin_cos_sum(1.25, 0.0, 0.0), fused_sin_cos(1.25));
             }
         }
     };

@@ -11,7 +11,11 @@ const FAST: f32 = 402.0;
 const FRAC_PI_2: [f32; 3] = [1.5707703, 2.6063062e-5, 6.0771006e-11];
 
 /// Adding and subtracting 1.5·2²³ rounds to an integer, whose last bits are then the last bits of the sum.
-const ROUND: f32 = 12582912.0;
+pub(super) const ROUND: f32 = 12582912.0;
+
+/// The coefficients of S and C, see [`sin_cos`].
+pub(super) const SINE: [f32; 3] = [0.16666646, -0.008331764, 0.00019471647];
+pub(super) const COSINE: [f32; 3] = [0.041666646, -0.001388731, 2.4432327e-5];
 
 /// The bit of an `f32` that is its sign.
 const SIGN: u32 = 1 << 31;
@@ -39,8 +43,14 @@ pub(super) struct Reduced {
 )]
 #[must_use]
 pub fn sin_cos(x: f32) -> (f32, f32) {
-    let reduced = if is_short(x) { reduce(x) } else { reduce_large(x) };
-    reduced.sin_cos()
+    if is_short(x) { reduce(x).sin_cos() } else { large_sin_cos(x) }
+}
+
+/// Out of line to the end, so that nothing of it has to be brought together with what is short.
+#[cold]
+#[inline(never)]
+fn large_sin_cos(x: f32) -> (f32, f32) {
+    reduce_large(x).sin_cos()
 }
 
 /// (sin, cos) of the real number x + hi + lo, which is not rounded before the reduction.
@@ -55,8 +65,13 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 #[must_use]
 pub fn sin_cos_sum(x: f32, hi: f32, lo: f32) -> (f32, f32) {
     let (sum, error) = two_sum(x, hi);
-    let reduced = if is_short(sum) { reduce(sum).plus(error + lo) } else { reduce_large_sum(sum, error, lo) };
-    reduced.sin_cos()
+    if is_short(sum) { reduce(sum).plus(error + lo).sin_cos() } else { large_sin_cos_sum(sum, error, lo) }
+}
+
+#[cold]
+#[inline(never)]
+fn large_sin_cos_sum(x: f32, hi: f32, lo: f32) -> (f32, f32) {
+    reduce_large_sum(x, hi, lo).sin_cos()
 }
 
 /// Whether the short reduction serves for an angle.
@@ -124,16 +139,22 @@ impl Reduced {
         let z = y * y;
         let half = 0.5 * z;
         let w = 1.0 - half;
-        let s = horner!(z; 0.16666646, -0.008331764, 0.00019471647);
-        let c = horner!(z; 0.041666646, -0.001388731, 2.4432327e-5);
+        let ([s0, s1, s2], [c0, c1, c2]) = (SINE, COSINE);
+        let (s, c) = (s0 + z * (s1 + z * s2), c0 + z * (c1 + z * c2));
         let sin = y - (z * y * s + t * w);
         let cos = w + (((1.0 - w) - half) + (z * z * c + y * t));
 
-        let (sin, cos) = (sin.to_bits(), cos.to_bits());
-        let exchange = (sin ^ cos) & (quadrant & 1).wrapping_neg();
-        let half_turn = (quadrant << 30) & SIGN;
-        let change = exchange ^ half_turn;
-        let quarter_turn = quadrant << 31;
-        (f32::from_bits(sin ^ change), f32::from_bits(cos ^ change ^ quarter_turn))
+        by_quadrant(quadrant, sin, cos)
     }
+}
+
+/// Sine and cosine of an angle from those of its distance from the next multiple of π/2.
+#[inline]
+pub(super) fn by_quadrant(quadrant: u32, sin: f32, cos: f32) -> (f32, f32) {
+    let (sin, cos) = (sin.to_bits(), cos.to_bits());
+    let exchange = (sin ^ cos) & (quadrant & 1).wrapping_neg();
+    let half_turn = (quadrant << 30) & SIGN;
+    let change = exchange ^ half_turn;
+    let quarter_turn = quadrant << 31;
+    (f32::from_bits(sin ^ change), f32::from_bits(cos ^ change ^ quarter_turn))
 }

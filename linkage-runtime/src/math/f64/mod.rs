@@ -1,12 +1,16 @@
 //! The functions in `f64`.
 
 mod atan2;
+mod fused;
 mod large;
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+mod pair;
 mod sin_cos;
 mod vector;
 
 pub use super::fused::mul_add;
 pub use super::sqrt::sqrt;
 pub use atan2::atan2;
+pub use fused::{fused_sin_cos, fused_sin_cos_sum, short_fused_sin_cos, short_fused_sin_cos_sum};
 pub use sin_cos::{is_short, short_sin_cos, short_sin_cos_sum, sin_cos, sin_cos_sum};
 pub use vector::{polar, unit};

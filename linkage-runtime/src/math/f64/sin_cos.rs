@@ -11,7 +11,25 @@ const FAST: f64 = 4.1e5;
 const FRAC_PI_2: [f64; 3] = [1.5707963267923333, 2.5633441515839558e-12, 1.0562999066987428e-23];
 
 /// Adding and subtracting 1.5·2⁵² rounds to an integer, whose last bits are then the last bits of the sum.
-const ROUND: f64 = 6755399441055744.0;
+pub(super) const ROUND: f64 = 6755399441055744.0;
+
+/// The coefficients of S and C, see [`sin_cos`].
+pub(super) const SINE: [f64; 6] = [
+    0.16666666666666596,
+    -0.008333333333314359,
+    0.00019841269823970287,
+    -2.755731184826506e-6,
+    2.5050493313348815e-8,
+    -1.588260855736768e-10,
+];
+pub(super) const COSINE: [f64; 6] = [
+    0.041666666666666595,
+    -0.0013888888888873342,
+    2.4801587289002052e-5,
+    -2.755731421702115e-7,
+    2.0875705392259066e-9,
+    -1.135874897753106e-11,
+];
 
 /// The bit of an `f64` that is its sign.
 const SIGN: u64 = 1 << 63;
@@ -27,8 +45,8 @@ pub(super) struct Reduced {
 ///
 /// Reduction with π/2 in three parts and a tail (Cody and Waite 1980, Ng 1992) for |x| ≤ 4.1·10⁵, without a branch;
 /// beyond, out of line, the exact product with 2/π in integers (Payne and Hanek 1983). Then sin y = y − y³S(y²) and
-/// cos y = 1 − y²/2 + y⁴C(y²), with six coefficients each, added up in pairs (Estrin 1960), found by Remez exchange for the least relative error on
-/// |y| ≤ π/4 and rounded one after the other, the rest refitted. S is weighted by 1 + 8(4y/π)⁸, because its rounding
+/// cos y = 1 − y²/2 + y⁴C(y²), with six coefficients each, added up in pairs (Estrin 1960), found by Remez exchange for
+/// the least relative error on |y| ≤ π/4 and rounded one after the other, the rest refitted. S is weighted by 1 + 8(4y/π)⁸, because its rounding
 /// errors count most at π/4: 0.063 ulp at most, 0.006 ulp there; C 0.001 ulp.
 ///
 /// Error: at most 0.82 ulp for every finite x, next to multiples of π/2 too. sin(−0) = −0. NaN if x is not finite.
@@ -39,8 +57,14 @@ pub(super) struct Reduced {
 )]
 #[must_use]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    let reduced = if is_short(x) { reduce(x) } else { reduce_large(x) };
-    reduced.sin_cos()
+    if is_short(x) { reduce(x).sin_cos() } else { large_sin_cos(x) }
+}
+
+/// Out of line to the end, so that nothing of it has to be brought together with what is short.
+#[cold]
+#[inline(never)]
+fn large_sin_cos(x: f64) -> (f64, f64) {
+    reduce_large(x).one_by_one()
 }
 
 /// (sin, cos) of the real number x + hi + lo, which is not rounded before the reduction.
@@ -55,8 +79,13 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
 #[must_use]
 pub fn sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
     let (sum, error) = two_sum(x, hi);
-    let reduced = if is_short(sum) { reduce(sum).plus(error + lo) } else { reduce_large_sum(sum, error, lo) };
-    reduced.sin_cos()
+    if is_short(sum) { reduce(sum).plus(error + lo).sin_cos() } else { large_sin_cos_sum(sum, error, lo) }
+}
+
+#[cold]
+#[inline(never)]
+fn large_sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
+    reduce_large_sum(x, hi, lo).one_by_one()
 }
 
 /// Whether the short reduction serves for an angle.
@@ -74,7 +103,7 @@ pub fn is_short(x: f64) -> bool {
 #[allow(clippy::inline_always, reason = "for loops that are vectorised")]
 #[must_use]
 pub fn short_sin_cos(x: f64) -> (f64, f64) {
-    reduce(x).sin_cos()
+    reduce(x).one_by_one()
 }
 
 /// [`sin_cos_sum`] without its branch: where the short reduction serves for x + hi.
@@ -84,7 +113,7 @@ pub fn short_sin_cos(x: f64) -> (f64, f64) {
 #[must_use]
 pub fn short_sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
     let (sum, error) = two_sum(x, hi);
-    reduce(sum).plus(error + lo).sin_cos()
+    reduce(sum).plus(error + lo).one_by_one()
 }
 
 /// a + b as a rounded sum and its error, exactly.
@@ -117,25 +146,37 @@ impl Reduced {
         Self { quadrant, y: sum, t: t - (y - sum) }
     }
 
+    /// Sine and cosine, whichever way is the faster: both have the same bits.
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "as `sin_cos`")]
+    fn sin_cos(self) -> (f64, f64) {
+        #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+        return super::pair::sin_cos(self);
+        #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+        self.one_by_one()
+    }
+
     /// The polynomials, exchanged and negated as the quadrant says. Every sum is arranged so that −0 stays −0.
     #[inline]
-    fn sin_cos(self) -> (f64, f64) {
+    fn one_by_one(self) -> (f64, f64) {
         let Self { quadrant, y, t } = self;
         let z = y * y;
         let half = 0.5 * z;
         let w = 1.0 - half;
-        let s = estrin!(z; 0.16666666666666596, -0.008333333333314359, 0.00019841269823970287,
-            -2.755731184826506e-6, 2.5050493313348815e-8, -1.588260855736768e-10);
-        let c = estrin!(z; 0.041666666666666595, -0.0013888888888873342, 2.4801587289002052e-5,
-            -2.755731421702115e-7, 2.0875705392259066e-9, -1.135874897753106e-11);
+        let (s, c) = (estrin!(z; SINE), estrin!(z; COSINE));
         let sin = y - (z * y * s + t * w);
         let cos = w + (((1.0 - w) - half) + (z * z * c + y * t));
-
-        let (sin, cos) = (sin.to_bits(), cos.to_bits());
-        let exchange = (sin ^ cos) & (quadrant & 1).wrapping_neg();
-        let half_turn = (quadrant << 62) & SIGN;
-        let change = exchange ^ half_turn;
-        let quarter_turn = quadrant << 63;
-        (f64::from_bits(sin ^ change), f64::from_bits(cos ^ change ^ quarter_turn))
+        by_quadrant(quadrant, sin, cos)
     }
+}
+
+/// Sine and cosine of an angle from those of its distance from the next multiple of π/2.
+#[inline]
+pub(super) fn by_quadrant(quadrant: u64, sin: f64, cos: f64) -> (f64, f64) {
+    let (sin, cos) = (sin.to_bits(), cos.to_bits());
+    let exchange = (sin ^ cos) & (quadrant & 1).wrapping_neg();
+    let half_turn = (quadrant << 62) & SIGN;
+    let change = exchange ^ half_turn;
+    let quarter_turn = quadrant << 63;
+    (f64::from_bits(sin ^ change), f64::from_bits(cos ^ change ^ quarter_turn))
 }
