@@ -247,6 +247,11 @@ macro_rules! linear {
         }
 
         /// The solution of linear equations, and how far they are from singular; as [`Factors`] say.
+        ///
+        /// One step of iterative refinement leaves of each equation what rounding makes of its own terms, a few `ε Σ|a x|`; elimination
+        /// alone leaves what it makes of the terms of all.
+        ///
+        /// R. D. Skeel, Iterative Refinement Implies Numerical Stability for Gaussian Elimination, 1980.
         #[must_use]
         pub fn solve<const N: usize>(
             matrix: [[$scalar; N]; N],
@@ -254,7 +259,32 @@ macro_rules! linear {
             right: [$scalar; N],
         ) -> ([$scalar; N], $scalar) {
             let factors = Factors::of(matrix, sizes);
-            (factors.solve(right), factors.distance())
+            let mut solution = factors.solve(right);
+            let correction = factors.solve(left_open(&matrix, &solution, right));
+            let mut rest = (solution.as_mut_slice(), correction.as_slice());
+            while let ([value, values @ ..], [more, others @ ..]) = rest {
+                *value += *more;
+                rest = (values, others);
+            }
+            (solution, factors.distance())
+        }
+
+        /// `b − A x`
+        fn left_open<const N: usize>(
+            matrix: &[[$scalar; N]; N],
+            solution: &[$scalar; N],
+            mut right: [$scalar; N],
+        ) -> [$scalar; N] {
+            let (mut lines, mut open) = (matrix.as_slice(), right.as_mut_slice());
+            while let ([line, others @ ..], [sum, sums @ ..]) = (lines, open) {
+                let mut rest = (line.as_slice(), solution.as_slice());
+                while let ([coefficient, coefficients @ ..], [value, values @ ..]) = rest {
+                    *sum -= *coefficient * *value;
+                    rest = (coefficients, values);
+                }
+                (lines, open) = (others, sums);
+            }
+            right
         }
     };
 }

@@ -118,8 +118,14 @@ impl<T: Real> Factors<T> {
     }
 }
 
-/// The solution of linear equations, and how far they are from singular. `None` where a pivot is zero.
+/// The solution of linear equations, refined, and how far they are from singular. `None` where a pivot is zero.
 pub(super) fn solve<T: Real>(matrix: &[Vec<T>], sizes: &[Vec<T>], right: &[T]) -> Option<(Vec<T>, T)> {
     let factors = Factors::of(matrix, sizes)?;
-    Some((factors.solve(right), factors.distance()))
+    let solution = factors.solve(right);
+    let left_open = |(line, right): (&Vec<T>, &T)| {
+        line.iter().zip(&solution).fold(right.clone(), |sum, (coefficient, value)| sum.sub(&coefficient.mul(value)))
+    };
+    let open: Vec<T> = matrix.iter().zip(right).map(left_open).collect();
+    let refined = solution.iter().zip(factors.solve(&open)).map(|(value, more)| value.add(&more));
+    Some((refined.collect(), factors.distance()))
 }
