@@ -1,6 +1,6 @@
 //! Sweeps by blocks of positions, several of which the processor computes at once.
 //!
-//! A position is computed without a branch: all results, and whether all checks hold. A loop over the positions of a block is then
+//! A position is computed without a branch: all results, and whether all checks hold. Loops over the positions of a block are then
 //! straight-line code, which the compiler turns into vector instructions; each of their operations is rounded as the scalar one is, so
 //! that the results have the same bits. Where a check fails, the function for a single position says why.
 
@@ -13,10 +13,23 @@ macro_rules! lanes {
         /// A number at each position of a block.
         pub type Column = [$scalar; BLOCK];
 
-        /// A sweep of a scene that reads `GIVEN` numbers and has `RESULTS` numbers.
-        pub trait Lanes<const GIVEN: usize, const RESULTS: usize> {
-            /// The results of a position, and whether all checks hold. If not, the numbers mean nothing.
-            fn lane(&self, given: [$scalar; GIVEN]) -> ([$scalar; RESULTS], bool);
+        /// Positions that are computed at once. One piece of memory: the compiler sees that columns do not overlap.
+        #[derive(Debug)]
+        pub struct Block<const GIVEN: usize, const KEPT: usize, const RESULTS: usize> {
+            /// What the scene reads.
+            pub given: [Column; GIVEN],
+            /// What one stage of the computation leaves for the next.
+            pub kept: [Column; KEPT],
+            /// What the scene finds.
+            pub results: [Column; RESULTS],
+            /// Positive where all checks hold. Elsewhere the numbers mean nothing.
+            pub holds: Column,
+        }
+
+        /// A sweep of a scene that reads `GIVEN` numbers, has `RESULTS` numbers, and keeps `KEPT` between its stages.
+        pub trait Lanes<const GIVEN: usize, const KEPT: usize, const RESULTS: usize> {
+            /// All positions of a block.
+            fn solve(&self, block: &mut Block<GIVEN, KEPT, RESULTS>);
 
             /// Lays out what is given from a position on, as far as there is something.
             fn give(&self, first: usize, given: &mut [Column; GIVEN]);
@@ -31,76 +44,83 @@ macro_rules! lanes {
         /// Solves one position after the other, up to the first without an answer.
         #[cfg(not(feature = "std"))]
         #[inline]
-        pub fn sweep<const GIVEN: usize, const RESULTS: usize>(
+        pub fn sweep<const GIVEN: usize, const KEPT: usize, const RESULTS: usize>(
             count: usize,
-            sweep: &mut impl Lanes<GIVEN, RESULTS>,
+            sweep: &mut impl Lanes<GIVEN, KEPT, RESULTS>,
         ) -> Result<(), crate::SweepError> {
             crate::sweep::sweep(count, |index| sweep.point(index))
         }
 
         /// Solves blocks of positions by the widest instructions that the processor has, up to the first position without an answer.
         #[cfg(feature = "std")]
-        pub fn sweep<const GIVEN: usize, const RESULTS: usize>(
+        pub fn sweep<const GIVEN: usize, const KEPT: usize, const RESULTS: usize>(
             count: usize,
-            sweep: &mut impl Lanes<GIVEN, RESULTS>,
+            sweep: &mut impl Lanes<GIVEN, KEPT, RESULTS>,
         ) -> Result<(), crate::SweepError> {
-            let processor = crate::processor::instructions();
-            let (mut given, mut results, mut holds) = ([[0.0; BLOCK]; GIVEN], [[0.0; BLOCK]; RESULTS], [0.0; BLOCK]);
-            let mut first = 0;
-            while first < count {
-                sweep.give(first, &mut given);
-                let (results_of, holds_of) = (&mut results, &mut holds);
-                processor.dispatch(Block { sweep: &*sweep, given: &given, results: results_of, holds: holds_of });
-                let lanes = BLOCK.min(count - first);
-                let mut from = 0;
-                while from < lanes {
-                    let right = holds.iter().take(lanes).skip(from).take_while(|holds| **holds > 0.0).count();
-                    sweep.take(first, from..from + right, &results);
-                    from += right;
-                    if from < lanes {
-                        let index = first + from;
-                        sweep.point(index).map_err(|error| crate::SweepError::Position { index, error })?;
-                        from += 1;
+            crate::processor::instructions().dispatch(Blocks { count, sweep })
+        }
+
+        /// All blocks of a sweep.
+        #[cfg(feature = "std")]
+        struct Blocks<'a, S, const GIVEN: usize, const KEPT: usize, const RESULTS: usize> {
+            count: usize,
+            sweep: &'a mut S,
+        }
+
+        #[cfg(feature = "std")]
+        impl<S: Lanes<GIVEN, KEPT, RESULTS>, const GIVEN: usize, const KEPT: usize, const RESULTS: usize> pulp::WithSimd
+            for Blocks<'_, S, GIVEN, KEPT, RESULTS>
+        {
+            type Output = Result<(), crate::SweepError>;
+
+            #[inline(always)]
+            fn with_simd<I: pulp::Simd>(self, _: I) -> Self::Output {
+                let Self { count, sweep } = self;
+                let empty = [0.0; BLOCK];
+                let mut block =
+                    Block { given: [empty; GIVEN], kept: [empty; KEPT], results: [empty; RESULTS], holds: empty };
+                for first in (0..count).step_by(BLOCK) {
+                    sweep.give(first, &mut block.given);
+                    sweep.solve(&mut block);
+                    let lanes = BLOCK.min(count - first);
+                    // Without an early end, so that many are looked at at once.
+                    if block.holds.iter().take(lanes).fold(true, |all, holds| all & (*holds > 0.0)) {
+                        sweep.take(first, 0..lanes, &block.results);
+                    } else {
+                        one_by_one(first, lanes, sweep, &block)?;
                     }
                 }
-                first += lanes;
+                Ok(())
+            }
+        }
+
+        /// A block in which checks fail: there the function for a single position has the last word.
+        #[cfg(feature = "std")]
+        #[cold]
+        #[inline(never)]
+        fn one_by_one<const GIVEN: usize, const KEPT: usize, const RESULTS: usize>(
+            first: usize,
+            lanes: usize,
+            sweep: &mut impl Lanes<GIVEN, KEPT, RESULTS>,
+            block: &Block<GIVEN, KEPT, RESULTS>,
+        ) -> Result<(), crate::SweepError> {
+            let mut from = 0;
+            while from < lanes {
+                let right = block.holds.iter().take(lanes).skip(from).take_while(|holds| **holds > 0.0).count();
+                sweep.take(first, from..from + right, &block.results);
+                from += right;
+                if from < lanes {
+                    let index = first + from;
+                    sweep.point(index).map_err(|error| crate::SweepError::Position { index, error })?;
+                    from += 1;
+                }
             }
             Ok(())
         }
 
-        /// All positions of a block.
-        #[cfg(feature = "std")]
-        struct Block<'a, S, const GIVEN: usize, const RESULTS: usize> {
-            sweep: &'a S,
-            given: &'a [Column; GIVEN],
-            results: &'a mut [Column; RESULTS],
-            holds: &'a mut Column,
-        }
-
-        #[cfg(feature = "std")]
-        impl<S: Lanes<GIVEN, RESULTS>, const GIVEN: usize, const RESULTS: usize> pulp::WithSimd
-            for Block<'_, S, GIVEN, RESULTS>
-        {
-            type Output = ();
-
-            #[inline(always)]
-            fn with_simd<I: pulp::Simd>(self, _: I) {
-                let Self { sweep, given, results, holds } = self;
-                for lane in 0..BLOCK {
-                    let (values, right) = sweep.lane(core::array::from_fn(
-                        #[inline(always)]
-                        |which| given[which][lane],
-                    ));
-                    for which in 0..RESULTS {
-                        results[which][lane] = values[which];
-                    }
-                    holds[lane] = if right { 1.0 } else { 0.0 };
-                }
-            }
-        }
-
         /// Lays out the parts of a series, each in a column of its own. What is the same everywhere stays where it is after the first
         /// block.
+        #[inline(always)]
         pub fn lay<T: Copy, const PARTS: usize>(
             series: &crate::Series<'_, T>,
             first: usize,
@@ -114,10 +134,17 @@ macro_rules! lanes {
                     }
                 }
                 crate::Series::Each(values) => {
-                    // A loop for each part: the compiler leaves out the others.
+                    let values = values.get(first..).unwrap_or_default();
+                    // A loop for each part: the compiler leaves out the others. A whole block has a length that it knows.
                     for (which, column) in columns.into_iter().enumerate() {
-                        for (place, value) in column.iter_mut().zip(values.get(first..).unwrap_or_default()) {
-                            *place = parts(*value)[which];
+                        if let Some(values) = values.first_chunk::<BLOCK>() {
+                            for (place, value) in column.iter_mut().zip(values) {
+                                *place = parts(*value)[which];
+                            }
+                        } else {
+                            for (place, value) in column.iter_mut().zip(values) {
+                                *place = parts(*value)[which];
+                            }
                         }
                     }
                 }
@@ -125,7 +152,14 @@ macro_rules! lanes {
         }
 
         /// Copies some lanes of the block that begins at a position to where results go.
+        #[inline(always)]
         pub fn put(to: &mut [$scalar], first: usize, lanes: core::ops::Range<usize>, column: &Column) {
+            if let Some(to) = to.get_mut(first..).and_then(|to| to.first_chunk_mut::<BLOCK>())
+                && lanes == (0..BLOCK)
+            {
+                *to = *column;
+                return;
+            }
             let places = first.wrapping_add(lanes.start)..first.wrapping_add(lanes.end);
             if let (Some(to), Some(from)) = (to.get_mut(places), column.get(lanes)) {
                 if to.len() == from.len() {

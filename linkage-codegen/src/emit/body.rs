@@ -113,9 +113,9 @@ impl<'a> Body<'a> {
     }
 
     /// All statements, without a branch, and the conditions under which the results mean something.
-    pub(super) fn straight(mut self) -> (TokenStream, Vec<TokenStream>, Self) {
+    pub(super) fn straight(mut self) -> (Vec<TokenStream>, Vec<TokenStream>, Self) {
         self.checks = Checks::Gathered;
-        let (statements, body) = self.statements();
+        let (statements, body) = self.each_statement();
         let angles: BTreeSet<(Kernel, Vec<ValueId>)> = body.kernels().collect();
         let angles = angles.into_iter().filter_map(|(kernel, args)| body.is_short(kernel, &args));
         let checks = body.program.steps.iter().filter_map(|step| match step {
@@ -366,7 +366,12 @@ impl<'a> Body<'a> {
     }
 
     /// All statements.
-    pub(super) fn statements(mut self) -> (TokenStream, Self) {
+    pub(super) fn statements(self) -> (TokenStream, Self) {
+        let (statements, body) = self.each_statement();
+        (statements.into_iter().collect(), body)
+    }
+
+    fn each_statement(mut self) -> (Vec<TokenStream>, Self) {
         let mut calls: Calls = BTreeMap::new();
         for step in &self.program.steps {
             if let Step::Let(value) = step
@@ -375,9 +380,9 @@ impl<'a> Body<'a> {
                 calls.entry((*kernel, args.clone())).or_default().push((*part, *value));
             }
         }
-        let mut statements = TokenStream::new();
+        let mut statements = Vec::new();
         for step in &self.program.steps {
-            statements.extend(match step {
+            statements.push(match step {
                 Step::Let(value) => self.let_statement(*value, &mut calls),
                 _ if self.checks == Checks::Gathered => TokenStream::new(),
                 Step::Check { guard, .. } => self.check(guard),
@@ -389,6 +394,7 @@ impl<'a> Body<'a> {
                 Step::FiniteResults(groups) => self.finite_results(groups),
             });
         }
+        statements.retain(|statement| !statement.is_empty());
         (statements, self)
     }
 

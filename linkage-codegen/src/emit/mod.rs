@@ -10,6 +10,7 @@ mod inverses;
 mod limits;
 mod literals;
 mod search;
+mod stages;
 mod sweeps;
 mod types;
 

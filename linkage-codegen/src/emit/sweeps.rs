@@ -7,6 +7,7 @@ use quote::quote;
 
 use super::functions::{body, input_name, lane_bindings, outputs};
 use super::literals::ident;
+use super::stages::{self, Stage, Work};
 use super::types::{drive_doc, given_motion, has_params, load_doc, motion_doc, motion_type, run_time_loads, scalar};
 use crate::Linkage;
 use crate::graph::{Kernel, Op, Symbol};
@@ -183,14 +184,13 @@ fn columns(linkage: &Linkage, program: &Program) -> Vec<(Ident, Vec<(TokenStream
 /// The positions of a sweep beside each other, and one by one.
 fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream) -> Lanes {
     let model = &linkage.model;
-    let scalar = scalar(model);
     let program = &linkage.functions.scenes[sweep.scene].direct;
     let [inputs_ty, results_ty] = sweep.types().map(|ty| ident(&ty));
     let ty = ident(&format!("{}Lanes", sweep.types()[1]));
     let columns = columns(linkage, program);
-    let given: Vec<&Ident> = columns.iter().flat_map(|(_, parts)| parts.iter().map(|(_, name)| name)).collect();
+    let given: Vec<Ident> = columns.iter().flat_map(|(_, parts)| parts.iter().map(|(_, name)| name.clone())).collect();
     let column = |name: &Ident| ident(&format!("{name}_lanes"));
-    let (given_columns, result_columns) = (given.iter().copied().map(column), fields.iter().map(column));
+    let (given_columns, result_columns) = (given.iter().map(column), fields.iter().map(column));
     let laid = columns.iter().map(|(series, parts)| {
         let names = parts.iter().map(|(_, name)| column(name));
         let parts = parts.iter().map(|(part, _)| part);
@@ -221,23 +221,55 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
     let shared = (!shared.is_empty()).then(|| quote!(let Self { #(#shared,)* .. } = *self;));
     let bindings = lane_bindings(linkage, program);
     let (statements, conditions, body) = body(linkage, program).straight();
-    let values = outputs(&body, program);
-    let holds = conditions.into_iter().reduce(|all, one| quote!(#all & #one)).unwrap_or_else(|| quote!(true));
+    let results = outputs(&body, program);
+    let stages = stages::stages(Work { statements, conditions, results }, &given);
+    let kept: Vec<Ident> = stages.iter().flat_map(|stage| &stage.keeps).cloned().collect();
+    let kept_count = Literal::usize_unsuffixed(kept.len());
+    let (taken, left) = (given.iter().map(column), kept.iter().map(column));
+    let into: Vec<Ident> = fields.iter().map(|field| ident(&format!("{field}_results"))).collect();
+    let mut checked = false;
+    let loops = stages.into_iter().map(|stage| {
+        let Stage { reads, statements, conditions, keeps, results } = stage;
+        let (from, to) = (reads.iter().map(column), keeps.iter().map(column));
+        let results = results.into_iter().map(|(place, value)| {
+            let column = &into[place];
+            quote!(#column[lane] = #value;)
+        });
+        // All conditions so far, those of the stages before among them.
+        let before = (checked && !conditions.is_empty()).then(|| quote!((holds[lane] > 0.0)));
+        checked |= !conditions.is_empty();
+        let holds = before.into_iter().chain(conditions).reduce(|all, one| quote!(#all & #one));
+        let holds = holds.map(|all| quote!(holds[lane] = if #all { 1.0 } else { 0.0 };));
+        quote! {
+            for lane in 0..math::BLOCK {
+                #(let #reads = #from[lane];)*
+                #statements
+                #(#to[lane] = #keeps;)*
+                #(#results)*
+                #holds
+            }
+        }
+    });
+    let loops: Vec<TokenStream> = loops.collect();
+    let always = (!checked).then(|| quote!(*holds = [1.0; math::BLOCK];));
     let doc = format!(" The positions of the sweep `{}`, of which several are computed at once.", sweep.name);
     let items = quote! {
         #[doc = #doc]
         struct #ty<'s, 'a> { #(#members,)* }
-        impl math::Lanes<#given_count, #results_count> for #ty<'_, '_> {
+        impl math::Lanes<#given_count, #kept_count, #results_count> for #ty<'_, '_> {
             #[inline(always)]
-            fn lane(&self, [#(#given),*]: [#scalar; #given_count]) -> ([#scalar; #results_count], bool) {
+            fn solve(&self, block: &mut math::Block<#given_count, #kept_count, #results_count>) {
                 #shared
                 #bindings
-                #statements
-                ([#(#values),*], #holds)
+                let math::Block { given: [#(#taken),*], kept: [#(#left),*], results: [#(#into),*], holds } = block;
+                #always
+                #(#loops)*
             }
+            #[inline(always)]
             fn give(&self, first: usize, [#(#given_columns),*]: &mut [math::Column; #given_count]) {
                 #(#laid)*
             }
+            #[inline(always)]
             fn take(&mut self, first: usize, lanes: ::core::ops::Range<usize>, [#(#result_columns),*]: &[math::Column; #results_count]) {
                 #(#put)*
             }

@@ -1,7 +1,7 @@
 //! Elementary functions with the same bits on every target.
 //!
-//! Only `+ − × ÷`, the square root, comparisons, integer operations and bit casts, in the order written: no fused
-//! multiply-add, no library of the platform. The same source therefore gives the same bits on a microcontroller without
+//! Only `+ − × ÷`, the square root, comparisons, integer operations and bit casts, in the order written: no library of
+//! the platform, and no fused multiply-add but in the functions that are named for it, where it is IEEE 754's everywhere. The same source therefore gives the same bits on a microcontroller without
 //! a floating-point unit, on a desktop and in a browser, at every optimisation level. Nothing panics, nothing allocates,
 //! and [`f32`](mod@f32) never touches an `f64`.
 //!

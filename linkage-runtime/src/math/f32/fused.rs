@@ -6,10 +6,10 @@ use super::super::fused::mul_addf as mul_add;
 use super::large::{reduce_large, reduce_large_sum};
 use super::sin_cos::{COSINE, ROUND, Reduced, SINE, by_quadrant, is_short, two_sum};
 
-/// π/2 in three parts. With the first, of all 24 bits, x − n·π/2 is exact when fused: a multiple of 2⁻²⁴ below 1. The second has 15
-/// significant bits, so that its product with |n| ≤ 2⁸ is exact, and is positive, so that −0 stays −0; all three together are off by less
-/// than 2⁻⁶⁴.
-const FRAC_PI_2: [f32; 3] = [1.5707963, 7.5498974e-08, -1.0746346e-12];
+/// π/2 in three parts. With the first, of all 24 bits and rounded down, x − n·π/2 is exact when fused: a multiple of 2⁻²⁴ below 1. The
+/// second has 15 significant bits, so that its product with |n| ≤ 2⁸ is exact, and is positive, so that −0 stays −0; all three together are
+/// off by less than 2⁻⁶⁴.
+const FRAC_PI_2: [f32; 3] = [f32::from_bits(0x3FC9_0FDA), 7.5498974e-8, -1.0746346e-12];
 
 /// (sin x, cos x), as [`sin_cos`](super::sin_cos()), every product that a sum reads added without being rounded.
 ///

@@ -8,7 +8,7 @@ use super::sin_cos::{COSINE, ROUND, Reduced, SINE, by_quadrant, is_short, two_su
 
 /// π/2 in three parts. With the first, of all 53 bits, x − n·π/2 is exact when fused: a multiple of 2⁻⁵³ below 1. The second has 35
 /// significant bits, so that its product with |n| ≤ 2¹⁸ is exact; all three together are off by less than 2⁻¹⁴⁵.
-const FRAC_PI_2: [f64; 3] = [1.5707963267948966, 6.123233995707727e-17, 2.9038559739793605e-28];
+const FRAC_PI_2: [f64; 3] = [core::f64::consts::FRAC_PI_2, 6.123233995707727e-17, 2.9038559739793605e-28];
 
 /// (sin x, cos x), as [`sin_cos`](super::sin_cos()), every product that a sum reads added without being rounded.
 ///

@@ -1,0 +1,237 @@
+//! Straight code for a block of positions in stages, each a loop of its own over the block.
+//!
+//! The processor works on as many positions at once as its window of instructions has room for. One loop over all of a scene fills it with
+//! a single position, whose operations wait for each other; loops over a few dozen operations let the next positions fill the gaps. Between
+//! stages numbers are kept in columns; a cut is made where few have to be.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use proc_macro2::{Ident, TokenStream, TokenTree};
+
+/// What is to be computed at each position.
+pub(super) struct Work {
+    /// `let` statements, in an order in which each reads only what stands before it.
+    pub(super) statements: Vec<TokenStream>,
+    /// Under which the results mean something.
+    pub(super) conditions: Vec<TokenStream>,
+    pub(super) results: Vec<TokenStream>,
+}
+
+struct Statement {
+    tokens: TokenStream,
+    defines: BTreeSet<Ident>,
+}
+
+impl Statement {
+    fn new(tokens: TokenStream) -> Self {
+        let pattern =
+            tokens.clone().into_iter().skip_while(|token| !matches!(token, TokenTree::Ident(name) if name == "let"));
+        let pattern =
+            pattern.skip(1).take_while(|token| !matches!(token, TokenTree::Punct(punct) if punct.as_char() == '='));
+        Self { defines: names(&pattern.collect()), tokens }
+    }
+}
+
+/// A loop over all positions.
+#[derive(Default)]
+pub(super) struct Stage {
+    /// What it takes out of columns.
+    pub(super) reads: Vec<Ident>,
+    pub(super) statements: TokenStream,
+    pub(super) conditions: Vec<TokenStream>,
+    /// What it leaves for later stages.
+    pub(super) keeps: Vec<Ident>,
+    /// Results, by their places among all.
+    pub(super) results: Vec<(usize, TokenStream)>,
+}
+
+/// Operations that a stage has, about. (Half as many or twice as many change little.)
+const LENGTH: usize = 40;
+/// A sine and cosine count as so many.
+const SINE: usize = 30;
+
+/// The stages of some work, of which the names in `given` are known before.
+pub(super) fn stages(work: Work, given: &[Ident]) -> Vec<Stage> {
+    let Work { statements, conditions, results } = work;
+    let statements: Vec<Statement> = statements.into_iter().map(Statement::new).collect();
+    let known: BTreeSet<String> =
+        statements.iter().flat_map(|one| &one.defines).chain(given).map(Ident::to_string).collect();
+    let reads = |tokens: &TokenStream| {
+        names(tokens).into_iter().filter(|name| known.contains(&name.to_string())).collect::<Vec<_>>()
+    };
+    let cuts = cuts(&statements);
+    // The stage that defines each name: what is given is there from the first on.
+    let mut stage_of: BTreeMap<String, usize> = BTreeMap::new();
+    let mut stages: Vec<Stage> = cuts.iter().map(|_| Stage::default()).collect();
+    let mut wanted: Vec<BTreeSet<Ident>> = vec![BTreeSet::new(); stages.len()];
+    let mut number = 0;
+    for (index, Statement { tokens, defines }) in statements.into_iter().enumerate() {
+        while index >= cuts[number] {
+            number += 1;
+        }
+        wanted[number].extend(reads(&tokens));
+        stage_of.extend(defines.into_iter().map(|name| (name.to_string(), number)));
+        stages[number].statements.extend(tokens);
+    }
+    let first_with = |tokens: &TokenStream, stage_of: &BTreeMap<String, usize>| {
+        reads(tokens).iter().filter_map(|name| stage_of.get(&name.to_string()).copied()).max().unwrap_or(0)
+    };
+    for condition in conditions {
+        let number = first_with(&condition, &stage_of);
+        wanted[number].extend(reads(&condition));
+        stages[number].conditions.push(condition);
+    }
+    for (place, result) in results.into_iter().enumerate() {
+        let number = first_with(&result, &stage_of);
+        wanted[number].extend(reads(&result));
+        stages[number].results.push((place, result));
+    }
+    for (number, names) in wanted.into_iter().enumerate() {
+        for name in names {
+            match stage_of.get(&name.to_string()) {
+                Some(own) if *own == number => {}
+                Some(earlier) => {
+                    let keeps = &mut stages[*earlier].keeps;
+                    if !keeps.contains(&name) {
+                        keeps.push(name.clone());
+                    }
+                    stages[number].reads.push(name);
+                }
+                None => stages[number].reads.push(name),
+            }
+        }
+    }
+    stages
+}
+
+/// For each stage, how many statements are before its end. Near the length that a stage should have it ends where the fewest names are
+/// read later.
+fn cuts(statements: &[Statement]) -> Vec<usize> {
+    let length: Vec<usize> = statements.iter().map(|one| operations(&one.tokens)).collect();
+    let mut last_read: BTreeMap<String, usize> = BTreeMap::new();
+    for (index, statement) in statements.iter().enumerate() {
+        last_read.extend(names(&statement.tokens).into_iter().map(|name| (name.to_string(), index)));
+    }
+    // How many names that are defined before an end are read behind it.
+    let kept = |end: usize| {
+        let names = statements[..end].iter().flat_map(|one| &one.defines);
+        names.filter(|name| last_read.get(&name.to_string()).is_some_and(|last| *last >= end)).count()
+    };
+    let mut cuts = Vec::new();
+    let mut begin = 0;
+    loop {
+        let (mut sum, mut best) = (0, None);
+        for end in begin + 1..statements.len() {
+            sum += length[end - 1];
+            if sum > LENGTH + LENGTH / 2 && best.is_some() {
+                break;
+            }
+            if sum >= LENGTH / 2 && best.is_none_or(|(least, _)| kept(end) <= least) {
+                best = Some((kept(end), end));
+            }
+        }
+        let rest: usize = length[begin..].iter().sum();
+        match best {
+            Some((_, end)) if rest > LENGTH + LENGTH / 2 => {
+                cuts.push(end);
+                begin = end;
+            }
+            _ => break,
+        }
+    }
+    cuts.push(statements.len());
+    cuts
+}
+
+/// How many operations a statement has, about.
+fn operations(tokens: &TokenStream) -> usize {
+    tokens
+        .clone()
+        .into_iter()
+        .map(|token| match token {
+            TokenTree::Group(group) => operations(&group.stream()),
+            TokenTree::Punct(punct) => usize::from("+-*/".contains(punct.as_char())),
+            TokenTree::Ident(name) if name.to_string().starts_with("short_") => SINE,
+            TokenTree::Ident(name) if name == "mul_add" || name == "sqrt" => 1,
+            TokenTree::Ident(_) | TokenTree::Literal(_) => 0,
+        })
+        .sum()
+}
+
+/// All identifiers.
+fn names(tokens: &TokenStream) -> BTreeSet<Ident> {
+    let mut found = BTreeSet::new();
+    for token in tokens.clone() {
+        match token {
+            TokenTree::Group(group) => found.extend(names(&group.stream())),
+            TokenTree::Ident(name) => {
+                found.insert(name);
+            }
+            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use proc_macro2::TokenStream;
+    use quote::{format_ident, quote};
+
+    use super::{LENGTH, Stage, Work, operations, stages};
+
+    /// A sine, then a chain of sums of two numbers: `x1 = x0 + x0 * sine` and so on; every tenth has a condition and a result.
+    fn chain(links: usize) -> Vec<Stage> {
+        let mut statements = vec![quote!(let (sine, _) = math::short_sin_cos(angle);)];
+        let (mut conditions, mut results) = (Vec::new(), Vec::new());
+        for link in 0..links {
+            let (from, to) = (format_ident!("x{link}"), format_ident!("x{}", link + 1));
+            statements.push(quote!(let #to = #from + #from * sine;));
+            if link % 10 == 0 {
+                conditions.push(quote!((#to > angle)));
+                results.push(quote!(#to));
+            }
+        }
+        stages(Work { statements, conditions, results }, &[format_ident!("angle"), format_ident!("x0")])
+    }
+
+    #[test]
+    fn a_stage_reads_what_is_given_or_kept_before() {
+        let stages = chain(200);
+        let mut known: BTreeSet<String> = ["angle", "x0"].map(str::to_owned).into();
+        for stage in &stages {
+            assert!(stage.reads.iter().all(|name| known.contains(&name.to_string())), "{:?}", stage.reads);
+            known.extend(stage.keeps.iter().map(ToString::to_string));
+        }
+        // The sine, and the chain's last link.
+        assert!(stages[1..stages.len() - 1].iter().all(|stage| stage.reads.len() <= 3 && stage.keeps.len() == 1));
+        let numbers: BTreeSet<usize> =
+            stages.iter().flat_map(|stage| stage.results.iter().map(|(place, _)| *place)).collect();
+        assert_eq!(numbers, (0..20).collect());
+        assert_eq!(stages.iter().map(|stage| stage.conditions.len()).sum::<usize>(), 20);
+    }
+
+    #[test]
+    fn stages_are_neither_long_nor_many() {
+        let work = |stage: &Stage| operations(&stage.statements);
+        let stages = chain(200);
+        assert!(
+            stages.iter().all(|stage| work(stage) <= 2 * LENGTH),
+            "{:?}",
+            stages.iter().map(work).collect::<Vec<_>>()
+        );
+        assert!(stages.len() <= 2 + 400 / (LENGTH / 2));
+        // What is short stays together.
+        assert_eq!(chain(5).len(), 1);
+        assert_eq!(
+            super::stages(
+                Work { statements: Vec::new(), conditions: Vec::new(), results: vec![TokenStream::new()] },
+                &[]
+            )
+            .len(),
+            1
+        );
+    }
+}
