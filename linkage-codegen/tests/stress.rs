@@ -580,10 +580,20 @@ fn special_triads(random: &mut Random) -> Vec<Family> {
     }
     let legs = [0, 1, 2].map(|i| along(angles[i], sizes[i]));
     let member = triad(pins, legs, random);
+    if which < 2 && !["f64", "f32"].into_iter().all(|scalar| closes_from_its_start(&member.text, scalar)) {
+        return Vec::new();
+    }
     let middle = member.range.0.midpoint(member.range.1);
     let reach = if which < 2 { distance } else { 1.0 } * 0.1;
     let drives = (0..6).map(|_| middle + random.range(-reach, reach)).collect();
     vec![member.poses(drives)]
+}
+
+/// Whether a pose is near: so close to a singular one lengths in single precision may leave none.
+fn closes_from_its_start(text: &str, scalar: &str) -> bool {
+    let declaration = text.replacen(';', &format!("; scalar {scalar};"), 1);
+    let refused = linkage_codegen::analyse(declaration.parse().expect("tokens")).err();
+    refused.is_none_or(|refusal| !refusal.errors.iter().all(|e| e.message().contains("from their starting pose")))
 }
 
 /// What a family gave: the worst of each measure in either scalar, how many poses, and the worst pose of each scalar.

@@ -49,7 +49,8 @@ macro_rules! linear {
 
             /// Takes the first of so many unknowns out by means of another equation.
             fn reduce(&mut self, pivot: &Self, unknowns: usize) {
-                let factor = self.first().0 / pivot.first().0;
+                let (first, first_size) = self.first();
+                let factor = first / pivot.first().0;
                 let (mut own, mut other, mut left) =
                     (self.coefficients.as_mut_slice(), pivot.coefficients.as_slice(), unknowns);
                 while let ([here, own_rest @ ..], [_, other_rest @ ..]) = (own, other) {
@@ -61,13 +62,16 @@ macro_rules! linear {
                     };
                     (own, other) = (own_rest, other_rest);
                 }
-                let factor_size = factor.abs();
-                let (mut own, mut other) = (self.sizes.as_mut_slice(), pivot.sizes.as_slice());
-                while let ([here, own_rest @ ..], [_, other_rest @ ..]) = (own, other) {
-                    if let ([next, ..], [value, ..]) = (&*own_rest, other_rest) {
-                        *here = *next + factor_size * *value;
+                // What the terms of all that goes into a coefficient contribute to it: also to one that was zero.
+                let (of_own, of_pivot) = (first_size / pivot.first().0.abs(), pivot.first().1 / pivot.first().0.abs());
+                let (factor_size, value_size) = (factor.abs(), of_own + factor.abs() * of_pivot);
+                let (mut own, mut other) =
+                    (self.sizes.as_mut_slice(), (pivot.sizes.as_slice(), pivot.coefficients.as_slice()));
+                while let ([here, own_rest @ ..], ([_, sizes @ ..], [_, values @ ..])) = (own, other) {
+                    if let ([next, ..], [size, ..], [value, ..]) = (&*own_rest, sizes, values) {
+                        *here = *next + factor_size * *size + value_size * value.abs();
                     }
-                    (own, other) = (own_rest, other_rest);
+                    (own, other) = (own_rest, (sizes, values));
                 }
             }
         }
@@ -309,6 +313,16 @@ mod tests {
         assert!(solve(matrix, matrix, [1.0, 1.0, 0.0]).1.abs() < 1e-15);
         let nothing = [[0.0; 3]; 3];
         assert!(!solve(nothing, nothing, [1.0; 3]).1.is_finite());
+    }
+
+    #[test]
+    fn a_coefficient_is_as_uncertain_as_what_eliminated_it() {
+        // The first coefficient of the second equation is a difference of terms as large as the others', and nothing but their rounding.
+        let matrix = [[1.0, 1.0, 0.0], [1e-16, 0.0, 1.0], [0.0, 0.0, 1.0]];
+        let sizes = [[1.0, 1.0, 0.0], [1.0, 0.0, 1.0], [0.0, 0.0, 1.0]];
+        assert!(solve(matrix, sizes, [1.0; 3]).1.abs() < 1e-15);
+        // Where that is all there is, a small one is as good as any.
+        assert!(solve(matrix, matrix, [1.0; 3]).1.abs() > 0.1);
     }
 
     #[test]

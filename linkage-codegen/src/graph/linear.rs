@@ -44,9 +44,13 @@ impl<T: Real> Line<T> {
         let factor = self.coefficients[0].div(&pivot.coefficients[0]);
         let less = |(own, other): (&T, &T)| own.sub(&factor.mul(other));
         self.coefficients = self.coefficients.iter().zip(&pivot.coefficients).skip(1).map(less).collect();
-        let size = factor.abs();
-        let more = |(own, other): (&T, &T)| own.add(&size.mul(other));
-        self.sizes = self.sizes.iter().zip(&pivot.sizes).skip(1).map(more).collect();
+        let divisor = pivot.coefficients[0].abs();
+        let (of_own, of_pivot) = (self.sizes[0].div(&divisor), pivot.sizes[0].div(&divisor));
+        let (factor_size, value_size) = (factor.abs(), of_own.add(&factor.abs().mul(&of_pivot)));
+        let more =
+            |(own, (size, value)): (&T, (&T, &T))| own.add(&factor_size.mul(size)).add(&value_size.mul(&value.abs()));
+        let others = pivot.sizes.iter().zip(&pivot.coefficients);
+        self.sizes = self.sizes.iter().zip(others).skip(1).map(more).collect();
         self.factors.push(factor);
     }
 }
