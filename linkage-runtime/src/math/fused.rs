@@ -30,3 +30,88 @@ pub fn mul_addf(a: f32, b: f32, c: f32) -> f32 {
     #[cfg(not(feature = "std"))]
     return foreign::fmaf(a, b, c);
 }
+
+/// Sine and cosine in fused operations, for `arithmetic fused;`: the coefficients of `sin_cos`, a shorter reduction, and bits of their own,
+/// the same on every target. Needs `mul_add`, `FRAC_PI_2` in three parts, and `polynomials`, S and C of y².
+macro_rules! fused_sines {
+    ($scalar:ident) => {
+        use super::large::{reduce_large, reduce_large_sum};
+        use super::sin_cos::{ROUND, Reduced, by_quadrant, is_short, two_sum};
+
+        /// (sin x, cos x), as [`sin_cos`](super::sin_cos()), every product that a sum reads added without being rounded.
+        ///
+        /// Error: at most 0.82 ulp for every finite x. sin(−0) = −0. NaN if x is not finite.
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
+        #[must_use]
+        pub fn fused_sin_cos(x: $scalar) -> ($scalar, $scalar) {
+            if is_short(x) { reduce(x).fused_sin_cos() } else { large_sin_cos(x) }
+        }
+
+        /// (sin, cos) of the real number x + hi + lo, as [`sin_cos_sum`](super::sin_cos_sum) with its error.
+        #[inline]
+        #[must_use]
+        pub fn fused_sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
+            let (sum, error) = two_sum(x, hi);
+            if is_short(sum) { reduce(sum).plus(error + lo).fused_sin_cos() } else { large_sin_cos_sum(sum, error, lo) }
+        }
+
+        #[cold]
+        #[inline(never)]
+        fn large_sin_cos(x: $scalar) -> ($scalar, $scalar) {
+            reduce_large(x).fused_sin_cos()
+        }
+
+        #[cold]
+        #[inline(never)]
+        fn large_sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
+            reduce_large_sum(x, hi, lo).fused_sin_cos()
+        }
+
+        /// [`fused_sin_cos`] without its branch: for angles for which the short reduction serves; elsewhere the numbers mean nothing.
+        #[doc(hidden)]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "for loops that are vectorised")]
+        #[must_use]
+        pub fn short_fused_sin_cos(x: $scalar) -> ($scalar, $scalar) {
+            reduce(x).fused_sin_cos()
+        }
+
+        /// [`fused_sin_cos_sum`] without its branch: where the short reduction serves for x + hi.
+        #[doc(hidden)]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "for loops that are vectorised")]
+        #[must_use]
+        pub fn short_fused_sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
+            let (sum, error) = two_sum(x, hi);
+            reduce(sum).plus(error + lo).fused_sin_cos()
+        }
+
+        /// Where the short reduction serves. Nothing is lost but by the sums that make y and t.
+        #[inline]
+        fn reduce(x: $scalar) -> Reduced {
+            let rounded = mul_add(x, core::$scalar::consts::FRAC_2_PI, ROUND);
+            let n = rounded - ROUND;
+            let x1 = mul_add(-n, FRAC_PI_2[0], x);
+            let w = n * FRAC_PI_2[1];
+            let y = x1 - w;
+            let t = mul_add(n, FRAC_PI_2[2], w - (x1 - y));
+            Reduced { quadrant: rounded.to_bits(), y, t }
+        }
+
+        impl Reduced {
+            /// The polynomials, exchanged and negated as the quadrant says. Every sum is arranged so that −0 stays −0.
+            #[inline]
+            fn fused_sin_cos(self) -> ($scalar, $scalar) {
+                let Self { quadrant, y, t } = self;
+                let z = y * y;
+                let (s, c) = polynomials(z);
+                let w = mul_add(-0.5, z, 1.0);
+                let sin = y - mul_add(z * y, s, t * w);
+                let cos = w + mul_add(z * z, c, mul_add(y, t, mul_add(-0.5, z, 1.0 - w)));
+                by_quadrant(quadrant, sin, cos)
+            }
+        }
+    };
+}
+pub(super) use fused_sines;

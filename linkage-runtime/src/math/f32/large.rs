@@ -20,7 +20,6 @@ const FRACTION: u32 = (1 << 23) - 1;
 /// skipped; m times the next 96 has the quadrant in its two leading bits and the fraction of a quadrant below them. No
 /// `f32` comes closer than 2⁻³⁰ to a multiple of π/2, so that of the 62 bits of fraction that are kept 32 count.
 #[cold]
-#[inline(never)]
 pub(super) fn reduce_large(x: f32) -> Reduced {
     let exponent = (x.to_bits() & !SIGN) >> 23;
     if exponent == 0xFF {
@@ -55,7 +54,6 @@ const TWO_POW_MINUS_24: f32 = 1.0 / (1_u32 << 24) as f32;
 
 /// The sum + error + lo for a sum beyond the short reduction, whose error may be as large as the constant.
 #[cold]
-#[inline(never)]
 pub(super) fn reduce_large_sum(sum: f32, error: f32, lo: f32) -> Reduced {
     let large = reduce_large(sum);
     let (near, rest) = two_sum(large.y, error);

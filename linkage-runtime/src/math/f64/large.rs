@@ -20,7 +20,6 @@ const FRACTION: u64 = (1 << 52) - 1;
 /// skipped; m times the next 192 has the quadrant in its two leading bits and the fraction of a quadrant below them. No
 /// `f64` comes closer than 2⁻⁶² to a multiple of π/2, so that of the 126 bits of fraction that are kept 64 count.
 #[cold]
-#[inline(never)]
 pub(super) fn reduce_large(x: f64) -> Reduced {
     let exponent = (x.to_bits() & !SIGN) >> 52;
     if exponent == 0x7FF {
@@ -55,7 +54,6 @@ const TWO_POW_MINUS_43: f64 = 1.0 / (1_u64 << 43) as f64;
 
 /// The sum + error + lo for a sum beyond the short reduction, whose error may be as large as the constant.
 #[cold]
-#[inline(never)]
 pub(super) fn reduce_large_sum(sum: f64, error: f64, lo: f64) -> Reduced {
     let large = reduce_large(sum);
     let (near, rest) = two_sum(large.y, error);

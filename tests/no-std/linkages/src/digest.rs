@@ -226,8 +226,6 @@ macro_rules! scalar {
                 digest.put(math::sqrt(x));
                 digest.put(math::sin_cos(angle));
                 digest.put(math::sin_cos_sum(angle, x, y));
-                digest.put(math::fused_sin_cos(angle));
-                digest.put(math::fused_sin_cos_sum(angle, x, y));
                 digest.put(math::atan2(y, x));
                 digest.put(math::unit(x, y));
                 digest.put(math::polar(x, angle));

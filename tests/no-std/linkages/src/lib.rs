@@ -25,6 +25,7 @@ macro_rules! each_linkage {
             double_math = double::math,
             double_adjustable = double::adjustable,
             double_four_bar = double::four_bar,
+            double_fused = double::fused,
             double_six_bar = double::six_bar,
             double_triad = double::triad,
             double_two_drives = double::two_drives,

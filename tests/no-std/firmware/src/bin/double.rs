@@ -11,6 +11,7 @@ pub extern "C" fn _start(input: &double::Inputs, digest: &mut Digest) {
     double::math::solve(input, digest);
     double::adjustable::solve(input, digest);
     double::four_bar::solve(input, digest);
+    double::fused::solve(input, digest);
     double::six_bar::solve(input, digest);
     double::triad::solve(input, digest);
     double::two_drives::solve(input, digest);

@@ -2,6 +2,7 @@
 
 pub mod adjustable;
 pub mod four_bar;
+pub mod fused;
 pub mod six_bar;
 pub mod triad;
 pub mod two_drives;
