@@ -82,6 +82,10 @@ fn supported(sample: &Sample) -> Option<Linkage> {
             Err(Fault::Failed(Failure::DeadCentre { .. } | Failure::Parameter { .. })) => {
                 let condition = solution_of_all(&linkage, &sample.arguments).map_or(f64::INFINITY, |(_, found)| found);
                 assert!(condition > SINGULAR, "refused at a condition of {condition:e}\n{}", sample.text);
+                for other in ["parts", "work"] {
+                    let found = scene::<Double>(&linkage, other, &sample.arguments);
+                    assert!(found.is_err(), "{other} is solved where the other is refused\n{}", sample.text);
+                }
                 None
             }
             _ => Some(linkage),

@@ -188,7 +188,8 @@ macro_rules! search {
                 scales: [$scalar; T],
             ) {
                 let open = sum_of_sizes(&residuals);
-                let (solution, sense) = solve(jacobian, magnitudes(jacobian), residuals);
+                let factors = Factors::of(jacobian, magnitudes(jacobian));
+                let (solution, sense) = (factors.solve(residuals), factors.distance());
                 let longest = largest(&solution);
                 let (begins, walks) = (self.open < 0.0, matches!(self.mode, Mode::Walks));
                 if begins {

@@ -35,23 +35,35 @@ macro_rules! support {
             if single < f32::MAX { single } else { f32::MAX }
         }
 
-        /// `[x, y]` of `a x + b y = e`, `c x + d y = f`, by elimination from the equation with the larger coefficient of x.
+        /// `[x, y]` of `a x + b y = e`, `c x + d y = f`, by elimination with the pivots of which the product is larger, `a d` or `c b`.
         ///
-        /// A regular pair is solved with a backward error of a few roundings; of a singular one the results are not finite.
+        /// So what elimination takes from a coefficient is no larger than that coefficient, however equations and unknowns are scaled: each
+        /// equation of a regular pair is solved to a few roundings of its own terms. Of a singular pair the results are not finite.
         #[inline]
         #[must_use]
         pub fn solve_2([[a, b], [c, d]]: [[$scalar; 2]; 2], [e, f]: [$scalar; 2]) -> ($scalar, $scalar) {
-            let (a, b, e, c, d, f) = if c.abs() > a.abs() { (c, d, f, a, b, e) } else { (a, b, e, c, d, f) };
+            let (a, b, e, c, d, f) =
+                if (b * c).abs() > (a * d).abs() { (c, d, f, a, b, e) } else { (a, b, e, c, d, f) };
             let factor = c / a;
             let y = (f - factor * e) / (d - factor * b);
             let x = (e - b * y) / a;
             (x, y)
         }
 
-        /// The solution of three equations, by elimination from the equation with the largest coefficient of the first unknown.
+        /// The solution of three equations, by elimination from the equation with the largest coefficient of the first unknown, and one
+        /// step of iterative refinement: as of any number of equations.
         #[inline]
         #[must_use]
-        pub fn solve_3(
+        pub fn solve_3(matrix: [[$scalar; 3]; 3], [e, f, g]: [$scalar; 3]) -> ($scalar, $scalar, $scalar) {
+            let (x, y, z) = eliminate_3(matrix, [e, f, g]);
+            let [[a0, a1, a2], [b0, b1, b2], [c0, c1, c2]] = matrix;
+            let open = [e - a0 * x - a1 * y - a2 * z, f - b0 * x - b1 * y - b2 * z, g - c0 * x - c1 * y - c2 * z];
+            let (more_x, more_y, more_z) = eliminate_3(matrix, open);
+            (x + more_x, y + more_y, z + more_z)
+        }
+
+        #[inline]
+        fn eliminate_3(
             [[a0, a1, a2], [b0, b1, b2], [c0, c1, c2]]: [[$scalar; 3]; 3],
             [a3, b3, c3]: [$scalar; 3],
         ) -> ($scalar, $scalar, $scalar) {
@@ -82,6 +94,9 @@ mod tests {
     fn small_systems_are_pivoted() {
         // Without an exchange of rows the first of each would divide by zero.
         assert_eq!(solve_2([[0.0, 2.0], [4.0, 1.0]], [6.0, 11.0]), (2.0, 3.0));
+        // With the larger of the first coefficients the first equation would have its terms' sum as 1.
+        let small = 2f64.powi(-60);
+        assert_eq!(solve_2([[1.0, small], [2.0, 2.0]], [2.0, 2.0 / small]), (1.0, 1.0 / small));
         let (x, y, z) = solve_3([[0.0, 1.0, 1.0], [0.0, 2.0, -1.0], [5.0, 1.0, 0.0]], [5.0, 1.0, 7.0]);
         assert_eq!((x, y, z), (1.0, 2.0, 3.0));
     }

@@ -8,6 +8,7 @@ pub(crate) mod bounds;
 mod calculus;
 mod expr;
 mod fold;
+mod linear;
 pub mod number;
 pub mod real;
 pub mod rounding;

@@ -64,20 +64,33 @@ pub trait Real: Clone {
         if Self::from_number(&Number::zero()).above(self) { self.neg() } else { self.clone() }
     }
 
-    /// `(x, y)` of `a x + b y = e`, `c x + d y = f`, with `a` the number itself: elimination from the equation with the larger
-    /// coefficient of x. The operations and their order are those of the run-time crate.
+    /// `(x, y)` of `a x + b y = e`, `c x + d y = f`, with `a` the number itself: elimination with the pivots of which the
+    /// product is larger. The operations and their order are those of the run-time crate.
     #[must_use]
     fn solve_2(&self, b: &Self, c: &Self, d: &Self, [e, f]: [&Self; 2]) -> (Self, Self) {
-        let (a, b, e, c, d, f) = if c.abs().above(&self.abs()) { (c, d, f, self, b, e) } else { (self, b, e, c, d, f) };
+        let exchanged = b.mul(c).abs().above(&self.mul(d).abs());
+        let (a, b, e, c, d, f) = if exchanged { (c, d, f, self, b, e) } else { (self, b, e, c, d, f) };
         let factor = c.div(a);
         let y = f.sub(&factor.mul(e)).div(&d.sub(&factor.mul(b)));
         let x = e.sub(&b.mul(&y)).div(a);
         (x, y)
     }
 
-    /// The solution of three equations, by elimination from the equation with the largest coefficient of the first unknown.
+    /// The solution of three equations, by elimination from the equation with the largest coefficient of the first unknown, refined once.
     #[must_use]
     fn solve_3(coefficients: &[Self], right: &[Self]) -> Vec<Self> {
+        let solution = Self::eliminate_3(coefficients, right);
+        let left_open = |(line, right): (&[Self], &Self)| {
+            line.iter().zip(&solution).fold(right.clone(), |sum, (factor, value)| sum.sub(&factor.mul(value)))
+        };
+        let open: Vec<Self> = coefficients.chunks(3).zip(right).map(left_open).collect();
+        let more = Self::eliminate_3(coefficients, &open);
+        solution.iter().zip(&more).map(|(value, more)| value.add(more)).collect()
+    }
+
+    /// The same without refinement.
+    #[must_use]
+    fn eliminate_3(coefficients: &[Self], right: &[Self]) -> Vec<Self> {
         let row = |i: usize| [&coefficients[3 * i], &coefficients[3 * i + 1], &coefficients[3 * i + 2], &right[i]];
         let mut rows = [row(0), row(1), row(2)];
         for other in [1, 2] {

@@ -1,8 +1,8 @@
-//! Groups that are placed by Newton's method, and linear equations of any number: the arithmetic of the run-time crate, operation by
-//! operation, for any number type.
+//! Groups that are placed by Newton's method: the arithmetic of the run-time crate, operation by operation, for any number type.
 
 use std::collections::HashMap;
 
+use super::linear::Factors;
 use super::number::Number;
 use super::real::Real;
 use super::{Expr, Graph, Kernel, NodeId, Op, Scalar, Stage, Symbol, Vector};
@@ -333,17 +333,6 @@ impl Graph {
         }
     }
 
-    /// The solution of linear equations, and their distance from singular ones: the smallest pivot over its size.
-    pub fn solved_any<'g>(&'g self, equations: &[(Vec<Expr<'g>>, Expr<'g>)]) -> (Vec<Expr<'g>>, Expr<'g>) {
-        let rows = equations.iter().map(|(row, _)| row);
-        let mut args: Vec<Expr<'g>> = rows.clone().flatten().copied().collect();
-        args.extend(rows.flatten().map(|coefficient| coefficient.magnitude()));
-        args.extend(equations.iter().map(|(_, right)| *right));
-        let size = u8::try_from(equations.len()).unwrap_or(u8::MAX);
-        let part = |part| self.kernel(Kernel::Solve(size), &args, part);
-        ((0..size).map(part).collect(), part(size))
-    }
-
     /// The results of a search.
     pub(super) fn searched<T: Real>(&self, id: SearchId, args: &[T]) -> Vec<T> {
         let search = self.search(id);
@@ -390,76 +379,6 @@ pub fn sought_direction(graph: &Graph, search: SearchId, first: u8) -> Vector<'_
 
 fn zero<T: Real>() -> T {
     T::from_number(&Number::zero())
-}
-
-struct Line<T> {
-    coefficients: Vec<T>,
-    sizes: Vec<T>,
-    right: T,
-    scale: T,
-}
-
-impl<T: Real> Line<T> {
-    fn weight(&self) -> Option<T> {
-        // Zero over zero is no weight.
-        self.scale.above(&zero()).then(|| self.coefficients[0].abs().div(&self.scale))
-    }
-
-    fn reduce(&mut self, pivot: &Self) {
-        let factor = self.coefficients[0].div(&pivot.coefficients[0]);
-        let less = |(own, other): (&T, &T)| own.sub(&factor.mul(other));
-        self.coefficients = self.coefficients.iter().zip(&pivot.coefficients).skip(1).map(less).collect();
-        let size = factor.abs();
-        let more = |(own, other): (&T, &T)| own.add(&size.mul(other));
-        self.sizes = self.sizes.iter().zip(&pivot.sizes).skip(1).map(more).collect();
-        self.right = self.right.sub(&factor.mul(&pivot.right));
-    }
-}
-
-/// The solution of linear equations, and the smallest pivot over its size with the sign of the determinant. `None` where a pivot is
-/// zero: by scalars that would give what is not a number.
-pub(super) fn solve<T: Real>(matrix: &[Vec<T>], sizes: &[Vec<T>], right: &[T]) -> Option<(Vec<T>, T)> {
-    let line = |((coefficients, sizes), right): ((&Vec<T>, &Vec<T>), &T)| {
-        let scale = coefficients.iter().fold(zero::<T>(), |m, c| if c.abs().above(&m) { c.abs() } else { m });
-        Line { coefficients: coefficients.clone(), sizes: sizes.clone(), right: right.clone(), scale }
-    };
-    let mut lines: Vec<Line<T>> = matrix.iter().zip(sizes).zip(right).map(line).collect();
-    let (mut least, mut negative): (Option<T>, bool) = (None, false);
-    for step in 0..lines.len() {
-        let (done, others) = lines.split_at_mut(step + 1);
-        let pivot = &mut done[step];
-        for line in others.iter_mut() {
-            if let (Some(own), Some(best)) = (line.weight(), pivot.weight())
-                && own.above(&best)
-            {
-                core::mem::swap(line, pivot);
-                negative = !negative;
-            }
-        }
-        let value = pivot.coefficients[0].clone();
-        if zero::<T>().above(&value) {
-            negative = !negative;
-        }
-        if !value.abs().above(&zero()) {
-            return None;
-        }
-        let distance = value.abs().div(&pivot.sizes[0]);
-        least = match least {
-            Some(least) if distance.at_least(&least) => Some(least),
-            _ => Some(distance),
-        };
-        for line in others {
-            line.reduce(pivot);
-        }
-    }
-    let mut solution: Vec<T> = Vec::new();
-    for line in lines.iter().rev() {
-        let behind = line.coefficients[1..].iter().zip(&solution);
-        let sum = behind.fold(line.right.clone(), |sum, (coefficient, value)| sum.sub(&coefficient.mul(value)));
-        solution.insert(0, sum.div(&line.coefficients[0]));
-    }
-    let least = least?;
-    Some((solution, if negative { least.neg() } else { least }))
 }
 
 /// Newton's method along the motion of the drives, as `Search` of the run-time crate.
@@ -611,11 +530,9 @@ impl<T: Real> Newton<T> {
     fn evaluated(&mut self, residuals: &[T], jacobian: &[Vec<T>], rounding: T, scales: Vec<T>) {
         let open = residuals.iter().fold(zero::<T>(), |sum, r| sum.add(&r.abs()));
         let sizes: Vec<Vec<T>> = jacobian.iter().map(|row| row.iter().map(Real::abs).collect()).collect();
-        let solved = solve(jacobian, &sizes, residuals);
-        let (solution, sense) = match solved {
-            Some((solution, sense)) => (Some(solution), Some(sense)),
-            None => (None, None),
-        };
+        let factors = Factors::of(jacobian, &sizes);
+        let solution = factors.as_ref().map(|factors| factors.solve(residuals));
+        let sense = factors.map(|factors| factors.distance());
         let longest: Size<T> = solution.as_ref().and_then(|solution| {
             let longest = solution.iter().fold(zero::<T>(), |m, s| if m.at_least(&s.abs()) { m } else { s.abs() });
             // What is no number is at least nothing.

@@ -11,7 +11,6 @@ use linkage_codegen::graph::{Coordinate, Expr, NodeId, Symbol};
 use linkage_codegen::model::ids::{GROUND, JointId, LinkId};
 use linkage_codegen::model::{JointKind, LoadKind, UnknownKind};
 use linkage_codegen::program::Fault;
-use linkage_codegen::topology::Group;
 use nalgebra::{DMatrix, DVector};
 
 use super::general::{General, coordinates, equations_at};
@@ -32,8 +31,7 @@ pub struct Measures {
     pub backward: f64,
     /// Largest residual of a free body over the sum of its forces, or of its moments.
     pub free_body: f64,
-    /// Torque by virtual work against equilibrium, over the sum of the terms' magnitudes; where a group has no closed form, and is badly
-    /// conditioned, over a part of its condition too.
+    /// Torque by virtual work against equilibrium, over the sum of the terms' magnitudes.
     pub torque: f64,
 }
 
@@ -105,20 +103,8 @@ pub fn measure<T: Number>(
     let terms = if is_moment(linkage, &unknown.name) { held.moments } else { held.forces }
         + work_terms(linkage, arguments, &unit_pose)
         + passed_power(linkage, &general, &solution);
-    // Where a block is solved once for its forces and once, transposed, for its virtual velocities, each elimination has a rounding of its
-    // own, and they differ in proportion to the condition of its equations.
-    let condition =
-        if linkage.plan.motion_rules.contains(&"block") { (condition(&general) / 80.0).max(1.0) } else { 1.0 };
-    let torque = over((all[&unknown.name].to_f64() - work[&unknown.name].to_f64()).abs(), terms) / epsilon / condition;
+    let torque = over((all[&unknown.name].to_f64() - work[&unknown.name].to_f64()).abs(), terms) / epsilon;
     Ok(Measures { unit, closure, backward, free_body, torque })
-}
-
-/// The condition of all equations, each over its largest coefficient.
-fn condition(general: &General<Extended>) -> f64 {
-    let n = general.matrix.len();
-    let line = |i: usize| general.matrix[i].iter().fold(0.0f64, |m, x| m.max(x.to_f64().abs()));
-    let values = DMatrix::from_fn(n, n, |i, j| general.matrix[i][j].to_f64() / line(i)).singular_values();
-    values.max() / values.min()
 }
 
 /// The sides of the longest loop, at least four: a leg's, and those of the ways over links that are placed before.
@@ -399,19 +385,24 @@ fn free_bodies(linkage: &Linkage, bodies: &[FreeBody]) -> f64 {
     residuals.fold(0.0, f64::max)
 }
 
-/// The power that passes between groups at the joints that are on neither the ground nor the driven link, where all its terms are counted
-/// already: `Σ|F||v|` at unit rate of the unknown's coordinate.
+/// The power that passes at joints of which no term is counted already, `Σ|F||v|` at unit rate of the unknown's coordinate: between groups
+/// at those that are on neither the ground nor the driven link; and where a group is one system of equations at all of its joints.
+///
+/// The torque of equilibrium is that of virtual work, and the power of what equilibrium leaves open of each free body and of what the virtual
+/// velocities leave open at each joint: a few roundings of their terms, and of these powers, whatever the condition of the equations.
 fn passed_power(linkage: &Linkage, general: &General<Extended>, solution: &[Extended]) -> f64 {
     let topology = &linkage.topology;
-    let links = |group: &Group, joint: JointId| {
-        linkage.model.joint(joint).ends().map(|end| end.link).into_iter().find(|link| !group.links.contains(link))
-    };
-    let between: Vec<(JointId, LinkId)> = topology
-        .motion
-        .iter()
-        .flat_map(|group| group.outer.iter().filter_map(|joint| Some((*joint, links(group, *joint)?))))
-        .filter(|(_, link)| link.index() > 1)
-        .collect();
+    let is_iterated = |index: usize| linkage.plan.motion_rules[index] == "block";
+    let passing = topology.motion.iter().enumerate().flat_map(|(index, group)| {
+        let inner = group.inner.iter().filter(move |_| is_iterated(index));
+        let end = move |joint: &JointId| {
+            let ends = linkage.model.joint(*joint).ends().map(|end| end.link);
+            let own = ends.into_iter().find(|link| group.links.contains(link) == is_iterated(index));
+            own.map(|link| (*joint, link))
+        };
+        group.outer.iter().chain(inner).filter_map(end)
+    });
+    let between: Vec<(JointId, LinkId)> = passing.filter(|(_, link)| link.index() > 1).collect();
     if between.is_empty() {
         return 0.0;
     }

@@ -160,8 +160,14 @@ impl<'p, 'm> Parts<'p, 'm> {
         Act::Force(neighbour, self.place(joint, neighbour), force.opposite())
     }
 
-    /// What the unit of a member's number does to its neighbours.
+    /// What the unit of a member's number does to its neighbours, if nothing else acts on it.
     fn unit_of_member(&self, member: &Member) -> Vec<Act<'m>> {
+        let [near, far] = self.units_at_ends(member);
+        near.into_iter().chain(far).collect()
+    }
+
+    /// The same at its near end and at its far one.
+    fn units_at_ends(&self, member: &Member) -> [Vec<Act<'m>>; 2] {
         let (one, zero) = (self.placement.graph().one(), self.placement.graph().zero());
         if self.is_slide(member.far) {
             // Across the slide at the pin; the guide holds it at the runner, and holds its moment.
@@ -169,15 +175,13 @@ impl<'p, 'm> Parts<'p, 'm> {
             let normal = Framed { components: Vector::new(zero, one), axes };
             let arm = self.slide_arm(member);
             let guide = self.other(member.far, member.link);
-            return vec![
-                self.passed_on(member.near, member.link, normal),
-                Act::Force(guide, self.place(member.far, guide), normal),
-                Act::Couple(guide, arm.x),
-            ];
+            let held = vec![Act::Force(guide, self.place(member.far, guide), normal), Act::Couple(guide, arm.x)];
+            return [vec![self.passed_on(member.near, member.link, normal)], held];
         }
         let (_, axes) = self.rod(member);
         let along = Framed { components: Vector::new(one, zero), axes };
-        vec![self.passed_on(member.near, member.link, along), self.passed_on(member.far, member.link, along.opposite())]
+        [(member.near, along), (member.far, along.opposite())]
+            .map(|(end, force)| vec![self.passed_on(end, member.link, force)])
     }
 
     /// From the runner of a slider to its pin, along and across the slide.
@@ -419,27 +423,29 @@ impl Rule for Block {
                 acts.push(Act::Couple(*link, moment));
             }
         }
-        let known = parts.column(&acts);
-        let columns = parts.matrix();
-        let equations = (0..known.len())
-            .map(|row| Equation { coefficients: columns.iter().map(|c| c[row]).collect(), right: -known[row] })
-            .collect();
+        let equations = equations(&parts, &acts, &ends);
         let along = |index: usize, value: Expr<'m>| {
             let name = format!("along_{}", model.link(parts.members[index].link).name);
             value.named(balance.name(&name), "force of the member, from the core")
         };
-        let unknown = |row: usize, value: Expr<'m>| match parts.unknowns[row] {
-            Unknown::Member(index) => along(index, value),
+        let unknown = |row: usize, value: Expr<'m>| match parts.unknowns.get(row) {
+            Some(Unknown::Member(index)) => along(*index, value),
             _ => value,
         };
-        let core = Core { name: &determinant, group: &links, spread: parts.spread(), unknown: &unknown };
-        let values = solve(graph, equations, core).map_err(|size| too_large(model, group, size))?;
+        let spread = parts.spread();
+        let core = Core { name: &determinant, group: &links, spread, refined: true, unknown: &unknown };
+        let values = solve(graph, &equations, core).map_err(|size| too_large(model, group, size))?;
         let values: Vec<Expr<'_>> = (0..values.len()).map(|row| unknown(row, values[row])).collect();
-        for (unknown, value) in parts.unknowns.iter().zip(&values) {
+        let (values, at_far_ends) = values.split_at(parts.unknowns.len());
+        let mut at_far_ends = at_far_ends.iter();
+        for (unknown, value) in parts.unknowns.iter().zip(values) {
             match *unknown {
-                Unknown::Member(index) => put_member(balance, &parts, &parts.members[index], &ends[index], *value),
+                Unknown::Member(index) => {
+                    let far = ends[index].balance.and_then(|_| at_far_ends.next());
+                    put_member(balance, &parts, &parts.members[index], &ends[index], (*value, far.copied()));
+                }
                 Unknown::Joint(joint, 0) => {
-                    let own = parts.unknowns.iter().zip(&values);
+                    let own = parts.unknowns.iter().zip(values);
                     let own = own.filter(|(unknown, _)| matches!(unknown, Unknown::Joint(of, _) if *of == joint));
                     put_joint(balance, joint, &own.map(|(_, value)| *value).collect::<Vec<_>>(), &links);
                 }
@@ -470,7 +476,7 @@ impl Rule for Block {
         }
         // The power of a unit of each unknown on all links is the rate of its coordinate: of an unknown of the joints zero, but for what
         // an acceleration has beyond a velocity.
-        let equations = parts
+        let equations: Vec<Equation<'m>> = parts
             .unknowns
             .iter()
             .zip(&columns)
@@ -481,12 +487,13 @@ impl Rule for Block {
                 };
                 let supposed =
                     parts.unit(*unknown).iter().fold(graph.zero(), |sum, act| sum + power(motion, &parts, act));
-                Equation { coefficients: column.clone(), right: own - supposed }
+                Equation { coefficients: column.clone(), right: own - supposed, gives: None }
             })
             .collect();
         let unknown = |row: usize, value: Expr<'m>| motion_of_free(motion, &parts, row, value);
-        let core = Core { name: &determinant, group: &links, spread: parts.spread(), unknown: &unknown };
-        let values = solve(graph, equations, core).map_err(|size| too_large(parts.model, group, size))?;
+        let spread = parts.spread();
+        let core = Core { name: &determinant, group: &links, spread, refined: false, unknown: &unknown };
+        let values = solve(graph, &equations, core).map_err(|size| too_large(parts.model, group, size))?;
         let mut row = 0;
         let mut pins: Vec<(JointId, Framed<'_>)> = Vec::new();
         for free in &parts.free {
@@ -564,6 +571,34 @@ fn too_large(model: &Model, group: &Group, size: usize) -> Diagnostic {
         .note(format!("its equilibrium equations leave a core of {size}; up to {CORE} are supported"))
 }
 
+/// The equations of all that is free, in the unknowns of the group; and of each member with a number of its own at its far end the balance
+/// of both.
+fn equations<'m>(parts: &Parts<'_, 'm>, known: &[Act<'m>], ends: &[MemberEnds<'m>]) -> Vec<Equation<'m>> {
+    let (one, zero) = (parts.placement.graph().one(), parts.placement.graph().zero());
+    let mut columns = parts.matrix();
+    let mut balances = Vec::new();
+    for (index, ends) in ends.iter().enumerate() {
+        let Some((of_near, right)) = ends.balance else { continue };
+        let member = &parts.members[index];
+        let [near, far] = parts.units_at_ends(member).map(|acts| parts.column(&acts));
+        // Of the unit at the near end, with the opposite at the far end of a rod.
+        let far = if parts.is_slide(member.far) { far } else { far.into_iter().map(|part| -part).collect() };
+        columns[index] = near;
+        columns.push(far);
+        balances.push((index, columns.len() - 1, of_near, right));
+    }
+    let known = parts.column(known);
+    let mut equations: Vec<Equation<'m>> = (0..known.len())
+        .map(|row| Equation { coefficients: columns.iter().map(|c| c[row]).collect(), right: -known[row], gives: None })
+        .collect();
+    for (near, far, of_near, right) in balances {
+        let mut coefficients = vec![zero; columns.len()];
+        (coefficients[near], coefficients[far]) = (of_near, one);
+        equations.push(Equation { coefficients, right, gives: Some(far) });
+    }
+    equations
+}
+
 /// The power of an act on a link. Members have no motion before their ends have one.
 fn power<'m>(motion: &Motion<'m, '_>, parts: &Parts<'_, 'm>, act: &Act<'m>) -> Expr<'m> {
     let moves = |link: LinkId| !parts.is_member(link);
@@ -586,6 +621,9 @@ struct MemberEnds<'m> {
     loads: Framed<'m>,
     /// What that does to its neighbours.
     acts: Vec<Act<'m>>,
+    /// Of a loaded member between links of the group the balance of the numbers at its ends, neither of which is the other one's rounding:
+    /// `coefficient · near + far = right`.
+    balance: Option<(Expr<'m>, Expr<'m>)>,
 }
 
 fn known_ends<'m>(balance: &Balance<'m, '_>, parts: &Parts<'_, 'm>, member: &Member) -> MemberEnds<'m> {
@@ -596,16 +634,18 @@ fn known_ends<'m>(balance: &Balance<'m, '_>, parts: &Parts<'_, 'm>, member: &Mem
         let total = loads.along(axes);
         // Along the slide the pin alone holds the loads; across it the guide does, and their moment about the runner.
         let near = Framed { components: Vector::new(-total.x, graph.zero()), axes };
-        let held = Framed { components: Vector::new(graph.zero(), total.y), axes };
+        let own = (member.within && !total.y.is_zero()).then(|| (-graph.one(), total.y));
+        let across = if own.is_some() { graph.zero() } else { total.y };
+        let held = Framed { components: Vector::new(graph.zero(), across), axes };
         let moment = balance.moment(member.link, parts.place(member.near, member.link), graph.one());
         let arm = parts.slide_arm(member);
         let guide = parts.other(member.far, member.link);
         let acts = vec![
             parts.passed_on(member.near, member.link, near),
             Act::Force(guide, parts.place(member.far, guide), held),
-            Act::Couple(guide, moment + arm.x * total.y),
+            Act::Couple(guide, moment + arm.x * across),
         ];
-        return MemberEnds { near, far: None, loads, acts };
+        return MemberEnds { near, far: None, loads, acts, balance: own };
     }
     let (length, axes) = parts.rod(member);
     let about = parts.place(member.far, member.link);
@@ -620,27 +660,28 @@ fn known_ends<'m>(balance: &Balance<'m, '_>, parts: &Parts<'_, 'm>, member: &Mem
         let far = parts.model.joint(member.far);
         let name = balance.name(&format!("across_{name}_at_{}", far.name));
         let across = across.named(name, format!("ΣM/length of the loads on {}", parts.model.link(member.link).name));
-        Framed { components: Vector::new(-loads.along(axes).x, across), axes }
+        Framed { components: Vector::new(graph.zero(), across), axes }
     });
     let far = own.unwrap_or_else(|| loads.plus(&near, ground).opposite());
     let acts = vec![parts.passed_on(member.near, member.link, near), parts.passed_on(member.far, member.link, far)];
-    MemberEnds { near, far: own, loads, acts }
+    let balance = own.map(|_| (graph.one(), -loads.along(axes).x));
+    MemberEnds { near, far: own, loads, acts, balance }
 }
 
-/// Records the forces at a member's ends.
+/// Records the forces at a member's ends, from its number at the near one, and at the far one if it has one of its own.
 fn put_member<'m>(
     balance: &mut Balance<'m, '_>,
     parts: &Parts<'_, 'm>,
     member: &Member,
     ends: &MemberEnds<'m>,
-    value: Expr<'m>,
+    (value, at_far_end): (Expr<'m>, Option<Expr<'m>>),
 ) {
     let (graph, ground) = (balance.graph(), parts.ground());
     let is_slide = parts.is_slide(member.far);
     let own = if is_slide { Vector::new(graph.zero(), value) } else { Vector::new(value, graph.zero()) };
     let near = Framed { components: ends.near.components + own, axes: ends.near.axes };
     if is_slide {
-        let across = ends.loads.along(near.axes).y + value;
+        let across = at_far_end.unwrap_or_else(|| ends.loads.along(near.axes).y + value);
         // The reaction of the guide needs the pin's force among what acts on the slider; another member may have put it there.
         if !parts.found_before(member.near, member.link) {
             balance.push(member.link, parts.place(member.near, member.link), near);
@@ -649,10 +690,12 @@ fn put_member<'m>(
         super::slide::guide(balance, member.far, member.link, across, parts.place(member.near, member.link));
     } else {
         let near = put_pin(balance, parts, member.near, member.link, near);
-        let far = ends.far.map_or_else(
-            || ends.loads.plus(&near, ground).opposite(),
-            |far| Framed { components: far.components - own, axes: far.axes },
-        );
+        let far = match (ends.far, at_far_end) {
+            (Some(far), Some(along)) => {
+                Framed { components: far.components + Vector::new(along, graph.zero()), axes: far.axes }
+            }
+            _ => ends.loads.plus(&near, ground).opposite(),
+        };
         put_pin(balance, parts, member.far, member.link, far);
     }
 }

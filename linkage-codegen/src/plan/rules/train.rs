@@ -80,7 +80,8 @@ impl Rule for Train {
             }
         }
         let equations = conditions(assembly, group).into_iter().map(|condition| {
-            let mut equation = Equation { coefficients: vec![graph.zero(); group.links.len()], right: condition.sum };
+            let mut equation =
+                Equation { coefficients: vec![graph.zero(); group.links.len()], right: condition.sum, gives: None };
             for (link, factor) in condition.factors {
                 match group.links.iter().position(|own| *own == link) {
                     Some(column) => equation.coefficients[column] = equation.coefficients[column] + factor,
@@ -91,9 +92,10 @@ impl Rule for Train {
         });
         let links = model.link_names(&group.links);
         let determinant = format!("det_{}", links.replace(" + ", "_"));
-        let equations = equations.collect();
-        let core = Core { name: &determinant, group: &links, spread: graph.one(), unknown: &|_, value| value };
-        let angles = solve(graph, equations, core).map_err(|_| crate::plan::unsupported(model, group, "place"))?;
+        let equations: Vec<Equation<'_>> = equations.collect();
+        let spread = graph.one();
+        let core = Core { name: &determinant, group: &links, spread, refined: false, unknown: &|_, value| value };
+        let angles = solve(graph, &equations, core).map_err(|_| crate::plan::unsupported(model, group, "place"))?;
         let x_axis = Vector::new(graph.one(), graph.zero());
         for (link, angle) in group.links.iter().zip(angles) {
             let name = &model.link(*link).name;
