@@ -77,7 +77,7 @@ macro_rules! linear {
         }
 
         /// A matrix as the product of triangular ones, by elimination with row-scaled partial pivoting. It serves any number of right
-        /// sides, and those of the transposed matrix.
+        /// sides.
         ///
         /// N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 9.
         #[derive(Clone, Copy)]
@@ -181,42 +181,6 @@ macro_rules! linear {
                 }
                 values
             }
-
-            /// `x` of `Aᵀ x = b`. Of singular equations it is not finite.
-            #[must_use]
-            pub fn solve_transposed(&self, right: [$scalar; N]) -> [$scalar; N] {
-                let mut values = right;
-                // Uᵀ y = b: what is found is taken away from all behind.
-                let (mut lines, mut open) = (self.lines.as_slice(), values.as_mut_slice());
-                while let ([line, below @ ..], [value, behind @ ..]) = (lines, open) {
-                    if let [pivot, coefficients @ ..] = line.coefficients.as_slice() {
-                        *value /= *pivot;
-                        let (mut rest, mut coefficients) = (&mut *behind, coefficients);
-                        while let ([other, others @ ..], [coefficient, coefficients_rest @ ..]) = (rest, coefficients) {
-                            *other -= *coefficient * *value;
-                            (rest, coefficients) = (others, coefficients_rest);
-                        }
-                    }
-                    (lines, open) = (below, behind);
-                }
-                // Lᵀ P x = y: the last one first.
-                let (mut lines, mut open) = (self.lines.as_slice(), values.as_mut_slice());
-                while let ([above @ .., line], [before @ .., value]) = (lines, open) {
-                    let (mut rest, mut factors) = (&mut *before, line.coefficients.as_slice());
-                    while let ([others @ .., other], [factors_rest @ .., factor]) = (rest, factors) {
-                        *other -= *factor * *value;
-                        (rest, factors) = (others, factors_rest);
-                    }
-                    (lines, open) = (above, before);
-                }
-                let mut solution = [0.0; N];
-                let mut rest = (self.lines.as_slice(), values.as_slice());
-                while let ([line, lines @ ..], [value, values @ ..]) = rest {
-                    put_numbered(&mut solution, line.number, *value);
-                    rest = (lines, values);
-                }
-                solution
-            }
         }
 
         /// All but the first.
@@ -237,17 +201,6 @@ macro_rules! linear {
                 (rest, number) = (others, number.wrapping_sub(1));
             }
             0.0
-        }
-
-        /// Puts the value of this number.
-        fn put_numbered(values: &mut [$scalar], number: usize, new: $scalar) {
-            let (mut rest, mut number) = (values, number);
-            while let [value, others @ ..] = rest {
-                if number == 0 {
-                    *value = new;
-                }
-                (rest, number) = (others, number.wrapping_sub(1));
-            }
         }
 
         /// The solution of linear equations, and how far they are from singular; as [`Factors`] say.
@@ -326,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn factors_serve_any_right_side_and_the_transposed_matrix() {
+    fn factors_serve_any_right_side() {
         // Pivots come from other lines than their own.
         let matrix = [
             [0.0, 2.0, 1.0, 0.0, 4.0],
@@ -341,7 +294,6 @@ mod tests {
             wanted[unknown] = 3.0;
             let near = |found: [f64; 5]| found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-14);
             assert!(near(factors.solve(matrix.map(|row| 3.0 * row[unknown]))));
-            assert!(near(factors.solve_transposed(matrix[unknown].map(|coefficient| 3.0 * coefficient))));
         }
     }
 }
