@@ -17,9 +17,14 @@ pub(super) struct Work {
     pub(super) results: Vec<TokenStream>,
 }
 
+/// Identifiers by their texts, which are compared more cheaply.
+type Names = BTreeMap<String, Ident>;
+
 struct Statement {
     tokens: TokenStream,
-    defines: BTreeSet<Ident>,
+    defines: Names,
+    /// What it defines among it.
+    names: Names,
 }
 
 impl Statement {
@@ -28,7 +33,7 @@ impl Statement {
             tokens.clone().into_iter().skip_while(|token| !matches!(token, TokenTree::Ident(name) if name == "let"));
         let pattern =
             pattern.skip(1).take_while(|token| !matches!(token, TokenTree::Punct(punct) if punct.as_char() == '='));
-        Self { defines: names(&pattern.collect()), tokens }
+        Self { defines: names(&pattern.collect()), names: names(&tokens), tokens }
     }
 }
 
@@ -45,7 +50,7 @@ pub(super) struct Stage {
     pub(super) results: Vec<(usize, TokenStream)>,
 }
 
-/// Operations that a stage has, about. (Half as many or twice as many change little.)
+/// Operations that a stage has, about.
 const LENGTH: usize = 40;
 /// A sine and cosine count as so many.
 const SINE: usize = 30;
@@ -54,51 +59,48 @@ const SINE: usize = 30;
 pub(super) fn stages(work: Work, given: &[Ident]) -> Vec<Stage> {
     let Work { statements, conditions, results } = work;
     let statements: Vec<Statement> = statements.into_iter().map(Statement::new).collect();
-    let known: BTreeSet<String> =
-        statements.iter().flat_map(|one| &one.defines).chain(given).map(Ident::to_string).collect();
-    let reads = |tokens: &TokenStream| {
-        names(tokens).into_iter().filter(|name| known.contains(&name.to_string())).collect::<Vec<_>>()
-    };
     let cuts = cuts(&statements);
-    // The stage that defines each name: what is given is there from the first on.
-    let mut stage_of: BTreeMap<String, usize> = BTreeMap::new();
     let mut stages: Vec<Stage> = cuts.iter().map(|_| Stage::default()).collect();
-    let mut wanted: Vec<BTreeSet<Ident>> = vec![BTreeSet::new(); stages.len()];
+    let mut wanted: Vec<Names> = vec![Names::new(); stages.len()];
+    // The stage that defines each name; of what is given, none.
+    let mut stage_of: BTreeMap<String, Option<usize>> = given.iter().map(|name| (name.to_string(), None)).collect();
     let mut number = 0;
-    for (index, Statement { tokens, defines }) in statements.into_iter().enumerate() {
+    for (index, Statement { tokens, defines, names }) in statements.into_iter().enumerate() {
         while index >= cuts[number] {
             number += 1;
         }
-        wanted[number].extend(reads(&tokens));
-        stage_of.extend(defines.into_iter().map(|name| (name.to_string(), number)));
+        stage_of.extend(defines.into_keys().map(|name| (name, Some(number))));
+        wanted[number].extend(names);
         stages[number].statements.extend(tokens);
     }
-    let first_with = |tokens: &TokenStream, stage_of: &BTreeMap<String, usize>| {
-        reads(tokens).iter().filter_map(|name| stage_of.get(&name.to_string()).copied()).max().unwrap_or(0)
+    // The first stage that knows all that something reads.
+    let mut reading = |tokens: &TokenStream| {
+        let names = names(tokens);
+        let number = names.keys().filter_map(|name| *stage_of.get(name)?).max().unwrap_or(0);
+        wanted[number].extend(names);
+        number
     };
     for condition in conditions {
-        let number = first_with(&condition, &stage_of);
-        wanted[number].extend(reads(&condition));
-        stages[number].conditions.push(condition);
+        stages[reading(&condition)].conditions.push(condition);
     }
     for (place, result) in results.into_iter().enumerate() {
-        let number = first_with(&result, &stage_of);
-        wanted[number].extend(reads(&result));
-        stages[number].results.push((place, result));
+        stages[reading(&result)].results.push((place, result));
     }
+    let mut kept = BTreeSet::new();
     for (number, names) in wanted.into_iter().enumerate() {
-        for name in names {
-            match stage_of.get(&name.to_string()) {
-                Some(own) if *own == number => {}
-                Some(earlier) => {
-                    let keeps = &mut stages[*earlier].keeps;
-                    if !keeps.contains(&name) {
-                        keeps.push(name.clone());
+        for (text, name) in names {
+            match stage_of.get(&text) {
+                // A function, a constant, or what is the same at every position; or its own.
+                None => continue,
+                Some(Some(own)) if *own == number => continue,
+                Some(Some(earlier)) => {
+                    if kept.insert(text) {
+                        stages[*earlier].keeps.push(name.clone());
                     }
-                    stages[number].reads.push(name);
                 }
-                None => stages[number].reads.push(name),
+                Some(None) => {}
             }
+            stages[number].reads.push(name);
         }
     }
     stages
@@ -108,39 +110,47 @@ pub(super) fn stages(work: Work, given: &[Ident]) -> Vec<Stage> {
 /// read later.
 fn cuts(statements: &[Statement]) -> Vec<usize> {
     let length: Vec<usize> = statements.iter().map(|one| operations(&one.tokens)).collect();
-    let mut last_read: BTreeMap<String, usize> = BTreeMap::new();
-    for (index, statement) in statements.iter().enumerate() {
-        last_read.extend(names(&statement.tokens).into_iter().map(|name| (name.to_string(), index)));
-    }
-    // How many names that are defined before an end are read behind it.
-    let kept = |end: usize| {
-        let names = statements[..end].iter().flat_map(|one| &one.defines);
-        names.filter(|name| last_read.get(&name.to_string()).is_some_and(|last| *last >= end)).count()
-    };
+    let kept = kept(statements);
     let mut cuts = Vec::new();
-    let mut begin = 0;
-    loop {
+    let (mut begin, mut rest) = (0, length.iter().sum::<usize>());
+    while rest > LENGTH + LENGTH / 2 {
         let (mut sum, mut best) = (0, None);
         for end in begin + 1..statements.len() {
             sum += length[end - 1];
             if sum > LENGTH + LENGTH / 2 && best.is_some() {
                 break;
             }
-            if sum >= LENGTH / 2 && best.is_none_or(|(least, _)| kept(end) <= least) {
-                best = Some((kept(end), end));
+            if sum >= LENGTH / 2 && best.is_none_or(|(least, _)| kept[end] <= least) {
+                best = Some((kept[end], end));
             }
         }
-        let rest: usize = length[begin..].iter().sum();
-        match best {
-            Some((_, end)) if rest > LENGTH + LENGTH / 2 => {
-                cuts.push(end);
-                begin = end;
-            }
-            _ => break,
-        }
+        let Some((_, end)) = best else { break };
+        cuts.push(end);
+        rest -= length[begin..end].iter().sum::<usize>();
+        begin = end;
     }
     cuts.push(statements.len());
     cuts
+}
+
+/// For each number of statements, how many names that these define are read by others.
+fn kept(statements: &[Statement]) -> Vec<usize> {
+    let mut last_read: BTreeMap<&str, usize> = BTreeMap::new();
+    for (index, statement) in statements.iter().enumerate() {
+        last_read.extend(statement.names.keys().map(|name| (name.as_str(), index)));
+    }
+    let mut ends = vec![0; statements.len()];
+    let mut open = 0;
+    let mut kept = vec![0];
+    for (index, statement) in statements.iter().enumerate() {
+        open += statement.defines.len();
+        for name in statement.defines.keys() {
+            ends[last_read[name.as_str()]] += 1;
+        }
+        open -= ends[index];
+        kept.push(open);
+    }
+    kept
 }
 
 /// How many operations a statement has, about.
@@ -159,13 +169,13 @@ fn operations(tokens: &TokenStream) -> usize {
 }
 
 /// All identifiers.
-fn names(tokens: &TokenStream) -> BTreeSet<Ident> {
-    let mut found = BTreeSet::new();
+fn names(tokens: &TokenStream) -> Names {
+    let mut found = Names::new();
     for token in tokens.clone() {
         match token {
             TokenTree::Group(group) => found.extend(names(&group.stream())),
             TokenTree::Ident(name) => {
-                found.insert(name);
+                found.insert(name.to_string(), name);
             }
             TokenTree::Punct(_) | TokenTree::Literal(_) => {}
         }
