@@ -14,11 +14,21 @@ use crate::graph::{Expr, Graph, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
 use crate::model::{End, JointKind, Model};
 
-/// What acts on a link: forces at places along and across its direction, and a couple.
+/// What acts on a link: forces and a couple.
 #[derive(Clone, Debug)]
 struct Wrench<'m> {
-    forces: Vec<(Vector<'m>, Framed<'m>)>,
+    forces: Vec<Acting<'m>>,
     couple: Expr<'m>,
+}
+
+/// A force on a link.
+#[derive(Clone, Copy, Debug)]
+struct Acting<'m> {
+    /// Its place along and across the link's direction.
+    at: Vector<'m>,
+    force: Framed<'m>,
+    /// Whether it is a load, which is given, and not what a joint was found to exert.
+    is_load: bool,
 }
 
 /// The reaction of a joint on its second link, at the joint's place on it; of a gear pair where the wheels touch.
@@ -58,7 +68,7 @@ impl<'m, 'p> Balance<'m, 'p> {
                 Action::Force { link, at, force, frame } => {
                     let at = placement.carried(link, at.vector(graph));
                     let force = balance.force_in_frame(force.vector(graph), frame);
-                    balance.push(link, at, force);
+                    balance.act(link, Acting { at, force, is_load: true });
                 }
                 Action::Couple { link, moment } => balance.couple(link, graph.expr(moment)),
             }
@@ -90,16 +100,24 @@ impl<'m, 'p> Balance<'m, 'p> {
         Framed { components, axes: self.placement.direction(GROUND) }
     }
 
-    /// Puts a force on a link, at a place along and across its direction. Forces at one place are added up.
+    /// Puts the force of a joint on a link, at a place along and across its direction.
     pub fn push(&mut self, link: LinkId, at: Vector<'m>, force: Framed<'m>) {
-        if link == GROUND || force.components.is_zero() {
+        self.act(link, Acting { at, force, is_load: false });
+    }
+
+    /// Forces at one place are added up.
+    fn act(&mut self, link: LinkId, acting: Acting<'m>) {
+        if link == GROUND || acting.force.components.is_zero() {
             return;
         }
         let ground = self.placement.direction(GROUND);
         let forces = &mut self.wrenches[link.index()].forces;
-        match forces.iter_mut().find(|(place, _)| *place == at) {
-            Some((_, there)) => *there = there.plus(&force, ground),
-            None => forces.push((at, force)),
+        match forces.iter_mut().find(|there| there.at == acting.at) {
+            Some(there) => {
+                there.force = there.force.plus(&acting.force, ground);
+                there.is_load &= acting.is_load;
+            }
+            None => forces.push(acting),
         }
     }
 
@@ -111,30 +129,53 @@ impl<'m, 'p> Balance<'m, 'p> {
 
     /// Puts a force at a place and a couple in the stead of all that acts on a link.
     pub fn reduce(&mut self, link: LinkId, at: Vector<'m>, force: Framed<'m>, couple: Expr<'m>) {
-        self.wrenches[link.index()] = Wrench { forces: vec![(at, force)], couple };
+        self.wrenches[link.index()] = Wrench { forces: vec![Acting { at, force, is_load: false }], couple };
     }
 
     /// The sum of the forces on a link.
     #[must_use]
     pub fn total(&self, link: LinkId) -> Framed<'m> {
         let ground = self.placement.direction(GROUND);
-        let forces = self.wrenches[link.index()].forces.iter().map(|(_, force)| *force);
+        let forces = self.wrenches[link.index()].forces.iter().map(|acting| acting.force);
         forces
             .reduce(|sum, force| sum.plus(&force, ground))
             .unwrap_or(Framed { components: self.graph().zero_vector(), axes: ground })
     }
 
-    /// The sum of the moments on a link about a place along and across its direction, times a factor:
-    /// `factor Σ (r × F) + factor C`.
+    /// The sum of the moments on a link about a place along and across its direction u, times a factor: `factor Σ (r × F) + factor C`.
+    ///
+    /// What is known first is multiplied first. Loads in ground axes are turned by their arms r along and across u, and added up:
+    /// `Σ (r × F) = u × Σ (r·F, r × F)`; for reactions, which are found later than directions, the arms are turned by u. An arm along the
+    /// link, or across it, is one factor of the moment instead, but for loads that are added up.
     #[must_use]
     pub fn moment(&self, link: LinkId, about: Vector<'m>, factor: Expr<'m>) -> Expr<'m> {
-        let direction = self.placement.direction(link);
+        let (direction, ground) = (self.placement.direction(link), self.placement.direction(GROUND));
         let wrench = &self.wrenches[link.index()];
-        let moments = wrench.forces.iter().map(|(at, force)| {
+        let mut sum = factor * wrench.couple;
+        let mut loads: Vec<(Vector<'m>, Vector<'m>)> = Vec::new();
+        for Acting { at, force, is_load } in &wrench.forces {
             let arm = (*at - about).scaled(factor);
-            arm.cross(force.along(direction))
-        });
-        moments.fold(factor * wrench.couple, |sum, moment| sum + moment)
+            if arm.is_zero() {
+                continue;
+            }
+            if force.axes != ground || direction == ground {
+                sum = sum + arm.cross(force.along(direction));
+            } else if *is_load {
+                loads.push((arm, force.components));
+            } else if !arm.x.is_zero() && !arm.y.is_zero() {
+                sum = sum + arm.turned_by(direction).cross(force.components);
+            } else {
+                sum = sum + arm.cross(force.along(direction));
+            }
+        }
+        let of_loads = match loads.as_slice() {
+            [(arm, force)] if arm.x.is_zero() || arm.y.is_zero() => Some(arm.cross(force.resolved_along(direction))),
+            loads => {
+                let turned = loads.iter().map(|(arm, force)| force.resolved_along(*arm));
+                turned.reduce(|sum, load| sum + load).map(|load| direction.cross(load))
+            }
+        };
+        of_loads.map_or(sum, |moment| sum + moment)
     }
 
     /// Whether nothing acts on a link.

@@ -141,7 +141,9 @@ impl Rule for Rrr {
                 .cosine(u1, u2)
                 .named(format!("cos_mu_{inner}"), format!("cos μ between {link} and {}", dyad.link_name(second)));
             let sine = balance.pivots.dividing_sine(u1, u2, &dyad.pivot_name(), &dyad.group_name());
-            ((across * cosine - needed) / sine).named(
+            // The reciprocal is known before the loads' part: nothing waits for a division.
+            let inverse = sine.graph().one() / sine;
+            ((across * cosine - needed) * inverse).named(
                 balance.name(&format!("{inner}_along_{link}")),
                 format!("({inner}_across_{link} cos μ − {inner}_across_{})/sin μ", dyad.link_name(second)),
             )
@@ -506,15 +508,16 @@ fn by_half_angle<'m>(
         (false, _) => (margin.value.non_negative(), graph.one()),
     };
     let ((from_p, p_factor), (from_q, q_factor)) = (root_of(p, c), root_of(q, s));
+    let factor = (p_factor * q_factor).sqrt();
+    // The square root is known last: it is multiplied once.
     let root = match (p.folds, q.folds) {
-        (true, true) => from_p * from_q,
-        (true, false) => from_p * from_q.sqrt(),
-        (false, true) => from_q * from_p.sqrt(),
+        (true, true) => factor * (from_p * from_q),
+        (true, false) => (factor * from_p) * from_q.sqrt(),
+        (false, true) => (factor * from_q) * from_p.sqrt(),
         (false, false) => (from_p * from_q).sqrt(),
     };
-    let factor = (p_factor * q_factor).sqrt();
     let sign = side_sign(dyad, (closure, side), arms, [p.folds, q.folds])?;
-    let k = sign.of((factor * root).named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})")));
+    let k = sign.of(root.named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})")));
     let significant = [(p, c), (q, s)].map(|(margin, half)| {
         if margin.folds {
             (half.abs().named(format!("fold_{joint}"), "distance from the fold"), angle_rounding)
