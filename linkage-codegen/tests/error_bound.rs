@@ -8,7 +8,7 @@ use linkage_codegen::graph::real::Real;
 use linkage_codegen::program::Fault;
 use support::bounds::{ratios, with_bounds};
 use support::families::{boom, four_bar, length, oscillating_block, scotch_yoke, slider_crank, tangent_mechanism};
-use support::linkages::{Kind, Random, sample};
+use support::linkages::{Class, Kind, Random, sample, sample_with_forces};
 use support::numbers::{Double, Extended, Single};
 use support::{Arguments, Number, from_pose, pose, scene};
 
@@ -134,6 +134,38 @@ fn around(seed: u64, count: usize, poses: usize) {
         println!("{name}: {count} results, median of bound over error {median:.1}");
         assert!(count > 100 && median < LOOSEST, "{name}: {count} results, median {median:.1}");
     }
+}
+
+/// Groups that are placed by iteration.
+fn iterated(seeds: core::ops::Range<u64>, poses: usize) {
+    for (name, class) in
+        [("triads", Class::Three), ("triads with sliders", Class::ThreeWithSlider), ("class IV", Class::Four)]
+    {
+        let (mut random, mut all) = (Random(seeds.start), Vec::new());
+        for seed in seeds.clone() {
+            let sample = sample_with_forces(seed, class);
+            let Some(linkage) = with_bounds(&sample.text) else { continue };
+            for _ in 0..poses {
+                let mut arguments = sample.arguments.clone();
+                arguments.drives[0] += random.range(-0.3, 0.3);
+                all.extend(check::<Double>(&linkage, &arguments, &sample.text));
+            }
+        }
+        let (count, median) = (all.len(), median(all));
+        println!("{name}: {count} results, median of bound over error {median:.1}");
+        assert!(count > 100 && median < LOOSEST, "{name}: {count} results, median {median:.1}");
+    }
+}
+
+#[test]
+fn of_groups_placed_by_iteration() {
+    iterated(0..12, 5);
+}
+
+#[test]
+#[ignore = "long"]
+fn of_many_groups_placed_by_iteration() {
+    iterated(1000..1200, 10);
 }
 
 #[test]

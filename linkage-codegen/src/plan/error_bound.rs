@@ -15,18 +15,18 @@
 //! Of three pins, half angles and constants that fold know the sine of the transmission angle, `s = u × u'`, better near its zeros than the
 //! residual does: `δs = (u·u')(y' − y)` is a second bound of y. The lesser of the two is taken.
 
-use super::assembly::{ClosedLoop, Found, Pivot};
+use super::assembly::{Closed, ClosedEquation, ClosedLoop, Found, Pivot, PlacedTogether, Unknown};
 use super::output::Field;
 use super::{Assembly, Kept, Output};
-use crate::diagnostics::{Diagnostic, Sink};
+use crate::graph::elimination::Equation;
 use crate::graph::number::Number;
-use crate::graph::rounding::{BoundOf, Deviation, HeldBound, Rounding};
+use crate::graph::rounding::{BoundOf, Deviation, HeldBound, Inverse, Rounding};
 use crate::graph::{Expr, Graph, NodeId, Op, Vector};
 use crate::model::Wanted;
 use crate::model::ids::GROUND;
 
 /// Adds their bounds to the results of the scenes that want them. What a pose has to keep for that comes back.
-pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept], sink: &Sink) -> Vec<Kept> {
+pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept]) -> Vec<Kept> {
     let model = assembly.model();
     let graph = &model.graph;
     if !model.scenes.iter().any(|scene| scene.results.contains(&Wanted::ErrorBound)) {
@@ -50,8 +50,11 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
             rounding.is_passed_on(format!("{}_{part}", model.joint(*joint).name));
         }
     }
-    for closed in &assembly.loops {
-        state(&mut rounding, closed, assembly.loops.len() > 1);
+    for closed in &assembly.closed {
+        match closed {
+            Closed::Loop(closed) => state(&mut rounding, closed, assembly.closed.len() > 1),
+            Closed::Together(placed) => state_together(&mut rounding, placed),
+        }
     }
     for (scene, output) in model.scenes.iter().zip(scenes) {
         if !scene.results.contains(&Wanted::ErrorBound) {
@@ -63,13 +66,6 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
         let doc = "Bounds of the rounding errors of the other results, each in its own unit.".to_owned();
         let bounds = fields.iter().map(|field| bounded(graph, &mut rounding, field)).collect();
         fields.push(Field { name, doc, value: Output::Record(bounds) });
-        if core::mem::take(&mut rounding.searched) {
-            let problem = "bounds of errors are not supported yet where links are placed by iteration";
-            sink.report(
-                Diagnostic::new(scene.name.place(), problem)
-                    .help("leave `error_bound` out, or ask for results that do not depend on these links"),
-            );
-        }
     }
     let named = |node: NodeId| kept.iter().find(|kept| kept.node == node).map(|kept| kept.name.clone());
     let shared = |held: &HeldBound<'_>| {
@@ -180,6 +176,73 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
         let deviation = by_itself.map_or_else(|| found.clone(), |own| lesser_deviation(&found, &own));
         rounding.state(value, deviation);
     }
+}
+
+/// The errors of the unknowns of a group that was placed by a search.
+fn state_together<'g>(rounding: &mut Rounding<'g>, placed: &PlacedTogether<'g>) {
+    let PlacedTogether { equations, unknowns } = placed;
+    let Some(graph) = equations.first().map(|equation| equation.residual.graph()) else { return };
+    let exact: Vec<Expr<'g>> = unknowns.iter().flat_map(Unknown::values).collect();
+    let stretch: Vec<Expr<'g>> = unknowns
+        .iter()
+        .map(|unknown| match unknown {
+            Unknown::Direction(direction) => rounding.stretch(*direction),
+            Unknown::Angle(_) | Unknown::Travel { .. } => graph.zero(),
+        })
+        .collect();
+    let inverse = Inverse::of(graph, &linear(equations));
+    let right = equations.iter().map(|equation| {
+        let found = rounding.deviation_from(equation.residual, &exact);
+        // With its size a direction changes a component as with its angle the other one.
+        let stretched = equation.other.map_or(graph.zero(), |other| {
+            let parts = equations[other].changes.iter().zip(&stretch);
+            parts.fold(graph.zero(), |sum, (arm, stretch)| sum + arm.abs() * *stretch)
+        });
+        let source = rounding.source(&equation.name);
+        let own = equation.residual.abs() + found.rest + stretched;
+        Deviation::of(source, own).plus(&found.shared().opposite())
+    });
+    let found = inverse.times(right.collect());
+    let found = inverse.and_beyond(found, |most| beyond_linear(placed, most));
+    for ((unknown, deviation), stretch) in unknowns.iter().zip(found).zip(stretch) {
+        match unknown {
+            Unknown::Direction(direction) => rounding.state_direction(*direction, deviation, stretch),
+            Unknown::Angle(angle) => rounding.state(*angle, deviation),
+            Unknown::Travel { travel, scale } => rounding.state(*travel, deviation.scaled(*scale)),
+        }
+    }
+}
+
+/// The changes of equations with the unknowns.
+fn linear<'g>(equations: &[ClosedEquation<'g>]) -> Vec<Equation<'g>> {
+    let of = |equation: &ClosedEquation<'g>| Equation {
+        coefficients: equation.changes.clone(),
+        right: equation.residual.graph().zero(),
+        gives: None,
+    };
+    equations.iter().map(of).collect()
+}
+
+/// By how much each equation is off what is linear in the unknowns, if these are off by no more than y: of a loop `Σ |c| y²/2` over what
+/// turns, with `c` its vector, and `y₁ y₂` for each length and each angle, as it may lie along what turns with that.
+fn beyond_linear<'g>(placed: &PlacedTogether<'g>, most: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let PlacedTogether { equations, unknowns } = placed;
+    let of = |equation: &ClosedEquation<'g>| {
+        let graph = equation.residual.graph();
+        let half = graph.constant(&Number::ratio(1, 2));
+        let Some(other) = equation.other else { return graph.zero() };
+        let size = |index: usize| equation.changes[index].abs() + equations[other].changes[index].abs();
+        let part_of = (0..unknowns.len()).filter(|index| !size(*index).is_zero());
+        let (travels, turns): (Vec<usize>, Vec<usize>) =
+            part_of.partition(|index| matches!(unknowns[*index], Unknown::Travel { .. }));
+        let curved = turns.iter().fold(graph.zero(), |sum, index| sum + half * (size(*index) * most[*index].squared()));
+        let angles = turns.iter().fold(graph.zero(), |sum, index| sum + most[*index]);
+        travels.iter().fold(curved, |sum, index| match unknowns[*index] {
+            Unknown::Travel { scale, .. } => sum + scale * most[*index] * angles,
+            _ => sum,
+        })
+    };
+    equations.iter().map(of).collect()
 }
 
 /// The lesser of two bounds; the first if the second is no number.
