@@ -7,8 +7,9 @@
 //! x' = A⁻¹ (b' − A' x − ρ + A' x')
 //! ```
 //!
-//! so shares keep their signs, and only ρ, its rounding and the rests go through `|A⁻¹|`. Of the last term, which is of second order, is
-//! known that it is no more than the others together, if twice these would not make more of it; or else nothing is known: infinite.
+//! so shares keep their signs. The last term is of second order. With bounds E of A' and any sizes a of the equations, as those of their
+//! coefficients, `|A'||x'| ≤ a C/(1 − q)` where C = max (E T)/a for the bounds T that are known without it, and q = max (E |A⁻¹| a)/a; here
+//! sums stand for these largest ones. Where q is not less than 1, A may be singular, and nothing is known: infinite.
 
 use super::super::elimination::{Equation, Linear, Reduced};
 use super::super::number::Number;
@@ -97,31 +98,43 @@ fn inverse<'g>(graph: &'g Graph, matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>>
 }
 
 impl<'g> Rounding<'g> {
-    /// The deviations of values that solve linear equations.
+    /// The deviations of values that solve linear equations. What is left open of each equation, its rounding, and what its numbers are off
+    /// by without a source is a source of errors: the unknowns have shares of it that balance each other.
     pub(super) fn of_solution(&mut self, equations: &[Equation<'g>], values: &[Expr<'g>]) -> Vec<Deviation<'g>> {
-        let inverse = Inverse::of(self.graph, equations);
-        let mut uncertain = Vec::new();
-        let right = equations.iter().map(|equation| {
+        let graph = self.graph;
+        let inverse = Inverse::of(graph, equations);
+        // Bounds of the coefficients' errors, in the columns of their unknowns; of those in one equation over the size of its coefficients.
+        let mut uncertain = vec![graph.zero(); values.len()];
+        let (mut right, mut sizes) = (Vec::new(), Vec::new());
+        for equation in equations {
+            let products = equation.products(values);
             let mut deviation = self.deviation(equation.right.id());
-            let (mut size, mut count) = (equation.right.abs(), 1);
-            let mut of_coefficients = Vec::new();
-            for (column, (coefficient, value)) in equation.products(values) {
+            let mut terms = equation.right.abs();
+            let size = products.iter().fold(graph.zero(), |sum, (_, (coefficient, _))| sum + coefficient.abs());
+            for (column, (coefficient, value)) in &products {
                 let own = self.deviation(coefficient.id());
-                deviation = deviation.less(value, &own);
-                of_coefficients.push((column, own.total()));
-                size = size + (coefficient * value).abs();
-                count += 1;
+                deviation = deviation.less(*value, &own);
+                uncertain[*column] = uncertain[*column] + own.total() / size;
+                terms = terms + (*coefficient * *value).abs();
             }
-            uncertain.push(of_coefficients);
-            let rounding = count * self.rounded(size);
-            deviation.and(equation.left_open(values).abs() + rounding)
-        });
-        let found = inverse.times(right.collect());
-        inverse.and_beyond(found, |most| {
-            let sum = |line: &Vec<(usize, Expr<'g>)>| {
-                line.iter().fold(self.graph.zero(), |sum, (column, error)| sum + *error * most[*column])
-            };
-            uncertain.iter().map(sum).collect()
-        })
+            let roundings = i64::try_from(products.len() + 1).unwrap_or(i64::MAX);
+            let open = equation.left_open(values).abs() + roundings * self.rounded(terms);
+            let rest = deviation.rest + open;
+            let source = self.source(&format!("equation_{}", self.sources.len() + 1));
+            right.push(deviation.shared().plus(&Deviation::of(source, rest)));
+            sizes.push(Deviation::within(size));
+        }
+        let found = inverse.times(right);
+        if uncertain.iter().all(|error| error.is_zero()) {
+            return found;
+        }
+        let reach: Vec<Expr<'g>> = inverse.times(sizes).into_iter().map(|reach| reach.rest).collect();
+        let sum = |factors: &mut dyn Iterator<Item = Expr<'g>>| {
+            uncertain.iter().zip(factors).fold(graph.zero(), |sum, (error, factor)| sum + *error * factor)
+        };
+        let beyond = sum(&mut found.iter().map(Deviation::total));
+        let left = graph.one() - sum(&mut reach.iter().copied());
+        let beyond = beyond / left.where_above(left, graph.zero());
+        found.into_iter().zip(reach).map(|(found, reach)| found.and(reach * beyond)).collect()
     }
 }

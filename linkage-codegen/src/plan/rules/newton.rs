@@ -129,7 +129,7 @@ fn placed_together<'m>(
     let search = graph.search(id);
     let numbers: Vec<Expr<'m>> = unknowns.iter().flat_map(Unknown::values).collect();
     let found = |node: &NodeId| {
-        graph.substituted(graph.expr(*node), &|symbol| match symbol {
+        graph.substituted_from(graph.expr(*node), Stage::Iterated, &|symbol| match symbol {
             Symbol::Sought(own, number) if own == id => numbers.get(usize::from(number)).copied(),
             _ => None,
         })
