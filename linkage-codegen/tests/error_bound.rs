@@ -6,7 +6,7 @@ mod support;
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::program::Fault;
-use support::bounds::{ratios, with_bounds};
+use support::bounds::{LOOSEST, median, ratios, with_bounds};
 use support::families::{boom, four_bar, length, oscillating_block, scotch_yoke, slider_crank, tangent_mechanism};
 use support::linkages::{Class, Kind, Random, sample, sample_with_forces, sample_with_search};
 use support::numbers::{Double, Extended, Single};
@@ -42,14 +42,6 @@ fn in_single_precision(arguments: &Arguments) -> Arguments {
     }
 }
 
-/// How far above the errors their bounds may be, as a median.
-const LOOSEST: f64 = 100.0;
-
-fn median(mut ratios: Vec<f64>) -> f64 {
-    ratios.sort_by(f64::total_cmp);
-    ratios[ratios.len() / 2]
-}
-
 fn random_linkages(seeds: core::ops::Range<u64>, scalar: &'static str) {
     let mut all = Vec::new();
     for seed in seeds {
@@ -70,7 +62,7 @@ fn random_linkages(seeds: core::ops::Range<u64>, scalar: &'static str) {
         });
     }
     let count = all.len();
-    let median = median(all);
+    let median = median(&mut all).expect("results");
     println!("{scalar}: {count} results, median of bound over error {median:.1}");
     assert!(count > 100 && median < LOOSEST, "{scalar}: {count} results, median {median:.1}");
 }
@@ -130,7 +122,7 @@ fn around(seed: u64, count: usize, poses: usize) {
             }
         }
         let count = all.len();
-        let median = median(all);
+        let median = median(&mut all).expect("results");
         println!("{name}: {count} results, median of bound over error {median:.1}");
         assert!(count > 100 && median < LOOSEST, "{name}: {count} results, median {median:.1}");
     }
@@ -223,15 +215,17 @@ fn of_many_of_every_kind_of_dyad() {
     around(6, 300, 40);
 }
 
-/// Towards the toggle position errors grow without limit, and the bound with them.
-#[test]
-fn near_dead_centres() {
-    let text = "pub mod sample; ground { A0: (0, 0), B0: (1.5m, 0) } link crank { A0 -> A: 0.5m }
+/// It has a dead centre at half a turn.
+const FOUR_BAR: &str = "pub mod sample; ground { A0: (0, 0), B0: (1.5m, 0) } link crank { A0 -> A: 0.5m }
          link coupler { A -> B: 1m, C: (0.25m, 0.125m) } link rocker { B0 -> B: 1m, D: (0.5m, -0.25m) }
          revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
          drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0);
          load F: force(coupler.C); load H: force(rocker.D);";
-    let linkage = with_bounds(text).expect("closes");
+
+/// Towards the toggle position errors grow without limit, and the bound with them.
+#[test]
+fn near_dead_centres() {
+    let linkage = with_bounds(FOUR_BAR).expect("closes");
     let mut before = 0.0;
     for exponent in 1..=7 {
         let drives = vec![core::f64::consts::PI - 10f64.powi(-exponent)];
@@ -243,7 +237,7 @@ fn near_dead_centres() {
             motion: Vec::new(),
         };
         let Ok(found) = scene::<Double>(&linkage, "bounded", &arguments) else { continue };
-        ratios(&linkage, &arguments, &found, text);
+        ratios(&linkage, &arguments, &found, FOUR_BAR);
         let bound = found["error_bound.B.x"].to_f64();
         assert!(bound > before, "{bound:e} at 1e-{exponent}");
         before = bound;
@@ -282,7 +276,7 @@ fn of_motion() {
             }
         }
     }
-    let (count, median) = (all.len(), median(all));
+    let (count, median) = (all.len(), median(&mut all).expect("results"));
     println!("motion: {count} results, median of bound over error {median:.1}");
     assert!(count > 500 && median < LOOSEST, "{count} results, median {median:.1}");
 }
@@ -291,12 +285,7 @@ fn of_motion() {
 /// its errors.
 #[test]
 fn where_nothing_is_known() {
-    let text = "pub mod sample; ground { A0: (0, 0), B0: (1.5m, 0) } link crank { A0 -> A: 0.5m }
-         link coupler { A -> B: 1m, C: (0.25m, 0.125m) } link rocker { B0 -> B: 1m, D: (0.5m, -0.25m) }
-         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
-         drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0);
-         load F: force(coupler.C); load H: force(rocker.D);";
-    let linkage = with_bounds(text).expect("closes");
+    let linkage = with_bounds(FOUR_BAR).expect("closes");
     let (mut known, mut unknown) = (0, 0);
     for exponent in 1..=14 {
         let arguments = Arguments {
@@ -304,7 +293,7 @@ fn where_nothing_is_known() {
             loads: vec![[10.0, -20.0], [-5.0, 30.0]],
             ..Arguments::default()
         };
-        check::<Double>(&linkage, &arguments, text);
+        check::<Double>(&linkage, &arguments, FOUR_BAR);
         let found = scene::<Double>(&linkage, "bounded", &arguments).expect("not yet a dead centre");
         if found["error_bound.T"].to_f64() < f64::MAX { known += 1 } else { unknown += 1 }
     }

@@ -34,7 +34,7 @@ use linkage_codegen::Linkage;
 use linkage_codegen::graph::Failure;
 use linkage_codegen::program::Fault;
 use nalgebra::{DMatrix, DVector};
-use support::bounds::{ratios, with_bounds};
+use support::bounds::{LOOSEST, median, ratios, with_bounds};
 use support::families::{
     BARS, Family, boom, four_bar, length, loads, oscillating_block, planet, rounded, scotch_yoke, shaper, single,
     slider_crank, slotted_crank, slotted_yoke, tangent_mechanism, welded,
@@ -627,15 +627,8 @@ fn share(measures: &Measures) -> (f64, &'static str) {
     all.into_iter().fold((0.0, ""), |worst, one| if one.0 > worst.0 { one } else { worst })
 }
 
-/// How far above the errors their bounds may be, as a median over the results of a kind in a family, if these are many enough to tell:
-/// the results of one pose often share one error.
-const LOOSEST: f64 = 100.0;
+/// From how many results on, of a kind in a family, their median tells something: the results of one pose often share one error.
 const ENOUGH: usize = 400;
-
-fn median(ratios: &mut [f64]) -> Option<f64> {
-    ratios.sort_by(f64::total_cmp);
-    ratios.get(ratios.len() / 2).copied()
-}
 
 impl Cell {
     fn add<T: Number>(&mut self, which: usize, family: &Family, bounded: bool) {

@@ -359,7 +359,7 @@ impl<'a> Body<'a> {
     }
 
     /// The function for sine and cosine in the linkage's arithmetic; without its branch if the checks are gathered.
-    fn sin_cos(&self, function: &str) -> proc_macro2::Ident {
+    fn sin_cos(&self, function: &str) -> Ident {
         let short = if self.checks == Checks::Gathered { "short_" } else { "" };
         let fused = if self.graph.is_fused() { "fused_" } else { "" };
         ident(&format!("{short}{fused}{function}"))

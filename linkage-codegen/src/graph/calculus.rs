@@ -202,10 +202,9 @@ impl Graph {
             Kernel::Solve(unknowns) => {
                 let n = usize::from(unknowns);
                 let rows = |from: usize| args[from..from + n * n].chunks(n).map(<[T]>::to_vec).collect::<Vec<_>>();
-                let zero = || T::from_number(&super::number::Number::zero());
                 let solved = super::linear::solve(&rows(0), &rows(n * n), &args[2 * n * n..]);
                 // Singular equations are refused by their distance, before anything else is read of them.
-                let (solution, distance) = solved.unwrap_or_else(|| (vec![zero(); n], zero()));
+                let (solution, distance) = solved.unwrap_or_else(|| (vec![T::zero(); n], T::zero()));
                 solution.into_iter().chain([distance]).collect()
             }
             Kernel::Search { search, .. } => self.searched(search, args),

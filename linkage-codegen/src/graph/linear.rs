@@ -1,6 +1,5 @@
 //! Linear equations of any number: the arithmetic of the run-time crate, operation by operation, for any number type.
 
-use super::number::Number;
 use super::real::Real;
 use super::{Expr, Graph, Kernel};
 
@@ -15,10 +14,6 @@ impl Graph {
         let part = |part| self.kernel(Kernel::Solve(size), &args, part);
         ((0..size).map(part).collect(), part(size))
     }
-}
-
-fn zero<T: Real>() -> T {
-    T::from_number(&Number::zero())
 }
 
 /// An equation during elimination, and after it.
@@ -37,7 +32,7 @@ struct Line<T> {
 impl<T: Real> Line<T> {
     fn weight(&self) -> Option<T> {
         // Zero over zero is no weight.
-        self.scale.above(&zero()).then(|| self.coefficients[0].abs().div(&self.scale))
+        self.scale.above(&T::zero()).then(|| self.coefficients[0].abs().div(&self.scale))
     }
 
     fn reduce(&mut self, pivot: &Self) {
@@ -65,7 +60,7 @@ impl<T: Real> Factors<T> {
     /// Eliminates. `None` where a pivot is zero: by scalars that would give what is not a number.
     pub(super) fn of(matrix: &[Vec<T>], sizes: &[Vec<T>]) -> Option<Self> {
         let line = |(number, (coefficients, sizes)): (usize, (&Vec<T>, &Vec<T>))| {
-            let scale = coefficients.iter().fold(zero::<T>(), |m, c| if c.abs().above(&m) { c.abs() } else { m });
+            let scale = coefficients.iter().fold(T::zero(), |m, c| if c.abs().above(&m) { c.abs() } else { m });
             Line { coefficients: coefficients.clone(), sizes: sizes.clone(), factors: Vec::new(), scale, number }
         };
         let mut lines: Vec<Line<T>> = matrix.iter().zip(sizes).enumerate().map(line).collect();
@@ -82,10 +77,10 @@ impl<T: Real> Factors<T> {
                 }
             }
             let value = pivot.coefficients[0].clone();
-            if zero::<T>().above(&value) {
+            if T::zero().above(&value) {
                 negative = !negative;
             }
-            if !value.abs().above(&zero()) {
+            if !value.abs().above(&T::zero()) {
                 return None;
             }
             let distance = value.abs().div(&pivot.sizes[0]);
@@ -110,12 +105,10 @@ impl<T: Real> Factors<T> {
     pub(super) fn solve(&self, right: &[T]) -> Vec<T> {
         let mut values: Vec<T> = Vec::new();
         for line in &self.lines {
-            let before = line.factors.iter().zip(&values);
-            values.push(before.fold(right[line.number].clone(), |sum, (factor, value)| sum.sub(&factor.mul(value))));
+            values.push(right[line.number].less_products(&line.factors, &values));
         }
         for (index, line) in self.lines.iter().enumerate().rev() {
-            let behind = line.coefficients.iter().zip(&values[index..]).skip(1);
-            let sum = behind.fold(values[index].clone(), |sum, (coefficient, value)| sum.sub(&coefficient.mul(value)));
+            let sum = values[index].less_products(&line.coefficients[1..], &values[index + 1..]);
             values[index] = sum.div(&line.coefficients[0]);
         }
         values
@@ -126,10 +119,7 @@ impl<T: Real> Factors<T> {
 pub(super) fn solve<T: Real>(matrix: &[Vec<T>], sizes: &[Vec<T>], right: &[T]) -> Option<(Vec<T>, T)> {
     let factors = Factors::of(matrix, sizes)?;
     let solution = factors.solve(right);
-    let left_open = |(line, right): (&Vec<T>, &T)| {
-        line.iter().zip(&solution).fold(right.clone(), |sum, (coefficient, value)| sum.sub(&coefficient.mul(value)))
-    };
-    let open: Vec<T> = matrix.iter().zip(right).map(left_open).collect();
+    let open: Vec<T> = matrix.iter().zip(right).map(|(line, right)| right.less_products(line, &solution)).collect();
     let refined = solution.iter().zip(factors.solve(&open)).map(|(value, more)| value.add(&more));
     Some((refined.collect(), factors.distance()))
 }

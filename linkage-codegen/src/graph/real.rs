@@ -58,10 +58,22 @@ pub trait Real: Clone {
     #[must_use]
     fn unit(&self, y: &Self) -> (Self, Self);
 
+    /// Nothing.
+    #[must_use]
+    fn zero() -> Self {
+        Self::from_number(&Number::zero())
+    }
+
+    /// The number, and from it every product of a factor and a value taken away, one after the other.
+    #[must_use]
+    fn less_products<'t>(&self, factors: &'t [Self], values: &'t [Self]) -> Self {
+        factors.iter().zip(values).fold(self.clone(), |sum, (factor, value)| sum.sub(&factor.mul(value)))
+    }
+
     /// Magnitude.
     #[must_use]
     fn abs(&self) -> Self {
-        if Self::from_number(&Number::zero()).above(self) { self.neg() } else { self.clone() }
+        if Self::zero().above(self) { self.neg() } else { self.clone() }
     }
 
     /// `(x, y)` of `a x + b y = e`, `c x + d y = f`, with `a` the number itself: elimination with the pivots of which the
@@ -80,10 +92,8 @@ pub trait Real: Clone {
     #[must_use]
     fn solve_3(coefficients: &[Self], right: &[Self]) -> Vec<Self> {
         let solution = Self::eliminate_3(coefficients, right);
-        let left_open = |(line, right): (&[Self], &Self)| {
-            line.iter().zip(&solution).fold(right.clone(), |sum, (factor, value)| sum.sub(&factor.mul(value)))
-        };
-        let open: Vec<Self> = coefficients.chunks(3).zip(right).map(left_open).collect();
+        let lines = coefficients.chunks(3).zip(right);
+        let open: Vec<Self> = lines.map(|(line, right)| right.less_products(line, &solution)).collect();
         let more = Self::eliminate_3(coefficients, &open);
         solution.iter().zip(&more).map(|(value, more)| value.add(more)).collect()
     }

@@ -292,9 +292,9 @@ impl Graph {
         let symbol = |symbol: Symbol| match symbol {
             Symbol::Drive(drive) => {
                 let index = search.drives.iter().position(|own| *own == drive);
-                index.and_then(|index| drives.get(index).cloned()).unwrap_or_else(zero)
+                index.and_then(|index| drives.get(index).cloned()).unwrap_or_else(T::zero)
             }
-            _ => zero(),
+            _ => T::zero(),
         };
         let mut open: Vec<NodeId> = search.known[..search.changing].to_vec();
         let mut seen = std::collections::BTreeSet::new();
@@ -351,7 +351,7 @@ impl Graph {
             while let Some(places) = newton.places() {
                 let symbol = |symbol: Symbol| match symbol {
                     Symbol::Sought(_, number) => places[usize::from(number)].clone(),
-                    _ => zero(),
+                    _ => T::zero(),
                 };
                 let mut done = known.clone();
                 let mut value = |node: &NodeId| self.evaluate(*node, &symbol, &mut done);
@@ -375,10 +375,6 @@ impl Graph {
 #[must_use]
 pub fn sought_direction(graph: &Graph, search: SearchId, first: u8) -> Vector<'_> {
     Vector::new(graph.symbol(Symbol::Sought(search, first)), graph.symbol(Symbol::Sought(search, first + 1)))
-}
-
-fn zero<T: Real>() -> T {
-    T::from_number(&Number::zero())
 }
 
 /// Newton's method along the motion of the drives, as `Search` of the run-time crate.
@@ -438,7 +434,7 @@ fn within<T: Real>(size: Option<&T>, most: &T) -> bool {
 impl<T: Real> Newton<T> {
     fn new(search: &Search, scalar: Scalar, start: &[T], [from, to, reach]: [&[T]; 3]) -> Self {
         let ways = from.iter().zip(to).zip(reach);
-        let length = ways.fold(zero::<T>(), |sum, ((a, b), reach)| sum.add(&b.sub(a).abs().div(reach)));
+        let length = ways.fold(T::zero(), |sum, ((a, b), reach)| sum.add(&b.sub(a).abs().div(reach)));
         let one = power::<T>(0);
         let stride = if length.above(&one) { one.div(&length) } else { one };
         let strides = if length.above(&power(10)) { 0 } else { STRIDES };
@@ -450,23 +446,23 @@ impl<T: Real> Newton<T> {
             from: from.to_vec(),
             to: to.to_vec(),
             length,
-            behind: zero(),
+            behind: T::zero(),
             stride,
-            ahead: zero(),
+            ahead: T::zero(),
             mode: Mode::Begins,
             strides,
             directions: search.directions(),
             closed: start.to_vec(),
             best: start.to_vec(),
             next: start.to_vec(),
-            scales: vec![zero(); search.sought.len() - search.directions()],
-            step: vec![zero(); search.sought.len()],
+            scales: vec![T::zero(); search.sought.len() - search.directions()],
+            step: vec![T::zero(); search.sought.len()],
             first: None,
             second: None,
             last: None,
             open: None,
-            begin: zero(),
-            rounding: zero(),
+            begin: T::zero(),
+            rounding: T::zero(),
             sense: None,
             evaluations: 0,
             arrived: false,
@@ -480,7 +476,7 @@ impl<T: Real> Newton<T> {
     fn way(&mut self) -> Option<Option<Vec<T>>> {
         let one = power::<T>(0);
         match self.mode {
-            Mode::Begins => self.mode = if self.length.above(&zero()) { Mode::Walks } else { Mode::Closes },
+            Mode::Begins => self.mode = if self.length.above(&T::zero()) { Mode::Walks } else { Mode::Closes },
             Mode::Walks if !self.arrived => self.stride = self.stride.mul(&power(-1)),
             Mode::Walks if one.above(&self.ahead) => {
                 (self.closed, self.behind) = (self.best.clone(), self.ahead.clone());
@@ -501,7 +497,7 @@ impl<T: Real> Newton<T> {
         }
         self.strides = self.strides.wrapping_sub(1);
         self.best = self.closed.clone();
-        self.step = vec![zero(); self.step.len()];
+        self.step = vec![T::zero(); self.step.len()];
         (self.open, self.arrived, self.evaluations) = (None, false, EVALUATIONS);
         if self.mode != Mode::Walks || self.ahead.at_least(&one) {
             self.ahead = one;
@@ -528,13 +524,13 @@ impl<T: Real> Newton<T> {
     }
 
     fn evaluated(&mut self, residuals: &[T], jacobian: &[Vec<T>], rounding: T, scales: Vec<T>) {
-        let open = residuals.iter().fold(zero::<T>(), |sum, r| sum.add(&r.abs()));
+        let open = residuals.iter().fold(T::zero(), |sum, r| sum.add(&r.abs()));
         let sizes: Vec<Vec<T>> = jacobian.iter().map(|row| row.iter().map(Real::abs).collect()).collect();
         let factors = Factors::of(jacobian, &sizes);
         let solution = factors.as_ref().map(|factors| factors.solve(residuals));
         let sense = factors.map(|factors| factors.distance());
         let longest: Size<T> = solution.as_ref().and_then(|solution| {
-            let longest = solution.iter().fold(zero::<T>(), |m, s| if m.at_least(&s.abs()) { m } else { s.abs() });
+            let longest = solution.iter().fold(T::zero(), |m, s| if m.at_least(&s.abs()) { m } else { s.abs() });
             // What is no number is at least nothing.
             solution.iter().all(|s| longest.at_least(&s.abs())).then_some(longest)
         });
@@ -547,7 +543,7 @@ impl<T: Real> Newton<T> {
         } else if self.evaluations + 2 == EVALUATIONS {
             self.second.clone_from(&longest);
         }
-        let same_sense = sense.zip(self.sense.clone()).is_some_and(|(now, then)| now.mul(&then).above(&zero()));
+        let same_sense = sense.zip(self.sense.clone()).is_some_and(|(now, then)| now.mul(&then).above(&T::zero()));
         let gains = self.open.as_ref().is_none_or(|least| least.above(&open) && same_sense);
         if gains {
             let most = match &self.last {
@@ -597,7 +593,7 @@ impl<T: Real> Newton<T> {
             (_, true) if self.mode == Mode::GivesUp && self.begin.above(&self.rounding) => self.begin.clone(),
             (_, true) if self.mode == Mode::GivesUp => self.rounding.add(&self.tiny),
             (Some(open), false) => open.clone(),
-            _ => zero(),
+            _ => T::zero(),
         };
         core::iter::once(open).chain(self.best.iter().cloned()).collect()
     }

@@ -8,6 +8,15 @@ use linkage_codegen::graph::real::Real;
 use super::numbers::Extended;
 use super::{Arguments, Number, compile_if_it_closes, scene};
 
+/// How far above the errors their bounds may be, as a median.
+pub const LOOSEST: f64 = 100.0;
+
+/// The median, if there is any.
+pub fn median(ratios: &mut [f64]) -> Option<f64> {
+    ratios.sort_by(f64::total_cmp);
+    ratios.get(ratios.len() / 2).copied()
+}
+
 /// A scene `bounded` with all that equilibrium gives, and the bounds; a scene `alone` without them.
 pub fn with_bounds(text: &str) -> Option<Linkage> {
     let linkage = compile_if_it_closes(text)?;

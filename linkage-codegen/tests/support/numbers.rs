@@ -14,6 +14,15 @@ macro_rules! scalar {
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name(pub $scalar);
 
+        impl $name {
+            /// A constant as an unevaluated sum.
+            fn split(constant: &Constant) -> ($scalar, $scalar) {
+                let high = constant.$to();
+                let rest = constant.sub(&Constant::from_f64(f64::from(high)).expect("finite"));
+                (high, rest.$to())
+            }
+        }
+
         impl Real for $name {
             fn from_number(number: &Constant) -> Self {
                 Self(number.$to())
@@ -53,9 +62,8 @@ macro_rules! scalar {
                 (Self(s), Self(c))
             }
             fn sin_cos_sum(&self, phase: &Constant) -> (Self, Self) {
-                let high = phase.$to();
-                let rest = phase.sub(&Constant::from_f64(f64::from(high)).expect("finite"));
-                let (s, c) = math::$scalar::sin_cos_sum(self.0, high, rest.$to());
+                let (high, low) = Self::split(phase);
+                let (s, c) = math::$scalar::sin_cos_sum(self.0, high, low);
                 (Self(s), Self(c))
             }
             fn fused_sin_cos(&self) -> (Self, Self) {
@@ -63,9 +71,8 @@ macro_rules! scalar {
                 (Self(s), Self(c))
             }
             fn fused_sin_cos_sum(&self, phase: &Constant) -> (Self, Self) {
-                let high = phase.$to();
-                let rest = phase.sub(&Constant::from_f64(f64::from(high)).expect("finite"));
-                let (s, c) = math::$scalar::fused_sin_cos_sum(self.0, high, rest.$to());
+                let (high, low) = Self::split(phase);
+                let (s, c) = math::$scalar::fused_sin_cos_sum(self.0, high, low);
                 (Self(s), Self(c))
             }
             fn atan2(&self, x: &Self) -> Self {

@@ -34,6 +34,22 @@ macro_rules! estrin {
     }};
 }
 
+/// Sine and cosine of an angle from those of its distance from the next multiple of π/2, in the bits of a scalar.
+macro_rules! by_quadrant {
+    ($scalar:ident, $bits:ident) => {
+        #[inline]
+        pub(super) fn by_quadrant(quadrant: $bits, sin: $scalar, cos: $scalar) -> ($scalar, $scalar) {
+            let (sin, cos) = (sin.to_bits(), cos.to_bits());
+            let exchange = (sin ^ cos) & (quadrant & 1).wrapping_neg();
+            // The last bit as the sign; the one before it.
+            let quarter_turn = quadrant << ($bits::BITS - 1);
+            let half_turn = (quadrant >> 1) << ($bits::BITS - 1);
+            let change = exchange ^ half_turn;
+            ($scalar::from_bits(sin ^ change), $scalar::from_bits(cos ^ change ^ quarter_turn))
+        }
+    };
+}
+
 pub mod f32;
 pub mod f64;
 mod fused;

@@ -17,9 +17,6 @@ pub(super) const ROUND: f32 = 12582912.0;
 pub(super) const SINE: [f32; 3] = [0.16666646, -0.008331764, 0.00019471647];
 pub(super) const COSINE: [f32; 3] = [0.041666646, -0.001388731, 2.4432327e-5];
 
-/// The bit of an `f32` that is its sign.
-const SIGN: u32 = 1 << 31;
-
 /// An angle of `quadrant`·π/2 + (y − t), with |y| ≤ π/4 and a tail t of about an ulp of y, or 2⁻²⁶, at most.
 pub(super) struct Reduced {
     pub(super) quadrant: u32,
@@ -148,13 +145,4 @@ impl Reduced {
     }
 }
 
-/// Sine and cosine of an angle from those of its distance from the next multiple of π/2.
-#[inline]
-pub(super) fn by_quadrant(quadrant: u32, sin: f32, cos: f32) -> (f32, f32) {
-    let (sin, cos) = (sin.to_bits(), cos.to_bits());
-    let exchange = (sin ^ cos) & (quadrant & 1).wrapping_neg();
-    let half_turn = (quadrant << 30) & SIGN;
-    let change = exchange ^ half_turn;
-    let quarter_turn = quadrant << 31;
-    (f32::from_bits(sin ^ change), f32::from_bits(cos ^ change ^ quarter_turn))
-}
+by_quadrant!(f32, u32);

@@ -31,9 +31,6 @@ pub(super) const COSINE: [f64; 6] = [
     -1.135874897753106e-11,
 ];
 
-/// The bit of an `f64` that is its sign.
-const SIGN: u64 = 1 << 63;
-
 /// An angle of `quadrant`·π/2 + (y − t), with |y| ≤ π/4 and a tail t of about an ulp of y, or 2⁻⁵⁸, at most.
 pub(super) struct Reduced {
     pub(super) quadrant: u64,
@@ -170,13 +167,4 @@ impl Reduced {
     }
 }
 
-/// Sine and cosine of an angle from those of its distance from the next multiple of π/2.
-#[inline]
-pub(super) fn by_quadrant(quadrant: u64, sin: f64, cos: f64) -> (f64, f64) {
-    let (sin, cos) = (sin.to_bits(), cos.to_bits());
-    let exchange = (sin ^ cos) & (quadrant & 1).wrapping_neg();
-    let half_turn = (quadrant << 62) & SIGN;
-    let change = exchange ^ half_turn;
-    let quarter_turn = quadrant << 63;
-    (f64::from_bits(sin ^ change), f64::from_bits(cos ^ change ^ quarter_turn))
-}
+by_quadrant!(f64, u64);
