@@ -29,6 +29,8 @@
 //!               + u(|x a| + |y b| + |x a + y b|)
 //! ```
 //!
+//! The solution of linear equations is known by what it leaves open of them (see [`solutions`]).
+//!
 //! A quotient counts twice, because it may become a product with a reciprocal. What is given (drives, parameters, loads) is exact; constants
 //! are rounded once. Shares and bounds are rounded as well: what all of them lack is of second order, and made up for where a result takes its
 //! bound.
@@ -195,8 +197,11 @@ impl<'g> Rounding<'g> {
     #[must_use]
     pub fn new(graph: &'g Graph) -> Self {
         let solutions = graph.noted_solutions();
-        let of = |(index, (_, values)): (usize, &(_, Vec<Expr<'g>>))| {
-            let unknown = values.iter().filter(|value| value.value().is_none());
+        // What is there before all numbers of the equations did not come from them, and may be one of them.
+        let of = |(index, (equations, values)): (usize, &(Vec<Equation<'g>>, Vec<Expr<'g>>))| {
+            let numbers = equations.iter().flat_map(|equation| equation.coefficients.iter().chain([&equation.right]));
+            let last = numbers.map(|number| number.id()).max();
+            let unknown = values.iter().filter(|value| Some(value.id()) > last);
             unknown.map(|value| (value.id(), index)).collect::<Vec<_>>()
         };
         let solved = solutions.iter().enumerate().flat_map(of).collect();
@@ -250,11 +255,24 @@ impl<'g> Rounding<'g> {
         }
     }
 
-    /// The bound of how far a computed direction is from unit size: `|u·u − 1|/2` and its rounding.
+    /// How far a computed direction is from unit size, `(u·u − 1)/2`, to half an epsilon: two roundings of what is about 1, halved.
+    #[must_use]
+    pub fn strain(&self, unit: Vector<'g>) -> Expr<'g> {
+        let half = self.graph.constant(&Number::ratio(1, 2));
+        half * (unit.squared() - self.graph.one())
+    }
+
+    /// The bound of that.
     #[must_use]
     pub fn stretch(&self, unit: Vector<'g>) -> Expr<'g> {
+        self.strain(unit).abs() + self.of_strain()
+    }
+
+    /// The bound of how far the strain of a direction is off itself.
+    #[must_use]
+    pub fn of_strain(&self) -> Expr<'g> {
         let half = self.graph.constant(&Number::ratio(1, 2));
-        half * (unit.squared() - self.graph.one()).abs() + self.graph.epsilons(1)
+        half * self.graph.epsilons(1)
     }
 
     /// What is known of a direction that a value is a component of.
@@ -361,7 +379,10 @@ impl<'g> Rounding<'g> {
         if let Some(index) = self.solved.get(&of) {
             let (equations, values) = self.solutions[*index].clone();
             let deviations = self.of_solution(&equations, &values);
-            for (value, deviation) in values.into_iter().zip(deviations) {
+            let known = values.into_iter().zip(deviations);
+            for (value, deviation) in
+                known.filter(|(value, _)| self.solved.contains_key(&value.id())).collect::<Vec<_>>()
+            {
                 self.state(value, deviation);
             }
             return self.done[&of].clone();
@@ -553,7 +574,9 @@ impl<'g> Rounding<'g> {
                 let total = turn.total();
                 turn.scaled(if part == 0 { -unit.y } else { unit.x }).and(total * total + own)
             }
-            Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_) | Kernel::Search { .. } => Deviation::within(graph.zero()),
+            Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_) | Kernel::Search { .. } => {
+                Deviation::within(graph.zero())
+            }
         }
     }
 
@@ -587,8 +610,7 @@ impl<'g> Rounding<'g> {
             gives: None,
         };
         let equations: Vec<Equation<'g>> = rows.zip(right).map(equation).collect();
-        let values: Vec<Expr<'g>> =
-            (0..=u8::MAX).take(size).map(|part| graph.kernel(kernel, &args, part)).collect();
+        let values: Vec<Expr<'g>> = (0..=u8::MAX).take(size).map(|part| graph.kernel(kernel, &args, part)).collect();
         let mut deviations = self.of_solution(&equations, &values);
         let own = deviations[usize::from(part)].clone();
         for (value, deviation) in values.into_iter().zip(deviations.drain(..)) {

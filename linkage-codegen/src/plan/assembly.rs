@@ -112,6 +112,8 @@ pub struct PlacedTogether<'m> {
     pub equations: Vec<ClosedEquation<'m>>,
     /// What was sought.
     pub unknowns: Vec<Unknown<'m>>,
+    /// What that is called.
+    pub names: Vec<String>,
 }
 
 /// An equation of a search at the place that was found.

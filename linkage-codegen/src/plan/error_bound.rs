@@ -12,6 +12,11 @@
 //! all that is placed through the loop has a share; where more loops follow, the little beside it in y' is another one, and so are the
 //! errors of the forces that one group passes on to the next.
 //!
+//! Of a group that was placed by a search, with n unknowns and equations, what stays open of them is known likewise, and the changes of the
+//! equations with the unknowns are the matrix J of its last step. The unknowns are off by `J⁻¹ (ρ − ρ')`, with ρ' what earlier sources and
+//! rounding make of ρ; each equation is a source, because near a singular pose all unknowns follow one of them. What is not linear is bounded
+//! as in the theorem of Newton and Kantorovich: were the unknowns off by twice what first order says, it must not make more of them than that.
+//!
 //! Of three pins, half angles and constants that fold know the sine of the transmission angle, `s = u × u'`, better near its zeros than the
 //! residual does: `δs = (u·u')(y' − y)` is a second bound of y. The lesser of the two is taken.
 
@@ -180,33 +185,40 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
 
 /// The errors of the unknowns of a group that was placed by a search.
 fn state_together<'g>(rounding: &mut Rounding<'g>, placed: &PlacedTogether<'g>) {
-    let PlacedTogether { equations, unknowns } = placed;
+    let PlacedTogether { equations, unknowns, .. } = placed;
     let Some(graph) = equations.first().map(|equation| equation.residual.graph()) else { return };
     let exact: Vec<Expr<'g>> = unknowns.iter().flat_map(Unknown::values).collect();
-    let stretch: Vec<Expr<'g>> = unknowns
-        .iter()
-        .map(|unknown| match unknown {
-            Unknown::Direction(direction) => rounding.stretch(*direction),
-            Unknown::Angle(_) | Unknown::Travel { .. } => graph.zero(),
-        })
-        .collect();
-    let inverse = Inverse::of(graph, &linear(equations));
-    let right = equations.iter().map(|equation| {
+    let strain = unknowns.iter().map(|unknown| match unknown {
+        Unknown::Direction(direction) => rounding.strain(*direction),
+        Unknown::Angle(_) | Unknown::Travel { .. } => graph.zero(),
+    });
+    let strain: Vec<Expr<'g>> = strain.collect();
+    let inverse = Inverse::of(graph, &linear(equations)).named(|unknown, equation| {
+        let (unknown, equation) = (&placed.names[unknown], &equations[equation].name);
+        (format!("{unknown}_by_{equation}"), format!("how {unknown} changes with what stays open at {equation}"))
+    });
+    let right = equations.iter().enumerate().map(|(index, equation)| {
         let found = rounding.deviation_from(equation.residual, &exact);
-        // With its size a direction changes a component as with its angle the other one.
-        let stretched = equation.other.map_or(graph.zero(), |other| {
-            let parts = equations[other].changes.iter().zip(&stretch);
-            parts.fold(graph.zero(), |sum, (arm, stretch)| sum + arm.abs() * *stretch)
-        });
+        // With its size a direction changes one component as with its angle the other one; what its size is off by is known.
+        let (mut open, mut uncertain) = (equation.residual, graph.zero());
+        if let Some(other) = equation.other {
+            for (arm, strain) in equations[other].changes.iter().zip(&strain).filter(|(_, strain)| !strain.is_zero()) {
+                let part = *strain * *arm;
+                open = if index < other { open - part } else { open + part };
+                uncertain = uncertain + arm.abs();
+            }
+        }
+        let own = open.abs() + found.rest + rounding.of_strain() * uncertain;
         let source = rounding.source(&equation.name);
-        let own = equation.residual.abs() + found.rest + stretched;
         Deviation::of(source, own).plus(&found.shared().opposite())
     });
     let found = inverse.times(right.collect());
     let found = inverse.and_beyond(found, |most| beyond_linear(placed, most));
-    for ((unknown, deviation), stretch) in unknowns.iter().zip(found).zip(stretch) {
+    for (unknown, deviation) in unknowns.iter().zip(found) {
         match unknown {
-            Unknown::Direction(direction) => rounding.state_direction(*direction, deviation, stretch),
+            Unknown::Direction(direction) => {
+                rounding.state_direction(*direction, deviation, rounding.stretch(*direction));
+            }
             Unknown::Angle(angle) => rounding.state(*angle, deviation),
             Unknown::Travel { travel, scale } => rounding.state(*travel, deviation.scaled(*scale)),
         }
@@ -226,7 +238,7 @@ fn linear<'g>(equations: &[ClosedEquation<'g>]) -> Vec<Equation<'g>> {
 /// By how much each equation is off what is linear in the unknowns, if these are off by no more than y: of a loop `Σ |c| y²/2` over what
 /// turns, with `c` its vector, and `y₁ y₂` for each length and each angle, as it may lie along what turns with that.
 fn beyond_linear<'g>(placed: &PlacedTogether<'g>, most: &[Expr<'g>]) -> Vec<Expr<'g>> {
-    let PlacedTogether { equations, unknowns } = placed;
+    let PlacedTogether { equations, unknowns, .. } = placed;
     let of = |equation: &ClosedEquation<'g>| {
         let graph = equation.residual.graph();
         let half = graph.constant(&Number::ratio(1, 2));

@@ -41,6 +41,17 @@ impl<'g> Inverse<'g> {
         Self { graph, reduced, core }
     }
 
+    /// The same with a name and a meaning for how an unknown changes with the right side of an equation.
+    pub(crate) fn named(mut self, name: impl Fn(usize, usize) -> (String, String)) -> Self {
+        for (unknown, line) in self.reduced.unknowns.iter().zip(&mut self.core) {
+            for (factor, equation) in line.iter_mut().zip(&self.reduced.equations) {
+                let (name, meaning) = name(*unknown, *equation);
+                *factor = factor.named(name, meaning);
+            }
+        }
+        self
+    }
+
     /// The deviations of the unknowns by those of the right sides.
     pub(crate) fn times(&self, mut right: Vec<Deviation<'g>>) -> Vec<Deviation<'g>> {
         self.reduced.reduce(&mut right);
@@ -136,5 +147,100 @@ impl<'g> Rounding<'g> {
         let left = graph.one() - sum(&mut reach.iter().copied());
         let beyond = beyond / left.where_above(left, graph.zero());
         found.into_iter().zip(reach).map(|(found, reach)| found.and(reach * beyond)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::super::Rounding;
+    use crate::graph::number::Number;
+    use crate::graph::{Expr, Graph, Scalar, Symbol};
+    use crate::model::ids::LoadId;
+
+    /// A sequence of numbers from −1 to 1.
+    fn drawn(state: &mut u64) -> f64 {
+        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        #[allow(clippy::cast_precision_loss, reason = "53 bits")]
+        let value = (*state >> 11) as f64;
+        value / 2f64.powi(52) - 1.0
+    }
+
+    /// The bound of a value's error and the error; of the values of symbols.
+    fn bound_and_error(graph: &Graph, value: Expr<'_>, bound: Expr<'_>, values: &[f64]) -> (f64, f64) {
+        let of = |symbol: Symbol| match symbol {
+            Symbol::Load(load, part) => values[2 * load.index() + usize::from(part)],
+            _ => f64::NAN,
+        };
+        let exactly = |symbol: Symbol| Number::from_f64(of(symbol)).expect("finite");
+        let rounded: f64 = graph.evaluate(value.id(), &of, &mut HashMap::new());
+        let exact: Number = graph.evaluate(value.id(), &exactly, &mut HashMap::new());
+        // Of singular equations a check, which is not among these operations, says that there is no solution.
+        let error = Number::from_f64(rounded).map_or(0.0, |rounded| rounded.sub(&exact).to_f64().abs());
+        (graph.evaluate(bound.id(), &of, &mut HashMap::new()), error)
+    }
+
+    #[test]
+    fn bounds_hold_the_errors_of_solutions() {
+        let mut state = 1;
+        for size in 2..=6usize {
+            // Coefficients and right sides are sums, which have been rounded.
+            let graph = Graph::new(Scalar::F64);
+            let mut count = 0;
+            let mut symbol = || {
+                count += 1;
+                graph.symbol(Symbol::Load(LoadId::new((count - 1) / 2), u8::from(count % 2 == 0)))
+            };
+            let mut sum = || symbol() + symbol();
+            let rows: Vec<(Vec<Expr<'_>>, Expr<'_>)> =
+                (0..size).map(|_| ((0..size).map(|_| sum()).collect(), sum())).collect();
+            let solution = if size < 4 { graph.solved(&rows) } else { graph.solved_any(&rows).0 };
+            let mut rounding = Rounding::new(&graph);
+            let bounds: Vec<Expr<'_>> = solution.iter().map(|value| rounding.bound(*value)).collect();
+            let mut ratios = Vec::new();
+            for exponent in 0..100 {
+                let mut values: Vec<f64> = (0..count).map(|_| drawn(&mut state)).collect();
+                // The second equation comes near the first one: to the last bits, in the end.
+                let near = 2f64.powi(-exponent / 2);
+                for column in 0..2 * size {
+                    let second = 2 * (size + 1) + column;
+                    values[second] = values[column] + near * values[second];
+                }
+                for (value, bound) in solution.iter().zip(&bounds) {
+                    let (bound, error) = bound_and_error(&graph, *value, *bound, &values);
+                    assert!(error <= bound, "{size}: off by {error:e}, bound {bound:e}, at {values:?}");
+                    if error > 0.0 {
+                        ratios.push(bound / error);
+                    }
+                }
+            }
+            ratios.sort_by(f64::total_cmp);
+            let median = ratios[ratios.len() / 2];
+            assert!(ratios.len() > 50 * size && median < 100.0, "{size}: {median}");
+        }
+    }
+
+    #[test]
+    fn of_nothing_there_is_no_error() {
+        let graph = Graph::new(Scalar::F64);
+        let symbol = |number: usize| graph.symbol(Symbol::Load(LoadId::new(number), 0));
+        let row = |first: usize| vec![symbol(first) + symbol(first + 1), symbol(first + 2) + symbol(first + 3)];
+        let rows = [(row(0), symbol(8)), (row(4), symbol(9))];
+        let solution = graph.solved(&rows);
+        let mut rounding = Rounding::new(&graph);
+        let bound = rounding.bound(solution[0]);
+        let at = |right: f64, near: f64| {
+            let values = [1.0, 0.1, 2.0, 0.3, 1.0, 0.1, 2.0, 0.3 + near, right, right];
+            let of = |symbol: Symbol| match symbol {
+                Symbol::Load(load, _) => values[load.index()],
+                _ => f64::NAN,
+            };
+            graph.evaluate::<f64>(bound.id(), &of, &mut HashMap::new())
+        };
+        assert_eq!(at(0.0, 0.1).to_bits(), 0.0f64.to_bits());
+        assert!(at(1.0, 0.1) < 1e-13);
+        // Equations that may be singular tell nothing.
+        assert_eq!(at(1.0, 1e-16).to_bits(), f64::MAX.to_bits());
     }
 }

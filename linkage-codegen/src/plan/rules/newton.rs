@@ -95,8 +95,7 @@ pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
     lay_out(&mut assembly.placement, group, &mut |place| match place {
         Place::Direction(link) => {
             let name = &model.link(link).name.text;
-            let direction =
-                Vector::new(next(), next()).named_direction(name, &format!("direction carried by {name}"));
+            let direction = Vector::new(next(), next()).named_direction(name, &format!("direction carried by {name}"));
             unknowns.push(Unknown::Direction(direction));
             direction
         }
@@ -144,7 +143,11 @@ fn placed_together<'m>(
             other: (index < of_loops).then_some(index ^ 1),
         }
     });
-    PlacedTogether { equations: equations.collect(), unknowns: unknowns.clone() }
+    let names = search.sought.iter().map(|sought| match sought {
+        Sought::Direction { name } => format!("angle_{name}"),
+        Sought::Travel { name, .. } => name.clone(),
+    });
+    PlacedTogether { equations: equations.collect(), unknowns: unknowns.clone(), names: names.collect() }
 }
 
 /// What rounding may leave open of all loops together, in epsilons of the lengths that make them up. A search goes on while it gains, to
