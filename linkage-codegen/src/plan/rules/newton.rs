@@ -143,11 +143,12 @@ fn placed_together<'m>(
             other: (index < of_loops).then_some(index ^ 1),
         }
     });
+    let equations = equations.collect();
     let names = search.sought.iter().map(|sought| match sought {
         Sought::Direction { name } => format!("angle_{name}"),
         Sought::Travel { name, .. } => name.clone(),
     });
-    PlacedTogether { equations: equations.collect(), unknowns: unknowns.clone(), names: names.collect() }
+    PlacedTogether { equations, unknowns, names: names.collect() }
 }
 
 /// What rounding may leave open of all loops together, in epsilons of the lengths that make them up. A search goes on while it gains, to
