@@ -88,7 +88,7 @@ fn main() -> Result<(), Error> {
     println!("  T12, ground on crank     {:>9.3} N·mm", all.T12);
 
     let parts = pose.parts(&loads)?;
-    let sum = parts.total();
+    let sum = parts.total()?;
     println!("\nContributions                  F13 alone   F14 alone         sum   together");
     println!(
         "  T12 (N·mm)             {:>12.4}{:>12.4}{:>12.4}{:>11.4}",

@@ -73,7 +73,7 @@ fn main() -> Result<(), Error> {
             second.C.norm(),
             second.D.norm(),
         );
-        let sum = metres(parts.total());
+        let sum = metres(parts.total()?);
         assert!((sum - torque / 1000.0).abs() < 1e-9, "the parts do not add up");
     }
     Ok(())

@@ -53,7 +53,7 @@ fn main() -> Result<(), Error> {
         let theta = (90.0 - f64::from(degrees)).to_radians();
         let pose = engine::Pose::at(theta)?;
         let held = pose.hold(&loads)?;
-        let weights = pose.weights()?.total();
+        let weights = pose.weights()?.total()?;
         println!(
             "{degrees:>6} {:>11.3} {:>11.3} {:>11.1} {:>11.1} {:>11.1} {:>13.4}",
             pose.B().y,

@@ -43,7 +43,7 @@ fn main() -> Result<(), Error> {
     };
     let pose = three_loads::Pose::at(degrees(60.0))?;
     let parts = pose.parts(&loads)?;
-    let (sum, whole) = (parts.total(), pose.whole(&loads)?);
+    let (sum, whole) = (parts.total()?, pose.whole(&loads)?);
 
     println!("{:<22}{:>12}{:>12}{:>12}{:>14}{:>12}", "", "F12 alone", "F13 alone", "F14 alone", "sum", "together");
     let row = |name: &str, values: [f64; 5]| {

@@ -233,7 +233,7 @@ fn what_the_ground_feels_is_what_comes_from_outside() {
         // By inertia alone the ground feels nothing else.
         let alone = pose.alone(&motion).expect("regular").ground_about_ground_P;
         assert!((alone.force - here.force).norm() < 1e-9 && (alone.moment - here.moment).abs() < 1e-9);
-        let parts = pose.parts(&motion, &loads).expect("regular").total().ground_about_ground_P;
+        let parts = pose.parts(&motion, &loads).expect("regular").total().expect("numbers").ground_about_ground_P;
         assert!((parts.force - felt.force).norm() < 1e-9 && (parts.moment - felt.moment).abs() < 1e-9);
         // The power, by both methods, and by hand.
         assert_eq!(all.power, all.effort_theta * 100.0);

@@ -149,7 +149,7 @@ pub(crate) fn drawn(panels: &[Panel], machine: &str) -> String {
         &mut svg,
         (LEFT + 12.0, y),
         "",
-        "the front: no other method is both faster and more accurate than those on it",
+        "the front: no other method for any linkage is both faster and more accurate than those on it",
     );
     svg.push_str("</svg>\n");
     svg
@@ -192,7 +192,7 @@ fn frame(svg: &mut String, panel: &Panel, axes: Axes) {
     }
     text(svg, (WIDTH / 2.0, HEIGHT + 34.0), "text-anchor=\"middle\"", "ns for each call");
     let turned = format!("text-anchor=\"middle\" transform=\"rotate(-90 -50 {0})\"", HEIGHT / 2.0);
-    text(svg, (-50.0, HEIGHT / 2.0), &turned, "largest relative error");
+    text(svg, (-50.0, HEIGHT / 2.0), &turned, "relative error, root mean square");
 }
 
 /// The front, the dots, and a number beside each where there is room.

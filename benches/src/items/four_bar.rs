@@ -356,7 +356,7 @@ pub(crate) fn exact(theta: &Big, loads: &Loads) -> Exact {
     solve(theta, &[Some(first), Some(second)])
 }
 
-fn exact_parts(theta: &Big, loads: &Loads) -> Vec<Exact> {
+pub(crate) fn exact_parts(theta: &Big, loads: &Loads) -> Vec<Exact> {
     let [first, second] = [loads.F13, loads.F14].map(|force| vector(force.x, force.y));
     vec![solve(theta, &[Some(first), None]), solve(theta, &[None, Some(second)])]
 }

@@ -128,7 +128,7 @@ impl<'a> Body<'a> {
                 let value = body.code(*value).within(Binding::Atom);
                 Some(quote!(#value.is_finite()))
             }
-            Step::FiniteResults(groups) => Some(body.all_finite(groups)),
+            Step::FiniteResults(checked) => Some(body.all_finite(checked)),
         });
         let conditions = checks.chain(angles).collect();
         (statements, conditions, body)
@@ -391,7 +391,7 @@ impl<'a> Body<'a> {
                     let text = name.to_string();
                     quote!(if !#name.is_finite() { return Err(Error::NotFinite { what: #text }); })
                 }
-                Step::FiniteResults(groups) => self.finite_results(groups),
+                Step::FiniteResults(checked) => self.finite_results(checked),
             });
         }
         statements.retain(|statement| !statement.is_empty());
@@ -487,17 +487,13 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// What is added up elsewhere is to be finite as a sum.
-    fn all_finite(&self, groups: &[Vec<ValueId>]) -> TokenStream {
-        let sums = groups.iter().map(|group| {
-            let parts = group.iter().map(|value| self.code(*value).within(Binding::Product));
-            parts.reduce(|sum, part| quote!(#sum + #part)).unwrap_or_else(|| quote!(0.0))
-        });
-        quote!(math::all_finite([#(#sums),*]))
+    fn all_finite(&self, checked: &[ValueId]) -> TokenStream {
+        let values = checked.iter().map(|value| self.code(*value).tokens);
+        quote!(math::all_finite([#(#values),*]))
     }
 
-    fn finite_results(&self, groups: &[Vec<ValueId>]) -> TokenStream {
-        let condition = self.all_finite(groups);
+    fn finite_results(&self, checked: &[ValueId]) -> TokenStream {
+        let condition = self.all_finite(checked);
         let what = if self.program.reads_loads() { "a load or a result" } else { "a result" };
         quote!(if !#condition { return Err(Error::NotFinite { what: #what }); })
     }

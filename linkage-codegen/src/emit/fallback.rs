@@ -24,7 +24,7 @@ pub fn module(mut model: Model) -> TokenStream {
     let runtime = model.runtime.clone().unwrap_or_else(|| quote!(::linkage_runtime));
     let types: Vec<Ident> = model.scenes.iter().map(|scene| ident(&type_name(&scene.name.text))).collect();
     let records: TokenStream = (0..model.scenes.len()).map(|index| records(model, index, &runtime)).collect();
-    let (params, pose) = (params(model), pose(model));
+    let (params, pose, scalar) = (params(model), pose(model), scalar(model));
     let prepared = (!model.params.is_empty()).then(|| quote!(linkage: &Linkage));
     let lifetime = (!model.params.is_empty()).then(|| quote!(<'l>));
     let bound = (!model.params.is_empty()).then(|| quote!(linkage: &'l Linkage));
@@ -63,6 +63,7 @@ pub fn module(mut model: Model) -> TokenStream {
     quote! {
             #[allow(warnings, clippy::all, clippy::pedantic, reason = "stands in for a declaration that has errors")]
             #visibility mod #name {
+                use #runtime::__private::#scalar as math;
     use #runtime::{
         Error, GearReaction, ResolvedForce, SliderReaction, SlotReaction, Vector2, WeldReaction, WorkTerm,
     };

@@ -480,14 +480,38 @@ fn total(base: &str, ty: &Ident, output: &Output) -> TokenStream {
         };
         quote!(#name: #value)
     });
+    let checked = fields.iter().flat_map(|field| {
+        let name = ident(&field.name);
+        numbers(&field.value).into_iter().map(move |part| quote!(total.#name #part))
+    });
     quote! {
         impl #ty {
             /// The sum of all parts.
-            #[must_use]
-            pub fn total(&self) -> #contribution {
-                #contribution { #(#members),* }
+            ///
+            /// # Errors
+            ///
+            /// [`Error::NotFinite`]: a sum is too large for a number.
+            pub fn total(&self) -> Result<#contribution, Error> {
+                let total = #contribution { #(#members),* };
+                if !math::all_finite([#(#checked),*]) {
+                    return Err(Error::NotFinite { what: "a sum" });
+                }
+                Ok(total)
             }
         }
+    }
+}
+
+/// Where the numbers of a result are in its type.
+fn numbers(output: &Output) -> Vec<TokenStream> {
+    match output {
+        Output::Vector(..) => vec![quote!(.x), quote!(.y)],
+        Output::Resolved(_) => vec![quote!(.axial), quote!(.transverse)],
+        Output::Reaction { parts, .. } => {
+            let parts = parts.iter().map(|(part, _)| ident(part)).map(|part| quote!(.#part));
+            [quote!(.force.x), quote!(.force.y)].into_iter().chain(parts).collect()
+        }
+        _ => vec![TokenStream::new()],
     }
 }
 

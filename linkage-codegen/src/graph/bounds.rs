@@ -30,6 +30,11 @@ impl Bounds {
         -largest <= self.low && self.high <= largest
     }
 
+    /// Whether a value within them, added to a finite one, leaves it finite: it is below half of what lies between the largest two.
+    pub(crate) fn change_no_finite(self, scalar: Scalar) -> bool {
+        self.magnitude().high <= scalar.largest() * scalar.epsilon().to_f64() / 8.0
+    }
+
     /// Takes the rounding of an operation into account, which never passes over zero; where nothing is known, anything goes.
     fn rounded(self, scalar: Scalar) -> Self {
         if self.low.is_nan() || self.high.is_nan() {
@@ -54,7 +59,7 @@ impl Bounds {
     }
 
     /// Of a sum.
-    pub(crate) fn plus(self, other: Self) -> Self {
+    fn plus(self, other: Self) -> Self {
         Self { low: self.low + other.low, high: self.high + other.high }
     }
 

@@ -234,10 +234,10 @@ impl Limits {
 /// The program of all that parameters determine.
 fn prepare(graph: &Graph, loops: &[Loop]) -> Option<Program> {
     let nodes = loops.iter().filter(|found| found.known.is_none()).flat_map(|found| found.shape.nodes());
-    let results: Vec<(String, NodeId)> = nodes.map(|node| (String::new(), node)).collect();
-    let sums: Vec<Vec<NodeId>> = results.iter().map(|(_, node)| vec![*node]).collect();
+    let nodes: Vec<NodeId> = nodes.collect();
+    let results: Vec<(String, NodeId)> = nodes.iter().map(|node| (String::new(), *node)).collect();
     let program = || {
-        let mut program = passes::optimised(Extract { graph, form: Form::Prepare }.program(&results, &sums), graph);
+        let mut program = passes::optimised(Extract { graph, form: Form::Prepare }.program(&results, &nodes), graph);
         // Lengths that poses need too were made for these.
         let shared = program.values.iter_mut().filter(|value| !value.section.starts_with(SECTION));
         shared.for_each(|value| value.section.clear());

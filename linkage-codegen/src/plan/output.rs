@@ -165,33 +165,6 @@ impl Output {
         all
     }
 
-    /// The values that are added up where parts are summed: every number by itself, or of a superposition the same number of all
-    /// parts. A sum is finite only if all its terms are.
-    #[must_use]
-    pub fn sums(&self) -> Vec<Vec<NodeId>> {
-        let Self::Record(fields) = self else { return self.leaves().into_iter().map(|(_, node)| vec![node]).collect() };
-        let parts: Vec<Vec<NodeId>> = self.parts();
-        if parts.len() < 2 || !fields.iter().any(|field| matches!(field.value, Self::Record(_))) {
-            return self.leaves().into_iter().map(|(_, node)| vec![node]).collect();
-        }
-        let mut sums: Vec<Vec<NodeId>> = (0..parts[0].len())
-            .map(|index| parts.iter().filter_map(|part| part.get(index).copied()).collect())
-            .collect();
-        // The weights of all links have a sum of their own.
-        let weights = fields.iter().filter(|field| field.value.parts().len() > 1);
-        sums.extend(weights.flat_map(|field| field.value.sums()));
-        sums
-    }
-
-    /// The numbers of each innermost record.
-    fn parts(&self) -> Vec<Vec<NodeId>> {
-        let Self::Record(fields) = self else { return Vec::new() };
-        if fields.iter().any(|field| !matches!(field.value, Self::Record(_))) {
-            return vec![self.leaves().into_iter().map(|(_, node)| node).collect()];
-        }
-        fields.iter().flat_map(|field| field.value.parts()).collect()
-    }
-
     fn collect(&self, path: &str, all: &mut Vec<(String, NodeId)>) {
         let mut leaf = |part: &str, node: NodeId| {
             let separator = if path.is_empty() || part.is_empty() { "" } else { "." };

@@ -32,15 +32,15 @@ pub struct Extract<'g> {
 }
 
 impl Extract<'_> {
-    /// The program of some results, each with its path, and the sums of them that must be finite.
+    /// The program of some results, each with its path, and those of them that must be finite.
     #[must_use]
-    pub fn program(self, results: &[(String, NodeId)], sums: &[Vec<NodeId>]) -> Program {
-        self.program_of(None, results, sums)
+    pub fn program(self, results: &[(String, NodeId)], finite: &[NodeId]) -> Program {
+        self.program_of(None, results, finite)
     }
 
     /// The same with the names of a scene, by its place among all.
     #[must_use]
-    pub fn program_of(self, scene: Option<usize>, results: &[(String, NodeId)], sums: &[Vec<NodeId>]) -> Program {
+    pub fn program_of(self, scene: Option<usize>, results: &[(String, NodeId)], finite: &[NodeId]) -> Program {
         let needed = self.needed(results.iter().map(|(_, node)| *node));
         let mut building = Building {
             extract: self,
@@ -65,16 +65,14 @@ impl Extract<'_> {
         let program = &mut building.program;
         let constant =
             |value: &ValueId| matches!(program.values[value.index()].definition, Definition::Computed(Op::Constant(_)));
-        let mut groups: Vec<Vec<ValueId>> = Vec::new();
-        for sum in sums {
-            let terms = sum.iter().filter_map(|node| building.placed.get(node).copied());
-            let terms: Vec<ValueId> = terms.filter(|value| !constant(value)).collect();
-            if !terms.is_empty() && !groups.contains(&terms) {
-                groups.push(terms);
+        let mut checked: Vec<ValueId> = Vec::new();
+        for value in finite.iter().filter_map(|node| building.placed.get(node).copied()) {
+            if !constant(&value) && !checked.contains(&value) {
+                checked.push(value);
             }
         }
-        if !groups.is_empty() {
-            program.steps.push(Step::FiniteResults(groups));
+        if !checked.is_empty() {
+            program.steps.push(Step::FiniteResults(checked));
         }
         program.outputs = outputs;
         building.program

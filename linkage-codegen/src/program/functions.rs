@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::{Extract, Form, Input, Program, passes};
 use crate::graph::NodeId;
-use crate::model::{Method, Model};
+use crate::model::Model;
 use crate::plan::Plan;
 
 /// The programs of a linkage.
@@ -49,13 +49,11 @@ impl Functions {
     #[must_use]
     pub fn of(model: &Model, plan: &Plan) -> Self {
         let graph = &model.graph;
-        let program = |form, results: &[(String, NodeId)], sums: &[Vec<NodeId>]| {
-            passes::optimised(Extract { graph, form }.program(results, sums), graph)
+        let program = |form, results: &[(String, NodeId)], finite: &[NodeId]| {
+            passes::optimised(Extract { graph, form }.program(results, finite), graph)
         };
-        let single = |results: &[(String, NodeId)]| results.iter().map(|(_, node)| vec![*node]).collect::<Vec<_>>();
         let kept: Vec<(String, NodeId)> = plan.pose.iter().map(|kept| (kept.name.clone(), kept.node)).collect();
-        let finite: Vec<Vec<NodeId>> =
-            plan.pose.iter().filter(|kept| !kept.is_bound).map(|kept| vec![kept.node]).collect();
+        let finite: Vec<NodeId> = plan.pose.iter().filter(|kept| !kept.is_bound).map(|kept| kept.node).collect();
         let pose = program(Form::Direct, &kept, &finite);
         let searches = graph.searches();
         let near = (!searches.is_empty()).then(|| program(Form::Near, &kept, &finite));
@@ -78,14 +76,12 @@ impl Functions {
         let scenes: Vec<SceneFunctions> = plan
             .scenes
             .iter()
-            .zip(&model.scenes)
             .enumerate()
-            .map(|(index, (output, scene))| {
+            .map(|(index, output)| {
                 let results = output.leaves();
-                // Derivatives by several variables are no parts of a sum.
-                let sums = if scene.method == Method::Derivative { single(&results) } else { output.sums() };
+                let finite: Vec<NodeId> = results.iter().map(|(_, node)| *node).collect();
                 let program =
-                    |form| passes::optimised(Extract { graph, form }.program_of(Some(index), &results, &sums), graph);
+                    |form| passes::optimised(Extract { graph, form }.program_of(Some(index), &results, &finite), graph);
                 SceneFunctions { from_pose: program(Form::FromPose), direct: program(Form::Direct) }
             })
             .collect();
@@ -94,7 +90,7 @@ impl Functions {
         let prepared: BTreeSet<NodeId> = all.flat_map(prepared_inputs).collect();
         let prepared: Vec<NodeId> = prepared.into_iter().collect();
         let results: Vec<(String, NodeId)> = prepared.iter().map(|node| (String::new(), *node)).collect();
-        let prepare = program(Form::Prepare, &results, &single(&results));
+        let prepare = program(Form::Prepare, &results, &prepared);
         Self { prepare, pose, near, searches, accessors, scenes, prepared }
     }
 }

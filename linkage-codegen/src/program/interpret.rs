@@ -61,13 +61,9 @@ impl Run<'_> {
                         return Err(Fault::NotFinite);
                     }
                 }
-                Step::FiniteResults(groups) => {
-                    for group in groups {
-                        let terms: Vec<T> = group.iter().map(|term| self.value(*term, inputs, &mut values)).collect();
-                        let sum = terms.into_iter().reduce(|sum, term| sum.add(&term));
-                        if sum.is_some_and(|sum| !sum.is_finite()) {
-                            return Err(Fault::NotFinite);
-                        }
+                Step::FiniteResults(checked) => {
+                    if !checked.iter().all(|value| self.value(*value, inputs, &mut values).is_finite()) {
+                        return Err(Fault::NotFinite);
                     }
                 }
             }

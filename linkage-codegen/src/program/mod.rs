@@ -83,8 +83,8 @@ pub enum Step {
     },
     /// An argument must be a finite number.
     FiniteInput(ValueId),
-    /// The results must be finite, and so must their sums where they are added up.
-    FiniteResults(Vec<Vec<ValueId>>),
+    /// These results must be finite.
+    FiniteResults(Vec<ValueId>),
 }
 
 /// Straight-line code.

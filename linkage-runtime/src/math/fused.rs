@@ -32,7 +32,8 @@ pub fn mul_addf(a: f32, b: f32, c: f32) -> f32 {
 }
 
 /// Sine and cosine in fused operations, for `arithmetic fused;`: the coefficients of `sin_cos`, a shorter reduction, and bits of their own,
-/// the same on every target. Needs `mul_add`, `FRAC_PI_2` in three parts, and `polynomials`, S and C of y².
+/// the same on every target. Needs `mul_add`, `FRAC_PI_2` in three parts, `polynomials`, S and C of y², and `reduced_sin_cos`, which is
+/// `fused_one_by_one` or as good.
 macro_rules! fused_sines {
     ($scalar:ident) => {
         use super::large::{reduce_large, reduce_large_sum};
@@ -45,7 +46,7 @@ macro_rules! fused_sines {
         #[allow(clippy::inline_always, reason = "as `sin_cos`")]
         #[must_use]
         pub fn fused_sin_cos(x: $scalar) -> ($scalar, $scalar) {
-            if is_short(x) { reduce(x).fused_sin_cos() } else { large_sin_cos(x) }
+            if is_short(x) { reduced_sin_cos(reduce(x)) } else { large_sin_cos(x) }
         }
 
         /// (sin, cos) of the real number x + hi + lo, as [`sin_cos_sum`](super::sin_cos_sum) with its error.
@@ -53,19 +54,23 @@ macro_rules! fused_sines {
         #[must_use]
         pub fn fused_sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
             let (sum, error) = two_sum(x, hi);
-            if is_short(sum) { reduce(sum).plus(error + lo).fused_sin_cos() } else { large_sin_cos_sum(sum, error, lo) }
+            if is_short(sum) {
+                reduced_sin_cos(reduce(sum).plus(error + lo))
+            } else {
+                large_sin_cos_sum(sum, error, lo)
+            }
         }
 
         #[cold]
         #[inline(never)]
         fn large_sin_cos(x: $scalar) -> ($scalar, $scalar) {
-            reduce_large(x).fused_sin_cos()
+            reduce_large(x).fused_one_by_one()
         }
 
         #[cold]
         #[inline(never)]
         fn large_sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
-            reduce_large_sum(x, hi, lo).fused_sin_cos()
+            reduce_large_sum(x, hi, lo).fused_one_by_one()
         }
 
         /// [`fused_sin_cos`] without its branch: for angles for which the short reduction serves; elsewhere the numbers mean nothing.
@@ -74,7 +79,7 @@ macro_rules! fused_sines {
         #[allow(clippy::inline_always, reason = "for loops that are vectorised")]
         #[must_use]
         pub fn short_fused_sin_cos(x: $scalar) -> ($scalar, $scalar) {
-            reduce(x).fused_sin_cos()
+            reduce(x).fused_one_by_one()
         }
 
         /// [`fused_sin_cos_sum`] without its branch: where the short reduction serves for x + hi.
@@ -84,7 +89,7 @@ macro_rules! fused_sines {
         #[must_use]
         pub fn short_fused_sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
             let (sum, error) = two_sum(x, hi);
-            reduce(sum).plus(error + lo).fused_sin_cos()
+            reduce(sum).plus(error + lo).fused_one_by_one()
         }
 
         /// Where the short reduction serves. Nothing is lost but by the sums that make y and t.
@@ -102,7 +107,7 @@ macro_rules! fused_sines {
         impl Reduced {
             /// The polynomials, exchanged and negated as the quadrant says. Every sum is arranged so that −0 stays −0.
             #[inline]
-            fn fused_sin_cos(self) -> ($scalar, $scalar) {
+            fn fused_one_by_one(self) -> ($scalar, $scalar) {
                 let Self { quadrant, y, t } = self;
                 let z = y * y;
                 let (s, c) = polynomials(z);

@@ -35,7 +35,7 @@ fn main() -> Result<(), Error> {
     let loads = math::Loads { pose: polar(50.0, 4.0), sin_cos: 2.0 };
     let pose = math::Pose::at(&linkage, 1.0)?;
     assert_eq!(pose.u8(&loads)?.theta, math::u8_at(&linkage, 1.0, &loads)?.theta);
-    assert_eq!(pose.parts(&loads)?.total().B, math::parts_at(&linkage, 1.0, &loads)?.total().B);
+    assert_eq!(pose.parts(&loads)?.total()?.B, math::parts_at(&linkage, 1.0, &loads)?.total()?.B);
     assert!(pose.total(&loads)?.pose.work.is_finite());
     assert_eq!(pose.self_(), 1.0);
     Ok(())

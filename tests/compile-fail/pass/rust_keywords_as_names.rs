@@ -33,7 +33,7 @@ fn main() -> Result<(), Error> {
     let pose = r#loop::Pose::at(1.0)?;
     let all = pose.r#static(&loads)?;
     let each = pose.r#ref(&loads)?;
-    assert!((all.r#let - each.total().r#let).abs() < 1e-9);
+    assert!((all.r#let - each.total()?.r#let).abs() < 1e-9);
     assert!((all.r#for - each.r#mut.r#for - each.r#const.r#for).norm() < 1e-9);
     assert!((r#loop::yield_at(1.0, &loads)?.r#let - each.r#mut.r#let).abs() < 1e-9);
     assert_eq!(r#loop::where_at(1.0)?.r#in, pose.r#in());

@@ -7,30 +7,28 @@
 use std::collections::BTreeSet;
 
 use crate::graph::bounds::Bounds;
-use crate::graph::{Graph, Kernel, Op, Symbol};
+use crate::graph::{Graph, Kernel, Op, Scalar, Symbol};
 use crate::program::{Definition, Input, Program, Step, ValueId};
 
 pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
     let scalar = graph.scalar();
     let bounds = bounds(&program, graph);
-    let unknown = |group: &[ValueId]| {
-        let sum = group.iter().map(|value| bounds[value.index()]).reduce(Bounds::plus);
-        !sum.is_some_and(|sum| sum.are_finite(scalar))
-    };
     let mut steps = core::mem::take(&mut program.steps);
     for step in &mut steps {
-        let Step::FiniteResults(groups) = step else { continue };
-        groups.retain(|group| unknown(group));
-        let shown = shown_by(&program, groups);
-        groups.retain(|group| !matches!(group[..], [value] if shown.contains(&value)));
+        let Step::FiniteResults(checked) = step else { continue };
+        let core = |value: ValueId| core(&program, &bounds, scalar, value);
+        let mut cores = BTreeSet::new();
+        checked.retain(|value| !bounds[value.index()].are_finite(scalar) && cores.insert(core(*value)));
+        let shown = shown_by(&program, &cores);
+        checked.retain(|value| !shown.contains(&core(*value)));
     }
-    steps.retain(|step| !matches!(step, Step::FiniteResults(groups) if groups.is_empty()));
+    steps.retain(|step| !matches!(step, Step::FiniteResults(checked) if checked.is_empty()));
     program.steps = steps;
     program
 }
 
-/// The values that are finite if the sums of all groups are: those from which they are formed.
-fn shown_by(program: &Program, groups: &[Vec<ValueId>]) -> BTreeSet<ValueId> {
+/// The values that are finite if the checked ones are: those from which these are formed.
+fn shown_by(program: &Program, checked: &BTreeSet<ValueId>) -> BTreeSet<ValueId> {
     let inherited = |value: &ValueId| match program.op(*value) {
         Some(Op::Neg(a) | Op::Abs(a) | Op::Sqrt(a) | Op::Div(a, _)) => vec![*a],
         Some(Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b)) => vec![*a, *b],
@@ -41,19 +39,26 @@ fn shown_by(program: &Program, groups: &[Vec<ValueId>]) -> BTreeSet<ValueId> {
         }) => args.clone(),
         _ => Vec::new(),
     };
-    let formed_from = |group: &Vec<ValueId>| match group.as_slice() {
-        // By itself it is what is checked.
-        [value] => inherited(value),
-        terms => terms.to_vec(),
-    };
     let mut shown = BTreeSet::new();
-    let mut open: Vec<ValueId> = groups.iter().flat_map(formed_from).collect();
+    let mut open: Vec<ValueId> = checked.iter().flat_map(inherited).collect();
     while let Some(value) = open.pop() {
         if shown.insert(value) {
             open.extend(inherited(&value));
         }
     }
     shown
+}
+
+/// The value without its signs, and without terms too small to take a finite number beyond the largest: it is finite where that is.
+fn core(program: &Program, bounds: &[Bounds], scalar: Scalar, mut value: ValueId) -> ValueId {
+    let is_small = |term: &ValueId| bounds[term.index()].change_no_finite(scalar);
+    loop {
+        value = match program.op(value) {
+            Some(Op::Neg(a) | Op::Abs(a)) => *a,
+            Some(Op::Add(a, term) | Op::Add(term, a) | Op::Sub(a, term) | Op::Sub(term, a)) if is_small(term) => *a,
+            _ => return value,
+        };
+    }
 }
 
 /// The bounds of all values. Drives are checked, poses and prepared linkages hold finite numbers only; loads may be anything.

@@ -16,4 +16,9 @@ fn polynomials(z: f32) -> (f32, f32) {
     (sum(SINE), sum(COSINE))
 }
 
+#[inline]
+fn reduced_sin_cos(reduced: Reduced) -> (f32, f32) {
+    reduced.fused_one_by_one()
+}
+
 fused_sines!(f32);

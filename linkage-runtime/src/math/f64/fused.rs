@@ -19,4 +19,14 @@ fn polynomials(z: f64) -> (f64, f64) {
     (sum(SINE), sum(COSINE))
 }
 
+/// Sine and cosine, whichever way is the faster: both have the same bits.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "as `sin_cos`")]
+fn reduced_sin_cos(reduced: Reduced) -> (f64, f64) {
+    #[cfg(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma"))]
+    return super::pair::fused_sin_cos(reduced);
+    #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
+    reduced.fused_one_by_one()
+}
+
 fused_sines!(f64);

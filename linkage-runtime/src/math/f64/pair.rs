@@ -1,13 +1,17 @@
-//! Sine and cosine in the two halves of a register of x86-64: the operations of [`Reduced::one_by_one`], each on its number, so the same
-//! bits, in half as many instructions. What the quadrant changes stays in the register too.
+//! Sine and cosine in the two halves of a register of x86-64: the operations of [`Reduced::one_by_one`], or of the fused ones, each on its
+//! number, so the same bits, in half as many instructions. What the quadrant changes stays in the register too.
 #![allow(unsafe_code, reason = "a function that uses instructions beyond the oldest processors' is unsafe to call")]
 
+#[cfg(target_feature = "fma")]
+use core::arch::x86_64::_mm_fmadd_pd;
 use core::arch::x86_64::{
     __m128d, _mm_add_epi64, _mm_add_pd, _mm_and_si128, _mm_castpd_si128, _mm_castsi128_pd, _mm_cvtsd_f64, _mm_mul_pd,
     _mm_set_epi64x, _mm_set_pd, _mm_set1_epi64x, _mm_set1_pd, _mm_setzero_si128, _mm_shuffle_epi32, _mm_slli_epi64,
     _mm_sub_epi64, _mm_sub_pd, _mm_unpackhi_pd, _mm_unpacklo_pd, _mm_xor_pd, _mm_xor_si128,
 };
 
+#[cfg(target_feature = "fma")]
+use super::mul_add;
 use super::sin_cos::{COSINE, Reduced, SINE};
 
 /// See [`Reduced::sin_cos`].
@@ -38,8 +42,43 @@ fn in_halves(Reduced { quadrant, y, t }: Reduced) -> (f64, f64) {
     let small = _mm_add_pd(_mm_mul_pd(first, p), tail);
     // −0 changes no number that it is added to.
     let small = _mm_add_pd(both(-0.0, half - (1.0 - w)), small);
-    let found = _mm_castpd_si128(_mm_sub_pd(both(y, w), small));
+    turned(quadrant, _mm_sub_pd(both(y, w), small))
+}
 
+/// See `Reduced::fused_one_by_one`.
+#[cfg(target_feature = "fma")]
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "as `sin_cos`")]
+pub(super) fn fused_sin_cos(reduced: Reduced) -> (f64, f64) {
+    // SAFETY: this function is compiled only where all code may use fused operations.
+    unsafe { fused_in_halves(reduced) }
+}
+
+/// As [`in_halves`], every product that a sum reads added without being rounded.
+#[cfg(target_feature = "fma")]
+#[inline]
+#[target_feature(enable = "sse2,fma")]
+fn fused_in_halves(Reduced { quadrant, y, t }: Reduced) -> (f64, f64) {
+    let y2 = _mm_set1_pd(y);
+    let z = _mm_mul_pd(y2, y2);
+    let z2 = _mm_mul_pd(z, z);
+    let square = _mm_cvtsd_f64(z);
+    let w = mul_add(-0.5, square, 1.0);
+    let ([s0, s1, s2, s3, s4, s5], [c0, c1, c2, c3, c4, c5]) = (SINE, COSINE);
+    let low = _mm_fmadd_pd(z, both(s1, -c1), both(s0, -c0));
+    let middle = _mm_fmadd_pd(z, both(s3, -c3), both(s2, -c2));
+    let high = _mm_fmadd_pd(z, both(s5, -c5), both(s4, -c4));
+    let p = _mm_fmadd_pd(_mm_mul_pd(z2, z2), high, _mm_fmadd_pd(z2, middle, low));
+    let first = _mm_mul_pd(z, _mm_unpacklo_pd(y2, z));
+    let rest = both(t * w, mul_add(-y, t, mul_add(0.5, square, w - 1.0)));
+    turned(quadrant, _mm_sub_pd(both(y, w), _mm_fmadd_pd(first, p, rest)))
+}
+
+/// Sine and cosine of the reduced angle, exchanged and negated as the quadrant says.
+#[inline]
+#[target_feature(enable = "sse2")]
+fn turned(quadrant: u64, found: __m128d) -> (f64, f64) {
+    let found = _mm_castpd_si128(found);
     let quadrant = _mm_castpd_si128(_mm_set1_pd(f64::from_bits(quadrant)));
     let odd = _mm_sub_epi64(_mm_setzero_si128(), _mm_and_si128(quadrant, _mm_set1_epi64x(1)));
     let exchange = _mm_and_si128(_mm_xor_si128(found, _mm_shuffle_epi32::<0b01_00_11_10>(found)), odd);
@@ -59,7 +98,7 @@ fn both(lower: f64, upper: f64) -> __m128d {
 
 #[cfg(test)]
 mod tests {
-    use crate::math::f64::{short_sin_cos, sin_cos};
+    use crate::math::f64::{fused_sin_cos, short_fused_sin_cos, short_sin_cos, sin_cos};
 
     #[test]
     fn halves_have_the_bits_of_one_by_one() {
@@ -67,8 +106,10 @@ mod tests {
         let turns = (0..200_000).map(|i| f64::from(i) * 0.013_7);
         let small = (0..2000).map(|i| f64::from_bits(0x3FF0_0000_0000_0000 - 0x0001_3579_BDF0_2468 * i));
         for x in turns.chain(small).chain([0.0, 5e-324]) {
-            assert_eq!(bits(sin_cos(x)), bits(short_sin_cos(x)), "{x:e}");
-            assert_eq!(bits(sin_cos(-x)), bits(short_sin_cos(-x)), "-{x:e}");
+            for x in [x, -x] {
+                assert_eq!(bits(sin_cos(x)), bits(short_sin_cos(x)), "{x:e}");
+                assert_eq!(bits(fused_sin_cos(x)), bits(short_fused_sin_cos(x)), "fused, {x:e}");
+            }
         }
     }
 }

@@ -77,7 +77,7 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     let parts = pose.parts(&loads);
     digest.result(parts);
     if let Ok(parts) = parts {
-        digest.put(parts.total());
+        digest.result(parts.total());
     }
     digest.result(pose.terms(&loads));
     digest.result(pose.torque(&loads));

@@ -70,7 +70,7 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     let parts = pose.parts(&loads);
     digest.result(parts);
     if let Ok(parts) = parts {
-        digest.put(parts.total());
+        digest.result(parts.total());
     }
     digest.result(pose.work(&loads));
     digest.result(pose.place());

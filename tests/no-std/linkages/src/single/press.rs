@@ -92,8 +92,8 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     let parts = pose.parts(&loads);
     digest.result(parts);
     if let Ok(parts) = parts {
-        digest.put(parts.total());
-        digest.put(parts.W.total());
+        digest.result(parts.total());
+        digest.result(parts.W.total());
     }
     digest.result(pose.work(&loads));
     digest.result(pose.place());
