@@ -53,11 +53,22 @@ impl<'g> Inverse<'g> {
     }
 
     /// The deviations of the unknowns by those of the right sides.
-    pub(crate) fn times(&self, mut right: Vec<Deviation<'g>>) -> Vec<Deviation<'g>> {
+    pub(crate) fn times(&self, right: Vec<Deviation<'g>>) -> Vec<Deviation<'g>> {
+        self.times_with(right, |own| own)
+    }
+
+    /// The same with what becomes of the right sides of the core.
+    fn times_with(
+        &self,
+        mut right: Vec<Deviation<'g>>,
+        in_core: impl FnMut(Deviation<'g>) -> Deviation<'g>,
+    ) -> Vec<Deviation<'g>> {
         self.reduced.reduce(&mut right);
+        let rows = self.reduced.equations.iter();
+        let of_core: Vec<Deviation<'g>> = rows.map(|row| right[*row].clone()).map(in_core).collect();
         let mut values = vec![Deviation::within(self.graph.zero()); right.len()];
         for (unknown, line) in self.reduced.unknowns.iter().zip(&self.core) {
-            let parts = line.iter().zip(&self.reduced.equations).map(|(factor, row)| right[*row].scaled(*factor));
+            let parts = line.iter().zip(&of_core).map(|(factor, right)| right.scaled(*factor));
             values[*unknown] = parts.fold(values[*unknown].clone(), |sum, part| sum.plus(&part));
         }
         self.reduced.completed(&right, values)
@@ -109,8 +120,8 @@ fn inverse<'g>(graph: &'g Graph, matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>>
 }
 
 impl<'g> Rounding<'g> {
-    /// The deviations of values that solve linear equations. What is left open of each equation, its rounding, and what its numbers are off
-    /// by without a source is a source of errors: the unknowns have shares of it that balance each other.
+    /// The deviations of values that solve linear equations. What is left open of each equation of the core, its rounding, and what its numbers
+    /// are off by without a source is a source of errors: the unknowns have shares of it that balance each other.
     pub(super) fn of_solution(&mut self, equations: &[Equation<'g>], values: &[Expr<'g>]) -> Vec<Deviation<'g>> {
         let graph = self.graph;
         let inverse = Inverse::of(graph, equations);
@@ -130,12 +141,13 @@ impl<'g> Rounding<'g> {
             }
             let roundings = i64::try_from(products.len() + 1).unwrap_or(i64::MAX);
             let open = equation.left_open(values).abs() + roundings * self.rounded(terms);
-            let rest = deviation.rest + open;
-            let source = self.source(&format!("equation_{}", self.sources.len() + 1));
-            right.push(deviation.shared().plus(&Deviation::of(source, rest)));
+            right.push(deviation.and(open));
             sizes.push(Deviation::within(size));
         }
-        let found = inverse.times(right);
+        let found = inverse.times_with(right, |own| {
+            let source = self.source(&format!("equation_{}", self.sources.len() + 1));
+            own.shared().plus(&Deviation::of(source, own.rest))
+        });
         if uncertain.iter().all(|error| error.is_zero()) {
             return found;
         }
