@@ -4,12 +4,11 @@
 mod support;
 
 use linkage_codegen::Linkage;
-use linkage_codegen::graph::real::Real;
 use linkage_codegen::program::Fault;
-use support::bounds::{LOOSEST, median, ratios, with_bounds};
+use support::bounds::{LOOSEST, median, ratios, ratios_of, with_bounds};
 use support::families::{boom, four_bar, length, oscillating_block, scotch_yoke, slider_crank, tangent_mechanism};
 use support::linkages::{Class, Kind, Random, sample, sample_with_forces, sample_with_search};
-use support::numbers::{Double, Extended, Single};
+use support::numbers::{Double, Single};
 use support::{Arguments, Number, from_pose, pose, scene};
 
 /// The ratios of a scene from the drives and from a pose.
@@ -248,16 +247,7 @@ fn of_moving(name: &str, text: &str, around: f64, by: f64) {
         let motion = vec![[random.range(-20.0, 20.0), random.range(-300.0, 300.0)]];
         let arguments = Arguments { drives, loads: vec![[0.0; 2]], params: Vec::new(), sides: Vec::new(), motion };
         for name in ["place", "v", "a", "f", "w"] {
-            let Ok(found) = scene::<Double>(&linkage, name, &arguments) else { continue };
-            let exact = scene::<Extended>(&linkage, name, &arguments).expect("regular where doubles are");
-            for (path, value) in found.iter().filter(|(path, _)| !path.starts_with("error_bound.")) {
-                let error = Extended::exactly(value.to_f64()).sub(&exact[path]).to_f64().abs();
-                let bound = found[&format!("error_bound.{path}")].to_f64();
-                assert!(error <= bound, "{name}: {path} is off by {error:e}, bound {bound:e}");
-                if error > 0.0 {
-                    all.push(bound / error);
-                }
-            }
+            all.extend(ratios_of(&linkage, name, &arguments, text));
         }
     }
     expect_tight(name, all);
