@@ -188,8 +188,11 @@ fn state_together<'g>(rounding: &mut Rounding<'g>, placed: &PlacedTogether<'g>) 
     let PlacedTogether { equations, unknowns, .. } = placed;
     let Some(graph) = equations.first().map(|equation| equation.residual.graph()) else { return };
     let exact: Vec<Expr<'g>> = unknowns.iter().flat_map(Unknown::values).collect();
-    let strain = unknowns.iter().map(|unknown| match unknown {
-        Unknown::Direction(direction) => rounding.strain(*direction),
+    let strain = unknowns.iter().zip(&placed.names).map(|(unknown, name)| match unknown {
+        Unknown::Direction(direction) => {
+            let strain = rounding.strain(*direction);
+            strain.named(format!("strain_of_{name}"), format!("how far the direction at {name} is from unit size"))
+        }
         Unknown::Angle(_) | Unknown::Travel { .. } => graph.zero(),
     });
     let strain: Vec<Expr<'g>> = strain.collect();

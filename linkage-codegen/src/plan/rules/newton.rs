@@ -133,22 +133,26 @@ fn placed_together<'m>(
             _ => None,
         })
     };
-    let equations = search.residuals.iter().zip(&search.jacobian).enumerate().map(|(index, (residual, changes))| {
-        let name = graph.label(*residual).map_or_else(|| "gap".to_owned(), |label| label.name);
-        let residual = found(residual).named(format!("open_{name}"), format!("{name} of what was found"));
-        ClosedEquation {
-            name: name.strip_prefix("gap_").unwrap_or(&name).to_owned(),
-            residual,
-            changes: changes.iter().map(found).collect(),
-            other: (index < of_loops).then_some(index ^ 1),
-        }
-    });
-    let equations = equations.collect();
     let names = search.sought.iter().map(|sought| match sought {
         Sought::Direction { name } => format!("angle_{name}"),
         Sought::Travel { name, .. } => name.clone(),
     });
-    PlacedTogether { equations, unknowns, names: names.collect() }
+    let names: Vec<String> = names.collect();
+    let equations = search.residuals.iter().zip(&search.jacobian).enumerate().map(|(index, (residual, changes))| {
+        let name = graph.label(*residual).map_or_else(|| "gap".to_owned(), |label| label.name);
+        let residual = found(residual).named(format!("open_{name}"), format!("{name} of what was found"));
+        let change = |(change, unknown): (&NodeId, &String)| {
+            found(change).named(format!("{name}_by_{unknown}"), format!("change of {name} with {unknown}"))
+        };
+        ClosedEquation {
+            name: name.strip_prefix("gap_").unwrap_or(&name).to_owned(),
+            residual,
+            changes: changes.iter().zip(&names).map(change).collect(),
+            other: (index < of_loops).then_some(index ^ 1),
+        }
+    });
+    let equations = equations.collect();
+    PlacedTogether { equations, unknowns, names }
 }
 
 /// What rounding may leave open of all loops together, in epsilons of the lengths that make them up. A search goes on while it gains, to
