@@ -104,6 +104,21 @@ declared! { RAIL:
     scene control: motion -> (M, h, rounding, M_kinetic);
 }
 
+declared! { BOUNDED:
+    mod bounded;
+    units { mm, N }
+    ground { O: (0, 0), Q: (500mm, 100mm), P: (400mm, -100mm) } link crank { O -> A: 100mm } link b { A -> E: 195mm }
+    link t { E: (0, 0), C: (100mm, 70mm), D: (70mm, -90mm), G: (30mm, 30mm) } link c { Q -> C: 192mm, S: (90mm, 10mm) }
+    link d { P -> D: 180mm }
+    mass t: 3kg at G, inertia 2000kg*mm^2;
+    revolute O: ground -> crank; revolute A: crank -> b; revolute E: t -> b; revolute C: t -> c; revolute D: d -> t;
+    revolute Q: ground -> c; revolute P: ground -> d; drive q: O; unknown T: torque(ground -> crank);
+    start q: 0.4rad; start b: (100mm, 40mm), angle 36deg; start t: (250mm, 150mm), angle 0; start c: (500mm, 100mm), angle 140deg;
+    start d: (400mm, -100mm), angle 115deg; load F: force(c.S); load I: inertia;
+    scene held: equilibrium(F) -> (T, C, error_bound); scene speeds: velocity -> (t.G, d.angle, error_bound);
+    scene carried: equilibrium(I) -> (T, error_bound);
+}
+
 /// All numbers of a result, in the order of its fields.
 fn numbers<T: Debug>(result: &Result<T, Error>) -> Option<Vec<u64>> {
     let text = format!("{:?}", result.as_ref().ok()?);
@@ -438,6 +453,40 @@ fn in_motion() {
             &pose.and_then(|pose| pose.light()),
         );
     }
+}
+
+/// Results of a group that is placed by iteration, with their bounds.
+#[test]
+fn with_bounds() {
+    let interpreted = Interpreted::of_text(BOUNDED);
+    let force: Vector2<f64> = polar(50.0, 1.0);
+    let (loads, motion) = (bounded::Loads { F: force }, bounded::Motion { q_rate: 31.4, q_acceleration: -250.0 });
+    let mut found = 0;
+    for q in (0..200).map(|step| 0.01 * f64::from(step)) {
+        let arguments = Arguments {
+            drives: vec![q],
+            loads: vec![[force.x, force.y], [0.0; 2]],
+            motion: vec![[31.4, -250.0]],
+            ..Arguments::default()
+        };
+        let pose = bounded::Pose::at(q);
+        let held = bounded::held_at(q, &loads);
+        found += usize::from(held.is_ok());
+        interpreted.check("held", &arguments, &held, &pose.and_then(|pose| pose.held(&loads)));
+        interpreted.check(
+            "speeds",
+            &arguments,
+            &bounded::speeds_at(q, &motion),
+            &pose.and_then(|pose| pose.speeds(&motion)),
+        );
+        interpreted.check(
+            "carried",
+            &arguments,
+            &bounded::carried_at(q, &motion),
+            &pose.and_then(|pose| pose.carried(&motion)),
+        );
+    }
+    assert!(found > 100, "{found}");
 }
 
 /// Inverse scenes, with what is prepared for them.

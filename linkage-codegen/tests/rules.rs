@@ -4,6 +4,7 @@ mod support;
 
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::plan::rules::RULES;
+use support::bounds::{LOOSEST, median, ratios_of};
 use support::general::{equations, open_motion, solve_extended};
 use support::numbers::Extended;
 use support::{Arguments, Number, compile, scene};
@@ -752,6 +753,39 @@ fn check(linkage: &linkage_codegen::Linkage, arguments: &Arguments, text: &str) 
         let difference = all[&unknown.name].sub(&work[&unknown.name]).to_f64();
         assert!(difference.abs() < 1e-50, "{}: virtual work {difference:e}\n{text}", unknown.name);
     }
+}
+
+/// Of forces, of the unknowns by virtual work, and of how the links turn.
+#[test]
+fn bounds_hold_the_errors_of_every_rule() {
+    let mut all = Vec::new();
+    for (class, drives, items) in CASES {
+        let linkage = compile(&format!("pub mod sample; {items} scene all: equilibrium;"));
+        let list = |names: Vec<String>| names.join(", ");
+        let unknowns = list(linkage.model.unknowns.iter().map(|unknown| unknown.name.clone()).collect());
+        let joints = list(linkage.model.joints.iter().map(|joint| joint.name.text.clone()).collect());
+        let angles = linkage.model.moving_links().map(|link| format!("{}.angle", linkage.model.link(link).name));
+        let angles = list(angles.collect());
+        let text = format!(
+            "pub mod sample; {items} scene held: equilibrium -> ({unknowns}, {joints}, error_bound);
+             scene work: virtual_work -> ({unknowns}, error_bound); scene moved: acceleration -> ({angles}, error_bound);"
+        );
+        let linkage = compile(&text);
+        for drives in drives {
+            let arguments = Arguments {
+                drives: drives.to_vec(),
+                loads: vec![[0.0; 2]; linkage.model.loads.len()],
+                motion: vec![[1.3, -0.7], [0.6, 2.1], [-0.9, 0.4], [0.3, 1.7]],
+                ..Arguments::default()
+            };
+            for name in ["held", "work", "moved"] {
+                all.extend(ratios_of(&linkage, name, &arguments, &format!("{class}: {name} at {drives:?}\n{text}")));
+            }
+        }
+    }
+    let (count, median) = (all.len(), median(&mut all).expect("results"));
+    println!("{count} results, median of bound over error {median:.1}");
+    assert!(count > 1000 && median < LOOSEST, "{count} results, median {median:.1}");
 }
 
 #[test]

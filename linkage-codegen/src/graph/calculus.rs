@@ -131,22 +131,35 @@ impl Graph {
 
     /// The expression with symbols replaced.
     pub fn substituted<'g>(&'g self, of: Expr<'g>, by: &dyn Fn(Symbol) -> Option<Expr<'g>>) -> Expr<'g> {
+        self.substituted_from(of, Stage::Constant, by)
+    }
+
+    /// The expression with symbols of a stage, or later, replaced; what is known earlier stays as it is.
+    pub fn substituted_from<'g>(
+        &'g self,
+        of: Expr<'g>,
+        stage: Stage,
+        by: &dyn Fn(Symbol) -> Option<Expr<'g>>,
+    ) -> Expr<'g> {
         let mut done = HashMap::new();
-        self.expr(self.substitute(of.id(), by, &mut done))
+        self.expr(self.substitute(of.id(), (stage, by), &mut done))
     }
 
     fn substitute<'g>(
         &'g self,
         id: NodeId,
-        by: &dyn Fn(Symbol) -> Option<Expr<'g>>,
+        (stage, by): (Stage, &dyn Fn(Symbol) -> Option<Expr<'g>>),
         done: &mut HashMap<NodeId, NodeId>,
     ) -> NodeId {
+        if self.stage(id) < stage {
+            return id;
+        }
         if let Some(found) = done.get(&id) {
             return *found;
         }
         let result = match self.op(id) {
             Op::Symbol(symbol) => by(symbol).map_or(id, Expr::id),
-            _ => self.rebuilt(id, &mut |inner| self.substitute(inner, by, done)).id(),
+            _ => self.rebuilt(id, &mut |inner| self.substitute(inner, (stage, by), done)).id(),
         };
         done.insert(id, result);
         result

@@ -6,6 +6,7 @@
 
 pub(crate) mod bounds;
 mod calculus;
+pub(crate) mod elimination;
 mod expr;
 mod fold;
 mod linear;
@@ -476,6 +477,7 @@ struct Arena {
     non_negative: BTreeSet<NodeId>,
     sections: Vec<String>,
     searches: Vec<Search>,
+    solved: Vec<elimination::Solved>,
 }
 
 /// The graph. Nodes are added through a shared reference, so that expressions can be written with operators.

@@ -29,14 +29,21 @@
 //!               + u(|x a| + |y b| + |x a + y b|)
 //! ```
 //!
+//! The solution of linear equations is known by what it leaves open of them (see [`solutions`]).
+//!
 //! A quotient counts twice, because it may become a product with a reciprocal. What is given (drives, parameters, loads) is exact; constants
 //! are rounded once. Shares and bounds are rounded as well: what all of them lack is of second order, and made up for where a result takes its
 //! bound.
 
+mod solutions;
+
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use super::elimination::Equation;
 use super::number::Number;
 use super::{Expr, Graph, Kernel, NodeId, Op, Scalar, Vector};
+
+pub(crate) use solutions::Inverse;
 
 /// A source of errors that many values share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -99,6 +106,12 @@ impl<'g> Deviation<'g> {
     #[must_use]
     pub fn opposite(&self) -> Self {
         self.each(|share| -share, self.rest)
+    }
+
+    /// Its shares alone.
+    #[must_use]
+    pub fn shared(&self) -> Self {
+        Self { rest: self.rest.graph().zero(), ..self.clone() }
     }
 
     /// With so much more of a rest.
@@ -172,8 +185,9 @@ pub struct Rounding<'g> {
     passed_on: HashSet<String>,
     /// The names of the sources.
     sources: Vec<String>,
-    /// Whether a bound would have to be known of what is found by iteration, which it is not.
-    pub searched: bool,
+    /// Solutions of linear equations that are known better than their operations tell, and which of them a value belongs to.
+    solutions: Vec<(Vec<Equation<'g>>, Vec<Expr<'g>>)>,
+    solved: HashMap<NodeId, usize>,
     /// What belongs to values that a pose keeps; it is kept beside them.
     pub held: Vec<HeldBound<'g>>,
 }
@@ -182,6 +196,15 @@ impl<'g> Rounding<'g> {
     /// Nothing bounded yet.
     #[must_use]
     pub fn new(graph: &'g Graph) -> Self {
+        let solutions = graph.noted_solutions();
+        // What is there before all numbers of the equations did not come from them, and may be one of them.
+        let of = |(index, (equations, values)): (usize, &(Vec<Equation<'g>>, Vec<Expr<'g>>))| {
+            let numbers = equations.iter().flat_map(|equation| equation.coefficients.iter().chain([&equation.right]));
+            let last = numbers.map(|number| number.id()).max();
+            let unknown = values.iter().filter(|value| Some(value.id()) > last);
+            unknown.map(|value| (value.id(), index)).collect::<Vec<_>>()
+        };
+        let solved = solutions.iter().enumerate().flat_map(of).collect();
         Self {
             graph,
             done: HashMap::new(),
@@ -191,7 +214,8 @@ impl<'g> Rounding<'g> {
             supposed: None,
             passed_on: HashSet::new(),
             sources: Vec::new(),
-            searched: false,
+            solutions,
+            solved,
             held: Vec::new(),
         }
     }
@@ -231,11 +255,24 @@ impl<'g> Rounding<'g> {
         }
     }
 
-    /// The bound of how far a computed direction is from unit size: `|u·u − 1|/2` and its rounding.
+    /// How far a computed direction is from unit size, `(u·u − 1)/2`, to half an epsilon: two roundings of what is about 1, halved.
+    #[must_use]
+    pub fn strain(&self, unit: Vector<'g>) -> Expr<'g> {
+        let half = self.graph.constant(&Number::ratio(1, 2));
+        half * (unit.squared() - self.graph.one())
+    }
+
+    /// The bound of that.
     #[must_use]
     pub fn stretch(&self, unit: Vector<'g>) -> Expr<'g> {
+        self.strain(unit).abs() + self.of_strain()
+    }
+
+    /// The bound of how far the strain of a direction is off itself.
+    #[must_use]
+    pub fn of_strain(&self) -> Expr<'g> {
         let half = self.graph.constant(&Number::ratio(1, 2));
-        half * (unit.squared() - self.graph.one()).abs() + self.graph.epsilons(1)
+        half * self.graph.epsilons(1)
     }
 
     /// What is known of a direction that a value is a component of.
@@ -338,6 +375,17 @@ impl<'g> Rounding<'g> {
     pub fn deviation(&mut self, of: NodeId) -> Deviation<'g> {
         if let Some(deviation) = self.done.get(&of) {
             return deviation.clone();
+        }
+        if let Some(index) = self.solved.get(&of) {
+            let (equations, values) = self.solutions[*index].clone();
+            let deviations = self.of_solution(&equations, &values);
+            let known = values.into_iter().zip(deviations);
+            for (value, deviation) in
+                known.filter(|(value, _)| self.solved.contains_key(&value.id())).collect::<Vec<_>>()
+            {
+                self.state(value, deviation);
+            }
+            return self.done[&of].clone();
         }
         if self.direction_of(of).is_some() {
             return self.done[&of].clone();
@@ -486,6 +534,15 @@ impl<'g> Rounding<'g> {
 
     fn of_kernel(&mut self, value: Expr<'g>, kernel: Kernel, args: &[NodeId], part: u8) -> Deviation<'g> {
         let graph = self.graph;
+        match kernel {
+            Kernel::Solve2 | Kernel::Solve3 => return self.of_solved(kernel, args, part),
+            Kernel::Solve(size) if part < size => return self.of_solved(kernel, args, part),
+            // How far from singular it is only decides.
+            Kernel::Solve(_) => return Deviation::within(graph.zero()),
+            // What is found is known by what it leaves open, and stated.
+            Kernel::Search { .. } => return Deviation::within(graph.largest()),
+            Kernel::SinCos | Kernel::SinCosSum(_) | Kernel::Atan2 | Kernel::MulAdd | Kernel::Unit => {}
+        }
         let deviations: Vec<Deviation<'g>> = args.iter().map(|arg| self.deviation(*arg)).collect();
         let args: Vec<Expr<'g>> = args.iter().map(|arg| graph.expr(*arg)).collect();
         // 0.82 ulp of a sine, 0.70 of an angle, and no ulp is more than 2u|x|; 1.5 ε of a direction.
@@ -517,13 +574,7 @@ impl<'g> Rounding<'g> {
                 let total = turn.total();
                 turn.scaled(if part == 0 { -unit.y } else { unit.x }).and(total * total + own)
             }
-            Kernel::Solve2 => self.of_solution(kernel, &args, &deviations, part, 2),
-            Kernel::Solve3 => self.of_solution(kernel, &args, &deviations, part, 3),
-            // How far from singular it is only decides.
-            Kernel::Solve(size) if part == size => Deviation::within(graph.zero()),
-            Kernel::Solve(size) => self.of_solution(kernel, &args, &deviations, part, usize::from(size)),
-            Kernel::Search { .. } => {
-                self.searched = true;
+            Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_) | Kernel::Search { .. } => {
                 Deviation::within(graph.zero())
             }
         }
@@ -543,37 +594,29 @@ impl<'g> Rounding<'g> {
         linear.and(rest + (error / size) * (error / least.where_above(size, 2 * error)))
     }
 
-    /// `|x̂ − x| ≤ 2 |A⁻¹| (E|x̂| + e + γ(|A||x̂| + |b|))` for equations `A x = b` with errors E and e of their numbers, as long as these are
-    /// far from making A singular; `γ` stands for the elimination with row pivoting.
-    fn of_solution(
-        &self,
-        kernel: Kernel,
-        args: &[Expr<'g>],
-        deviations: &[Deviation<'g>],
-        part: u8,
-        size: usize,
-    ) -> Deviation<'g> {
+    /// The deviation of an unknown of linear equations; those of the others are found with it.
+    fn of_solved(&mut self, kernel: Kernel, args: &[NodeId], part: u8) -> Deviation<'g> {
         let graph = self.graph;
-        let errors: Vec<Expr<'g>> = deviations.iter().map(Deviation::total).collect();
+        let args: Vec<Expr<'g>> = args.iter().map(|arg| graph.expr(*arg)).collect();
+        let size = match kernel {
+            Kernel::Solve(size) => usize::from(size),
+            _ => usize::from(kernel.parts()),
+        };
         // Between coefficients and right sides there may be the sizes of the coefficients.
-        let (before, right) = args.split_at(args.len() - size);
-        let (matrix, matrix_errors) = (&args[..size * size], &errors[..size * size]);
-        let right_errors = &errors[args.len() - size..];
-        let solution: Vec<Expr<'g>> =
-            (0..size).map(|k| graph.kernel(kernel, args, u8::try_from(k).unwrap_or(0)).abs()).collect();
-        let elimination = graph.epsilons(8);
-        let mut sum = graph.zero();
-        for line in 0..size {
-            let mut residual = right_errors[line] + elimination * right[line].abs();
-            for (column, value) in solution.iter().enumerate() {
-                let at = size * line + column;
-                residual = residual + (matrix_errors[at] + elimination * matrix[at].abs()) * *value;
-            }
-            let unit = (0..size).map(|other| if other == line { graph.one() } else { graph.zero() });
-            let equations: Vec<Expr<'g>> = before.iter().copied().chain(unit).collect();
-            sum = sum + graph.kernel(kernel, &equations, part).abs() * residual;
+        let (rows, right) = (args[..size * size].chunks(size), &args[args.len() - size..]);
+        let equation = |(row, right): (&[Expr<'g>], &Expr<'g>)| Equation {
+            coefficients: row.to_vec(),
+            right: *right,
+            gives: None,
+        };
+        let equations: Vec<Equation<'g>> = rows.zip(right).map(equation).collect();
+        let values: Vec<Expr<'g>> = (0..=u8::MAX).take(size).map(|part| graph.kernel(kernel, &args, part)).collect();
+        let mut deviations = self.of_solution(&equations, &values);
+        let own = deviations[usize::from(part)].clone();
+        for (value, deviation) in values.into_iter().zip(deviations.drain(..)) {
+            self.state(value, deviation);
         }
-        Deviation::within(2 * sum)
+        own
     }
 
     /// `u|x|`: what rounding a result of this size may change.

@@ -105,6 +105,66 @@ pub struct ClosedLoop<'m> {
     pub apart: bool,
 }
 
+/// How a group was placed by a search: from what is left of its equations follows how far its unknowns are off.
+#[derive(Clone, Debug)]
+pub struct PlacedTogether<'m> {
+    /// As many as there are unknowns.
+    pub equations: Vec<ClosedEquation<'m>>,
+    /// What was sought.
+    pub unknowns: Vec<Unknown<'m>>,
+    /// What that is called.
+    pub names: Vec<String>,
+}
+
+/// An equation of a search at the place that was found.
+#[derive(Clone, Debug)]
+pub struct ClosedEquation<'m> {
+    /// The name of its error: that of the joint, and which component.
+    pub name: String,
+    /// What should be zero.
+    pub residual: Expr<'m>,
+    /// Its change with each unknown: with a turn, or with a travel by its scale.
+    pub changes: Vec<Expr<'m>>,
+    /// Of a loop the equation of its other component; an equation that has none is linear.
+    pub other: Option<usize>,
+}
+
+/// An unknown of a search, where it was found.
+#[derive(Clone, Copy, Debug)]
+pub enum Unknown<'m> {
+    /// A direction.
+    Direction(Vector<'m>),
+    /// An angle with all its turns.
+    Angle(Expr<'m>),
+    /// A travel.
+    Travel {
+        /// Its value.
+        travel: Expr<'m>,
+        /// The length that counts like a turn of one radian.
+        scale: Expr<'m>,
+    },
+}
+
+impl<'m> Unknown<'m> {
+    /// Its numbers.
+    #[must_use]
+    pub fn values(&self) -> Vec<Expr<'m>> {
+        match *self {
+            Self::Direction(direction) => vec![direction.x, direction.y],
+            Self::Angle(value) | Self::Travel { travel: value, .. } => vec![value],
+        }
+    }
+}
+
+/// How a group with unknowns was closed.
+#[derive(Clone, Debug)]
+pub enum Closed<'m> {
+    /// In closed form.
+    Loop(Box<ClosedLoop<'m>>),
+    /// By a search.
+    Together(PlacedTogether<'m>),
+}
+
 /// A pivot that a closure knows by itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Pivot<'m> {
@@ -146,8 +206,8 @@ pub struct Assembly<'m> {
     pub pivots: Pivots<'m>,
     /// The dyads' pivots.
     pub dyads: Vec<DyadPivot<'m>>,
-    /// How dyads were closed, in their order.
-    pub loops: Vec<ClosedLoop<'m>>,
+    /// How groups were closed, in their order.
+    pub closed: Vec<Closed<'m>>,
     /// The groups of motion.
     pub topology: &'m Topology,
     /// The links that are placed by iteration, from a start.
@@ -163,7 +223,7 @@ impl<'m> Assembly<'m> {
             placement: Placement::of_ground(model),
             pivots: Pivots::default(),
             dyads: Vec::new(),
-            loops: Vec::new(),
+            closed: Vec::new(),
             topology,
             started: BTreeSet::new(),
             used: BTreeSet::new(),
@@ -188,10 +248,20 @@ impl<'m> Assembly<'m> {
         self.graph().symbol(Symbol::Drive(drive))
     }
 
-    /// A loop is closed. How is of interest to bounds of errors alone.
+    /// A loop is closed.
     pub fn closed(&mut self, how: impl FnOnce() -> ClosedLoop<'m>) {
+        self.note(|| Closed::Loop(Box::new(how())));
+    }
+
+    /// A group is placed by a search.
+    pub fn placed_together(&mut self, how: impl FnOnce() -> PlacedTogether<'m>) {
+        self.note(|| Closed::Together(how()));
+    }
+
+    /// How a group is closed is of interest to bounds of errors alone.
+    fn note(&mut self, how: impl FnOnce() -> Closed<'m>) {
         if self.model().scenes.iter().any(|scene| scene.results.contains(&Wanted::ErrorBound)) {
-            self.loops.push(how());
+            self.closed.push(how());
         }
     }
 

@@ -12,21 +12,26 @@
 //! all that is placed through the loop has a share; where more loops follow, the little beside it in y' is another one, and so are the
 //! errors of the forces that one group passes on to the next.
 //!
+//! Of a group that was placed by a search, with n unknowns and equations, what stays open of them is known likewise, and the changes of the
+//! equations with the unknowns are the matrix J of its last step. The unknowns are off by `J⁻¹ (ρ − ρ')`, with ρ' what earlier sources and
+//! rounding make of ρ; each equation is a source, because near a singular pose all unknowns follow one of them. What is not linear is bounded
+//! as in the theorem of Newton and Kantorovich: were the unknowns off by twice what first order says, it must not make more of them than that.
+//!
 //! Of three pins, half angles and constants that fold know the sine of the transmission angle, `s = u × u'`, better near its zeros than the
 //! residual does: `δs = (u·u')(y' − y)` is a second bound of y. The lesser of the two is taken.
 
-use super::assembly::{ClosedLoop, Found, Pivot};
+use super::assembly::{Closed, ClosedEquation, ClosedLoop, Found, Pivot, PlacedTogether, Unknown};
 use super::output::Field;
 use super::{Assembly, Kept, Output};
-use crate::diagnostics::{Diagnostic, Sink};
+use crate::graph::elimination::Equation;
 use crate::graph::number::Number;
-use crate::graph::rounding::{BoundOf, Deviation, HeldBound, Rounding};
+use crate::graph::rounding::{BoundOf, Deviation, HeldBound, Inverse, Rounding};
 use crate::graph::{Expr, Graph, NodeId, Op, Vector};
 use crate::model::Wanted;
 use crate::model::ids::GROUND;
 
 /// Adds their bounds to the results of the scenes that want them. What a pose has to keep for that comes back.
-pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept], sink: &Sink) -> Vec<Kept> {
+pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept]) -> Vec<Kept> {
     let model = assembly.model();
     let graph = &model.graph;
     if !model.scenes.iter().any(|scene| scene.results.contains(&Wanted::ErrorBound)) {
@@ -50,8 +55,11 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
             rounding.is_passed_on(format!("{}_{part}", model.joint(*joint).name));
         }
     }
-    for closed in &assembly.loops {
-        state(&mut rounding, closed, assembly.loops.len() > 1);
+    for closed in &assembly.closed {
+        match closed {
+            Closed::Loop(closed) => state(&mut rounding, closed, assembly.closed.len() > 1),
+            Closed::Together(placed) => state_together(&mut rounding, placed),
+        }
     }
     for (scene, output) in model.scenes.iter().zip(scenes) {
         if !scene.results.contains(&Wanted::ErrorBound) {
@@ -63,13 +71,6 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept],
         let doc = "Bounds of the rounding errors of the other results, each in its own unit.".to_owned();
         let bounds = fields.iter().map(|field| bounded(graph, &mut rounding, field)).collect();
         fields.push(Field { name, doc, value: Output::Record(bounds) });
-        if core::mem::take(&mut rounding.searched) {
-            let problem = "bounds of errors are not supported yet where links are placed by iteration";
-            sink.report(
-                Diagnostic::new(scene.name.place(), problem)
-                    .help("leave `error_bound` out, or ask for results that do not depend on these links"),
-            );
-        }
     }
     let named = |node: NodeId| kept.iter().find(|kept| kept.node == node).map(|kept| kept.name.clone());
     let shared = |held: &HeldBound<'_>| {
@@ -180,6 +181,83 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
         let deviation = by_itself.map_or_else(|| found.clone(), |own| lesser_deviation(&found, &own));
         rounding.state(value, deviation);
     }
+}
+
+/// The errors of the unknowns of a group that was placed by a search.
+fn state_together<'g>(rounding: &mut Rounding<'g>, placed: &PlacedTogether<'g>) {
+    let PlacedTogether { equations, unknowns, .. } = placed;
+    let Some(graph) = equations.first().map(|equation| equation.residual.graph()) else { return };
+    let exact: Vec<Expr<'g>> = unknowns.iter().flat_map(Unknown::values).collect();
+    let strain = unknowns.iter().zip(&placed.names).map(|(unknown, name)| match unknown {
+        Unknown::Direction(direction) => {
+            let strain = rounding.strain(*direction);
+            strain.named(format!("strain_of_{name}"), format!("how far the direction at {name} is from unit size"))
+        }
+        Unknown::Angle(_) | Unknown::Travel { .. } => graph.zero(),
+    });
+    let strain: Vec<Expr<'g>> = strain.collect();
+    let inverse = Inverse::of(graph, &linear(equations)).named(|unknown, equation| {
+        let (unknown, equation) = (&placed.names[unknown], &equations[equation].name);
+        (format!("{unknown}_by_{equation}"), format!("how {unknown} changes with what stays open at {equation}"))
+    });
+    let right = equations.iter().enumerate().map(|(index, equation)| {
+        let found = rounding.deviation_from(equation.residual, &exact);
+        // With its size a direction changes one component as with its angle the other one; what its size is off by is known.
+        let (mut open, mut uncertain) = (equation.residual, graph.zero());
+        if let Some(other) = equation.other {
+            for (arm, strain) in equations[other].changes.iter().zip(&strain).filter(|(_, strain)| !strain.is_zero()) {
+                let part = *strain * *arm;
+                open = if index < other { open - part } else { open + part };
+                uncertain = uncertain + arm.abs();
+            }
+        }
+        let own = open.abs() + found.rest + rounding.of_strain() * uncertain;
+        let source = rounding.source(&equation.name);
+        Deviation::of(source, own).plus(&found.shared().opposite())
+    });
+    let found = inverse.times(right.collect());
+    let found = inverse.and_beyond(found, |most| beyond_linear(placed, most));
+    for (unknown, deviation) in unknowns.iter().zip(found) {
+        match unknown {
+            Unknown::Direction(direction) => {
+                rounding.state_direction(*direction, deviation, rounding.stretch(*direction));
+            }
+            Unknown::Angle(angle) => rounding.state(*angle, deviation),
+            Unknown::Travel { travel, scale } => rounding.state(*travel, deviation.scaled(*scale)),
+        }
+    }
+}
+
+/// The changes of equations with the unknowns.
+fn linear<'g>(equations: &[ClosedEquation<'g>]) -> Vec<Equation<'g>> {
+    let of = |equation: &ClosedEquation<'g>| Equation {
+        coefficients: equation.changes.clone(),
+        right: equation.residual.graph().zero(),
+        gives: None,
+    };
+    equations.iter().map(of).collect()
+}
+
+/// By how much each equation is off what is linear in the unknowns, if these are off by no more than y: of a loop `Σ |c| y²/2` over what
+/// turns, with `c` its vector, and `y₁ y₂` for each length and each angle, as it may lie along what turns with that.
+fn beyond_linear<'g>(placed: &PlacedTogether<'g>, most: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let PlacedTogether { equations, unknowns, .. } = placed;
+    let of = |equation: &ClosedEquation<'g>| {
+        let graph = equation.residual.graph();
+        let half = graph.constant(&Number::ratio(1, 2));
+        let Some(other) = equation.other else { return graph.zero() };
+        let size = |index: usize| equation.changes[index].abs() + equations[other].changes[index].abs();
+        let part_of = (0..unknowns.len()).filter(|index| !size(*index).is_zero());
+        let (travels, turns): (Vec<usize>, Vec<usize>) =
+            part_of.partition(|index| matches!(unknowns[*index], Unknown::Travel { .. }));
+        let curved = turns.iter().fold(graph.zero(), |sum, index| sum + half * (size(*index) * most[*index].squared()));
+        let angles = turns.iter().fold(graph.zero(), |sum, index| sum + most[*index]);
+        travels.iter().fold(curved, |sum, index| match unknowns[*index] {
+            Unknown::Travel { scale, .. } => sum + scale * most[*index] * angles,
+            _ => sum,
+        })
+    };
+    equations.iter().map(of).collect()
 }
 
 /// The lesser of two bounds; the first if the second is no number.

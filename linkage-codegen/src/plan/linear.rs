@@ -1,18 +1,9 @@
 //! Linear systems of expressions: constants are eliminated while the code is made, and what is left is a core that is solved at run time
 //! with pivoting.
 
+pub(super) use crate::graph::elimination::Equation;
+use crate::graph::elimination::Reduced;
 use crate::graph::{Expr, Failure, Graph};
-
-/// An equation: `Σ coefficients · unknowns = right`.
-#[derive(Clone, Debug)]
-pub(super) struct Equation<'m> {
-    /// One for each unknown.
-    pub coefficients: Vec<Expr<'m>>,
-    /// The right side.
-    pub right: Expr<'m>,
-    /// The unknown that it gives before any other is eliminated, if it is there to tell one from another.
-    pub gives: Option<usize>,
-}
 
 /// The largest core: its unknowns are numbered in a byte.
 pub(super) const CORE: usize = 250;
@@ -34,93 +25,6 @@ pub(super) struct Core<'a, 'm> {
     pub unknown: &'a dyn Fn(usize, Expr<'m>) -> Expr<'m>,
 }
 
-/// A step of elimination: an equation gives an unknown, which is taken out of others.
-struct Step<'m> {
-    equation: usize,
-    unknown: usize,
-    /// The coefficient of the unknown, and what those of the others are over it.
-    pivot: Expr<'m>,
-    others: Vec<(usize, Expr<'m>)>,
-    /// The coefficients of the unknown in other equations.
-    factors: Vec<(usize, Expr<'m>)>,
-}
-
-/// Equations from which unknowns were eliminated by constants.
-struct Reduced<'m> {
-    steps: Vec<Step<'m>>,
-    /// The coefficients of what is left, and of which equations and unknowns they are.
-    core: Vec<Vec<Expr<'m>>>,
-    equations: Vec<usize>,
-    unknowns: Vec<usize>,
-}
-
-impl<'m> Reduced<'m> {
-    fn of(equations: &[Equation<'m>]) -> Self {
-        let mut rows: Vec<Vec<Expr<'m>>> = equations.iter().map(|equation| equation.coefficients.clone()).collect();
-        // From the last one on, so that the others stay where they are.
-        let mut given: Vec<(usize, usize)> =
-            (0..rows.len()).filter_map(|row| Some((row, equations[row].gives?))).collect();
-        let (mut equations, mut unknowns): (Vec<usize>, Vec<usize>) = (0..rows.len()).map(|row| (row, row)).unzip();
-        let mut steps = Vec::new();
-        while let Some((index, unknown)) = given.pop().or_else(|| constant_pivot(&rows, &equations, &unknowns)) {
-            let equation = equations.swap_remove(index);
-            unknowns.retain(|column| *column != unknown);
-            let pivot = rows[equation][unknown];
-            let factor = |row: &usize| Some((*row, rows[*row][unknown])).filter(|(_, factor)| !factor.is_zero());
-            let factors: Vec<(usize, Expr<'m>)> = equations.iter().filter_map(factor).collect();
-            let other = |column: &usize| {
-                let coefficient = rows[equation][*column];
-                (!coefficient.is_zero()).then(|| (*column, coefficient / pivot))
-            };
-            let others: Vec<(usize, Expr<'m>)> = unknowns.iter().filter_map(other).collect();
-            for (row, factor) in &factors {
-                for (column, coefficient) in &others {
-                    rows[*row][*column] = rows[*row][*column] - *factor * *coefficient;
-                }
-            }
-            steps.push(Step { equation, unknown, pivot, others, factors });
-        }
-        let core = equations.iter().map(|row| unknowns.iter().map(|column| rows[*row][*column]).collect()).collect();
-        Self { steps, core, equations, unknowns }
-    }
-
-    /// The unknowns of the core, under some right sides; these are then as the equations' own became.
-    fn solved(&self, graph: &'m Graph, right: &mut [Expr<'m>], core: Core<'_, 'm>) -> Result<Vec<Expr<'m>>, usize> {
-        for step in &self.steps {
-            right[step.equation] = right[step.equation] / step.pivot;
-            for (row, factor) in &step.factors {
-                right[*row] = right[*row] - *factor * right[step.equation];
-            }
-        }
-        let rows = self.core.iter().zip(&self.equations).map(|(line, row)| (line.clone(), right[*row]));
-        let mut values = vec![graph.zero(); right.len()];
-        for (column, value) in self.unknowns.iter().zip(solve_core(graph, &rows.collect::<Vec<_>>(), core)?) {
-            values[*column] = value;
-        }
-        Ok(values)
-    }
-
-    /// The other unknowns, from those of the core.
-    fn completed(&self, right: &[Expr<'m>], mut values: Vec<Expr<'m>>) -> Vec<Expr<'m>> {
-        for step in self.steps.iter().rev() {
-            let others = step.others.iter();
-            values[step.unknown] =
-                others.fold(right[step.equation], |sum, (column, coefficient)| sum - *coefficient * values[*column]);
-        }
-        values
-    }
-
-    /// What the unknowns leave open of an equation. One that gave an unknown as it was has nothing open but its own rounding.
-    fn left_open(&self, graph: &'m Graph, row: usize, equation: &Equation<'m>, values: &[Expr<'m>]) -> Expr<'m> {
-        let changed = |step: &Step<'m>| step.factors.iter().any(|(other, _)| *other == row);
-        if !self.equations.contains(&row) && !self.steps.iter().any(changed) {
-            return graph.zero();
-        }
-        let terms = equation.coefficients.iter().zip(values).filter(|(coefficient, _)| !coefficient.is_zero());
-        terms.fold(equation.right, |sum, (coefficient, value)| sum - *coefficient * *value)
-    }
-}
-
 /// The unknowns. The size of the core, if that is larger than what can be solved.
 ///
 /// What elimination takes from one equation to another brings its rounding there, however small the terms of that equation are. Where right
@@ -135,20 +39,26 @@ pub(super) fn solve<'m>(
 ) -> Result<Vec<Expr<'m>>, usize> {
     let reduced = Reduced::of(equations);
     let mut right: Vec<Expr<'m>> = equations.iter().map(|equation| equation.right).collect();
-    let mut values = reduced.solved(graph, &mut right, core)?;
+    let mut values = solved(graph, &reduced, &mut right, core)?;
     if core.refined && reduced.steps.iter().any(|step| !step.factors.is_empty() && !right[step.equation].is_zero()) {
         values = reduced.completed(&right, values);
-        let mut open: Vec<Expr<'m>> =
-            (0..equations.len()).map(|row| reduced.left_open(graph, row, &equations[row], &values)).collect();
+        // What gave an unknown as it was has nothing open but its own rounding.
+        let open = |(row, equation): (usize, &Equation<'m>)| {
+            if reduced.changes(row) { equation.left_open(&values) } else { graph.zero() }
+        };
+        let mut open: Vec<Expr<'m>> = equations.iter().enumerate().map(open).collect();
         for value in open.iter_mut().filter(|value| value.value().is_none()) {
             let name = format!("open_{}", core.group.replace(" + ", "_"));
             *value =
                 value.named(name, format!("what the solution so far leaves open of the equilibrium of {}", core.group));
         }
-        let more = reduced.solved(graph, &mut open, core)?;
+        let more = solved(graph, &reduced, &mut open, core)?;
         let more = reduced.completed(&open, more);
         let refined = values.iter().zip(more).enumerate();
-        return Ok(refined.map(|(column, (value, more))| (core.unknown)(column, *value + more)).collect());
+        let refined: Vec<Expr<'m>> =
+            refined.map(|(column, (value, more))| (core.unknown)(column, *value + more)).collect();
+        graph.note_solution(equations, &refined);
+        return Ok(refined);
     }
     for column in &reduced.unknowns {
         values[*column] = (core.unknown)(*column, values[*column]);
@@ -156,12 +66,20 @@ pub(super) fn solve<'m>(
     Ok(reduced.completed(&right, values))
 }
 
-/// An equation with a constant coefficient of an open unknown: the one that the fewest other equations hold.
-fn constant_pivot(rows: &[Vec<Expr<'_>>], equations: &[usize], unknowns: &[usize]) -> Option<(usize, usize)> {
-    let constant = |row: usize, column: usize| rows[row][column].sign().is_some_and(|s| s != 0);
-    let candidates = unknowns.iter().flat_map(|column| (0..equations.len()).map(move |row| (row, *column)));
-    let others = |column: usize| equations.iter().filter(|row| !rows[**row][column].is_zero()).count();
-    candidates.filter(|(row, column)| constant(equations[*row], *column)).min_by_key(|(_, column)| others(*column))
+/// The unknowns of the core, under some right sides; these are then as the equations' own became.
+fn solved<'m>(
+    graph: &'m Graph,
+    reduced: &Reduced<'m>,
+    right: &mut [Expr<'m>],
+    core: Core<'_, 'm>,
+) -> Result<Vec<Expr<'m>>, usize> {
+    reduced.reduce(right);
+    let rows = reduced.core.iter().zip(&reduced.equations).map(|(line, row)| (line.clone(), right[*row]));
+    let mut values = vec![graph.zero(); right.len()];
+    for (column, value) in reduced.unknowns.iter().zip(solve_core(graph, &rows.collect::<Vec<_>>(), core)?) {
+        values[*column] = value;
+    }
+    Ok(values)
 }
 
 fn solve_core<'m>(

@@ -186,7 +186,7 @@ impl Plan {
         let accessors = accessors(&assembly);
         let mut pose = kept(&assembly);
         let mut scenes = scenes::outputs(&assembly, posed, [&motion_rules, &force_rules], (system, &links), sink);
-        pose.extend(error_bound::add(&assembly, &mut scenes, &pose, sink));
+        pose.extend(error_bound::add(&assembly, &mut scenes, &pose));
         let plan = Self {
             pose,
             accessors,

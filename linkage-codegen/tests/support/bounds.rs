@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
 
-use super::numbers::Extended;
+use super::numbers::{Double, Extended};
 use super::{Arguments, Number, compile_if_it_closes, scene};
 
 /// How far above the errors their bounds may be, as a median.
@@ -38,6 +38,17 @@ pub fn ratios<T: Number>(
 ) -> Vec<f64> {
     // Where the exact pose is beyond the end of the motion there is no error to speak of.
     let Ok(exact) = scene::<Extended>(linkage, "alone", arguments) else { return Vec::new() };
+    ratios_to(&exact, found, context)
+}
+
+/// The same of a scene at a pose that is regular, for doubles too.
+pub fn ratios_of(linkage: &Linkage, name: &str, arguments: &Arguments, context: &str) -> Vec<f64> {
+    let Ok(found) = scene::<Double>(linkage, name, arguments) else { return Vec::new() };
+    let exact = scene::<Extended>(linkage, name, arguments).expect("regular where doubles are");
+    ratios_to(&exact, &found, context)
+}
+
+fn ratios_to<T: Number>(exact: &HashMap<String, Extended>, found: &HashMap<String, T>, context: &str) -> Vec<f64> {
     let results = found.iter().filter(|(path, _)| !path.starts_with("error_bound."));
     let ratios = results.filter_map(|(path, value)| {
         let error = Extended::exactly(value.to_f64()).sub(&exact[path]).to_f64().abs();

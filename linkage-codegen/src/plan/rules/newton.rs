@@ -11,10 +11,10 @@ use std::collections::BTreeSet;
 use super::RuleResult;
 use crate::diagnostics::{Diagnostic, list};
 use crate::graph::number::Number;
-use crate::graph::{Expr, Failure, Graph, Search, SearchId, Sought, Stage, Symbol, Vector, sought_direction};
+use crate::graph::{Expr, Failure, Graph, NodeId, Search, SearchId, Sought, Stage, Symbol, Vector, sought_direction};
 use crate::model::ids::{DriveId, JointId, LinkId};
 use crate::model::{End, Gear, JointKind, Model, Start};
-use crate::plan::assembly::Assembly;
+use crate::plan::assembly::{Assembly, ClosedEquation, PlacedTogether, Unknown};
 use crate::plan::placement::{Orientation, Placement, Way};
 use crate::plan::starts;
 use crate::topology::{Group, Input};
@@ -91,24 +91,68 @@ pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
     );
     let mut values = found.into_iter().skip(1).map(|value| value.require_at_least(graph.zero(), open, failure(open)));
     let mut next = || values.next().unwrap_or_else(|| graph.zero());
+    let mut unknowns: Vec<Unknown<'_>> = Vec::new();
     lay_out(&mut assembly.placement, group, &mut |place| match place {
         Place::Direction(link) => {
             let name = &model.link(link).name.text;
-            Vector::new(next(), next()).named_direction(name, &format!("direction carried by {name}"))
+            let direction = Vector::new(next(), next()).named_direction(name, &format!("direction carried by {name}"));
+            unknowns.push(Unknown::Direction(direction));
+            direction
         }
         Place::Angle(link) => {
             let name = &model.link(link).name;
-            let angle = next().named(format!("angle_{name}"), format!("angle of {name}, with all its turns")).held();
+            let angle = next().named(format!("angle_{name}"), format!("angle of {name}, with all its turns"));
+            unknowns.push(Unknown::Angle(angle));
+            let angle = angle.held();
             Vector::new(angle, angle)
         }
         Place::Travel(joint) => {
             let name = &model.joint(joint).name;
             let what = model.joint(joint).kind.noun();
             let travel = next().named(format!("travel_{name}"), format!("travel of the {what} {name}"));
+            unknowns.push(Unknown::Travel { travel, scale });
             Vector::new(travel, travel)
         }
     });
+    assembly.placed_together(|| placed_together(graph, id, unknowns, 2 * loops.len()));
     Ok(())
+}
+
+/// How a group was placed by a search, the first equations of which are those of loops.
+fn placed_together<'m>(
+    graph: &'m Graph,
+    id: SearchId,
+    unknowns: Vec<Unknown<'m>>,
+    of_loops: usize,
+) -> PlacedTogether<'m> {
+    let search = graph.search(id);
+    let numbers: Vec<Expr<'m>> = unknowns.iter().flat_map(Unknown::values).collect();
+    let found = |node: &NodeId| {
+        graph.substituted_from(graph.expr(*node), Stage::Iterated, &|symbol| match symbol {
+            Symbol::Sought(own, number) if own == id => numbers.get(usize::from(number)).copied(),
+            _ => None,
+        })
+    };
+    let names = search.sought.iter().map(|sought| match sought {
+        Sought::Direction { name } => format!("angle_{name}"),
+        Sought::Travel { name, .. } => name.clone(),
+    });
+    let names: Vec<String> = names.collect();
+    let equations = search.residuals.iter().zip(&search.jacobian).enumerate().map(|(index, (residual, changes))| {
+        let name = graph.label(*residual).map_or_else(|| "gap".to_owned(), |label| label.name);
+        let residual = found(residual).named(format!("open_{name}"), format!("{name} of what was found"));
+        let change = |(change, unknown): (&NodeId, &String)| {
+            found(change).named(format!("{name}_by_{unknown}"), format!("change of {name} with {unknown}"))
+        };
+        ClosedEquation {
+            name: name.strip_prefix("gap_").unwrap_or(&name).to_owned(),
+            residual,
+            changes: changes.iter().zip(&names).map(change).collect(),
+            other: (index < of_loops).then_some(index ^ 1),
+        }
+    });
+    let equations = equations.collect();
+    PlacedTogether { equations, unknowns, names }
 }
 
 /// What rounding may leave open of all loops together, in epsilons of the lengths that make them up. A search goes on while it gains, to
