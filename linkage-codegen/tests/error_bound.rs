@@ -237,6 +237,24 @@ fn near_dead_centres() {
     assert!(before > 0.0);
 }
 
+/// A slot and a slide along the axes: their travels are the components of the way itself, with its error.
+#[test]
+fn unknowns_that_are_parts_of_the_way() {
+    let text = "pub mod sample; scalar f64; ground { A0: (0, 0), G: (0.25m, 0.5m) } link crank { A0 -> A: 1m, C: (50mm, 270mm) }
+         link yoke { S: (0.5m, 0), G: (0, 0), D: (270mm, 50mm) } slot S: yoke.S -> crank.A along 90deg of yoke;
+         prismatic G: yoke -> ground along 0deg; revolute A0: ground -> crank; drive theta: A0; unknown T: torque(ground -> crank);
+         load F: force(crank.C); load H: force(yoke.D);";
+    let linkage = with_bounds(text).expect("closes");
+    let mut all = Vec::new();
+    for step in 0..200 {
+        let drives = vec![0.031 * f64::from(step) - 3.0];
+        let arguments = Arguments { drives, loads: vec![[-9.9, -2.4], [-39.8, -0.7]], ..Arguments::default() };
+        all.extend(check::<Double>(&linkage, &arguments, text));
+    }
+    let loosest = median(&mut all).expect("errors");
+    assert!(loosest <= LOOSEST, "{loosest}");
+}
+
 /// The bounds of places, velocities, accelerations, and of what balances inertia, at poses around one.
 fn of_moving(name: &str, text: &str, around: f64, by: f64) {
     let linkage = support::compile(text);

@@ -108,6 +108,11 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
     let graph = closed.determinant.graph();
     let exact: Vec<Expr<'g>> = closed.found.iter().flat_map(Found::values).collect();
     let ClosedLoop { residual, .. } = closed;
+    // Where slides along the axes make the unknowns parts of the way itself, nothing is left over by form, and that says nothing of them:
+    // their own operations do.
+    if residual.x.is_zero() || residual.y.is_zero() {
+        return;
+    }
     let [x, y] = [residual.x, residual.y].map(|part| rounding.deviation_from(part, &exact));
     let stretch = closed.found.each_ref().map(|found| match found {
         Found::Direction { direction, .. } => rounding.stretch(*direction),
