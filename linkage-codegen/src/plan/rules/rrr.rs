@@ -141,9 +141,7 @@ impl Rule for Rrr {
                 .cosine(u1, u2)
                 .named(format!("cos_mu_{inner}"), format!("cos μ between {link} and {}", dyad.link_name(second)));
             let sine = balance.pivots.dividing_sine(u1, u2, &dyad.pivot_name(), &dyad.group_name());
-            // The reciprocal is known before the loads' part: nothing waits for a division.
-            let inverse = sine.graph().one() / sine;
-            ((across * cosine - needed) * inverse).named(
+            ((across * cosine - needed) / sine).named(
                 balance.name(&format!("{inner}_along_{link}")),
                 format!("({inner}_across_{link} cos μ − {inner}_across_{})/sin μ", dyad.link_name(second)),
             )
