@@ -29,7 +29,7 @@
 //!               + u(|x a| + |y b| + |x a + y b|)
 //! ```
 //!
-//! The solution of linear equations is known by what it leaves open of them (see [`solutions`]).
+//! The solution of linear equations is known by what it leaves open of them (see `solutions`).
 //!
 //! A quotient counts twice, because it may become a product with a reciprocal. What is given (drives, parameters, loads) is exact; constants
 //! are rounded once. Shares and bounds are rounded as well: what all of them lack is of second order, and made up for where a result takes its
