@@ -158,11 +158,10 @@ impl<'m, 'p> Balance<'m, 'p> {
             if arm.is_zero() {
                 continue;
             }
-            if force.axes != ground || direction == ground {
-                sum = sum + arm.cross(force.along(direction));
-            } else if *is_load {
+            let in_other_axes = force.axes == ground && direction != ground;
+            if in_other_axes && *is_load {
                 loads.push((arm, force.components));
-            } else if !arm.x.is_zero() && !arm.y.is_zero() {
+            } else if in_other_axes && !arm.x.is_zero() && !arm.y.is_zero() {
                 sum = sum + arm.turned_by(direction).cross(force.components);
             } else {
                 sum = sum + arm.cross(force.along(direction));

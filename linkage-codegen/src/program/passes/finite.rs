@@ -16,11 +16,11 @@ pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
     let mut steps = core::mem::take(&mut program.steps);
     for step in &mut steps {
         let Step::FiniteResults(checked) = step else { continue };
-        let core = |value: ValueId| core(&program, &bounds, scalar, value);
-        let mut cores = BTreeSet::new();
-        checked.retain(|value| !bounds[value.index()].are_finite(scalar) && cores.insert(core(*value)));
-        let shown = shown_by(&program, &cores);
-        checked.retain(|value| !shown.contains(&core(*value)));
+        let bare = |value: ValueId| bare(&program, &bounds, scalar, value);
+        let mut all = BTreeSet::new();
+        checked.retain(|value| !bounds[value.index()].are_finite(scalar) && all.insert(bare(*value)));
+        let shown = shown_by(&program, &all);
+        checked.retain(|value| !shown.contains(&bare(*value)));
     }
     steps.retain(|step| !matches!(step, Step::FiniteResults(checked) if checked.is_empty()));
     program.steps = steps;
@@ -50,7 +50,7 @@ fn shown_by(program: &Program, checked: &BTreeSet<ValueId>) -> BTreeSet<ValueId>
 }
 
 /// The value without its signs, and without terms too small to take a finite number beyond the largest: it is finite where that is.
-fn core(program: &Program, bounds: &[Bounds], scalar: Scalar, mut value: ValueId) -> ValueId {
+fn bare(program: &Program, bounds: &[Bounds], scalar: Scalar, mut value: ValueId) -> ValueId {
     let is_small = |term: &ValueId| bounds[term.index()].change_no_finite(scalar);
     loop {
         value = match program.op(value) {
