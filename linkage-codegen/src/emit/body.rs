@@ -7,6 +7,7 @@ use quote::quote;
 
 use super::formula::{Formula, Values};
 use super::literals::{ident, literal};
+use crate::graph::number::Number;
 use crate::graph::{Condition, Failure, Graph, Guard, Kernel, Op, Scalar};
 use crate::model::Model;
 use crate::program::{Definition, Program, Step, ValueId};
@@ -325,6 +326,13 @@ impl<'a> Body<'a> {
     }
 
     fn call(&self, kernel: Kernel, args: &[ValueId]) -> TokenStream {
+        if let (Kernel::SinCos, [arg]) = (kernel, args)
+            && self.checks != Checks::Gathered
+            && let Some(whole) = self.halved(*arg)
+        {
+            let function = self.sin_cos("sin_cos_half");
+            return quote!(math::#function(#whole));
+        }
         let args = args.iter().map(|arg| self.value(*arg)).collect::<Vec<_>>();
         match kernel {
             Kernel::SinCos => {
@@ -356,6 +364,14 @@ impl<'a> Body<'a> {
             }
             Kernel::Search { search, .. } => super::search::call(self.graph, &self.graph.search(search), &args),
         }
+    }
+
+    /// What a value that nothing else reads is half of.
+    fn halved(&self, value: ValueId) -> Option<TokenStream> {
+        let (None, Some(Op::Mul(half, whole))) = (self.names.get(&value), self.program.op(value)) else { return None };
+        let factor = self.program.constant(self.graph, *half);
+        let is_half = factor.is_some_and(|factor| factor.compare(&Number::ratio(1, 2)).is_eq());
+        is_half.then(|| self.value(*whole))
     }
 
     /// The function for sine and cosine in the linkage's arithmetic; without its branch if the checks are gathered.

@@ -480,9 +480,12 @@ fn total(base: &str, ty: &Ident, output: &Output) -> TokenStream {
         };
         quote!(#name: #value)
     });
-    let checked = fields.iter().flat_map(|field| {
+    let numbers = fields.iter().flat_map(|field| {
         let name = ident(&field.name);
-        numbers(&field.value).into_iter().map(move |part| quote!(total.#name #part))
+        field.value.leaves().into_iter().map(move |(path, _)| {
+            let parts = path.split('.').filter(|part| !part.is_empty()).map(ident);
+            quote!(total.#name #(.#parts)*)
+        })
     });
     quote! {
         impl #ty {
@@ -493,25 +496,12 @@ fn total(base: &str, ty: &Ident, output: &Output) -> TokenStream {
             /// [`Error::NotFinite`]: a sum is too large for a number.
             pub fn total(&self) -> Result<#contribution, Error> {
                 let total = #contribution { #(#members),* };
-                if !math::all_finite([#(#checked),*]) {
+                if !math::all_finite([#(#numbers),*]) {
                     return Err(Error::NotFinite { what: "a sum" });
                 }
                 Ok(total)
             }
         }
-    }
-}
-
-/// Where the numbers of a result are in its type.
-fn numbers(output: &Output) -> Vec<TokenStream> {
-    match output {
-        Output::Vector(..) => vec![quote!(.x), quote!(.y)],
-        Output::Resolved(_) => vec![quote!(.axial), quote!(.transverse)],
-        Output::Reaction { parts, .. } => {
-            let parts = parts.iter().map(|(part, _)| ident(part)).map(|part| quote!(.#part));
-            [quote!(.force.x), quote!(.force.y)].into_iter().chain(parts).collect()
-        }
-        _ => vec![TokenStream::new()],
     }
 }
 

@@ -611,9 +611,9 @@ impl<'g> Rounding<'g> {
         };
         let equations: Vec<Equation<'g>> = rows.zip(right).map(equation).collect();
         let values: Vec<Expr<'g>> = (0..=u8::MAX).take(size).map(|part| graph.kernel(kernel, &args, part)).collect();
-        let mut deviations = self.of_solution(&equations, &values);
+        let deviations = self.of_solution(&equations, &values);
         let own = deviations[usize::from(part)].clone();
-        for (value, deviation) in values.into_iter().zip(deviations.drain(..)) {
+        for (value, deviation) in values.into_iter().zip(deviations) {
             self.state(value, deviation);
         }
         own

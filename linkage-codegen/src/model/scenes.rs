@@ -832,6 +832,7 @@ fn check_values(model: &Model, sink: &Sink) {
         for pivot in joint.pivot_names() {
             values.insert(pivot, format!("is a pivot of `{}`", joint.name));
         }
+        values.insert(format!("cos_mu_{}", joint.name), format!("is the cosine of an angle at `{}`", joint.name));
         if matches!(joint.kind, JointKind::Slot { .. }) {
             values.insert(format!("arm_{}", joint.name), format!("is the lever arm of `{}`", joint.name));
         }

@@ -23,6 +23,8 @@ pub struct DyadPivot<'m> {
     pub meaning: Meaning,
     /// Its value.
     pub value: Expr<'m>,
+    /// With a sine, the cosine of the same angle, if the closure knows it.
+    pub cosine: Option<Expr<'m>>,
 }
 
 impl<'m> DyadPivot<'m> {
@@ -31,7 +33,7 @@ impl<'m> DyadPivot<'m> {
     pub fn sine(model: &Model, inner: JointId, value: Expr<'m>) -> Self {
         let joint = &model.joint(inner).name;
         let what = format!("sine of the transmission angle at `{joint}`");
-        Self { name: format!("sin_mu_{joint}"), what, meaning: Meaning::Sine, value }
+        Self { name: format!("sin_mu_{joint}"), what, meaning: Meaning::Sine, value, cosine: None }
     }
 
     /// The distance of a dyad's outer pins along its slide.
@@ -39,7 +41,7 @@ impl<'m> DyadPivot<'m> {
     pub fn reach(model: &Model, slide: JointId, value: Expr<'m>) -> Self {
         let (joint, unit) = (&model.joint(slide).name, Kind::Length.unit(&model.units));
         let what = format!("distance of the outer pins along the slide `{joint}`, {unit}, the lever arm of its force");
-        Self { name: format!("reach_{joint}"), what, meaning: Meaning::Length, value }
+        Self { name: format!("reach_{joint}"), what, meaning: Meaning::Length, value, cosine: None }
     }
 }
 

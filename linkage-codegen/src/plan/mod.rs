@@ -42,7 +42,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::equations::System;
-use crate::graph::{Coordinate, Expr, NodeId, Op, Order, Symbol};
+use crate::graph::{Coordinate, Expr, Graph, NodeId, Op, Order, Symbol};
 use crate::model::ids::{DriveId, JointId, LinkId, ParamId};
 use crate::model::units::Kind;
 use crate::model::{Along, Closure, End, Model, Pair, Scene, Wanted};
@@ -187,6 +187,9 @@ impl Plan {
         let mut pose = kept(&assembly);
         let mut scenes = scenes::outputs(&assembly, posed, [&motion_rules, &force_rules], (system, &links), sink);
         pose.extend(error_bound::add(&assembly, &mut scenes, &pose));
+        let read = read_of_poses(&model.graph, &scenes);
+        let cosines: Vec<NodeId> = assembly.dyads.iter().filter_map(|pivot| pivot.cosine).map(Expr::id).collect();
+        pose.retain(|kept| !cosines.contains(&kept.node) || read.contains(&kept.node));
         let plan = Self {
             pose,
             accessors,
@@ -293,6 +296,30 @@ fn placed_links(posed: Posed<'_, '_>) -> Vec<PlacedLink> {
     (0..placement.model.links.len()).map(LinkId::new).map(place).collect()
 }
 
+/// What scenes read of what a pose keeps.
+fn read_of_poses(graph: &Graph, scenes: &[Output]) -> BTreeSet<NodeId> {
+    let mut open: Vec<NodeId> = scenes.iter().flat_map(Output::leaves).map(|(_, node)| node).collect();
+    let (mut seen, mut read) = (BTreeSet::new(), BTreeSet::new());
+    while let Some(node) = open.pop() {
+        if !seen.insert(node) {
+            continue;
+        }
+        match graph.op(node) {
+            Op::Held(_) => {
+                read.insert(node);
+            }
+            Op::Checked { value, guard } => {
+                let guard = graph.guard(guard);
+                open.push(value);
+                open.extend(guard.condition.operands());
+                open.extend(guard.failure.operand());
+            }
+            op => open.extend(op.operands()),
+        }
+    }
+    read
+}
+
 /// Directions, travels and pivots, each once; what is constant is not kept.
 fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
     let model = assembly.model();
@@ -329,6 +356,9 @@ fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
     for pivot in &assembly.dyads {
         let meaning = format!("{}, zero where it is no larger than its rounding", pivot.what);
         keep(pivot.name.clone(), meaning, pivot.value);
+        if let Some(cosine) = pivot.cosine {
+            keep(pivot.name.replacen("sin", "cos", 1), pivot.what.replacen("sine", "cosine", 1), cosine);
+        }
     }
     all
 }

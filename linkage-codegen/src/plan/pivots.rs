@@ -82,7 +82,13 @@ impl<'m> Pivots<'m> {
     /// `from · to`.
     #[must_use]
     pub fn cosine(&self, from: Vector<'m>, to: Vector<'m>) -> Expr<'m> {
-        self.find(from, to, |k| k.cosine, 1).unwrap_or_else(|| from.dot(to))
+        self.known_cosine(from, to).unwrap_or_else(|| from.dot(to))
+    }
+
+    /// `from · to`, if a closure knows it.
+    #[must_use]
+    pub fn known_cosine(&self, from: Vector<'m>, to: Vector<'m>) -> Option<Expr<'m>> {
+        self.find(from, to, |k| k.cosine, 1)
     }
 
     /// `from × to` as a divisor.
@@ -102,7 +108,7 @@ impl<'m> Pivots<'m> {
         name: &str,
         group: &str,
     ) -> Expr<'m> {
-        let known = self.find(from, to, |k| k.cosine, 1);
+        let known = self.known_cosine(from, to);
         divisor(known.unwrap_or_else(|| significant(from.dot(to).named(name, ""), spread)), name, group)
     }
 

@@ -37,7 +37,7 @@ pub fn mul_addf(a: f32, b: f32, c: f32) -> f32 {
 macro_rules! fused_sines {
     ($scalar:ident) => {
         use super::large::{reduce_large, reduce_large_sum};
-        use super::sin_cos::{ROUND, Reduced, by_quadrant, is_short, two_sum};
+        use super::sin_cos::{ROUND, Reduced, by_quadrant, is_short, is_short_half, two_sum};
 
         /// (sin x, cos x), as [`sin_cos`](super::sin_cos()), every product that a sum reads added without being rounded.
         ///
@@ -47,6 +47,19 @@ macro_rules! fused_sines {
         #[must_use]
         pub fn fused_sin_cos(x: $scalar) -> ($scalar, $scalar) {
             if is_short(x) { reduced_sin_cos(reduce(x)) } else { large_sin_cos(x) }
+        }
+
+        /// (sin x/2, cos x/2): the bits of [`fused_sin_cos`] of `0.5 * x`, whose product the quadrant does not wait for.
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
+        #[must_use]
+        pub fn fused_sin_cos_half(x: $scalar) -> ($scalar, $scalar) {
+            let half = 0.5 * x;
+            if is_short_half(x) {
+                reduced_sin_cos(reduced(half, mul_add(x, core::$scalar::consts::FRAC_1_PI, ROUND)))
+            } else {
+                large_sin_cos(half)
+            }
         }
 
         /// (sin, cos) of the real number x + hi + lo, as [`sin_cos_sum`](super::sin_cos_sum) with its error.
@@ -95,7 +108,12 @@ macro_rules! fused_sines {
         /// Where the short reduction serves. Nothing is lost but by the sums that make y and t.
         #[inline]
         fn reduce(x: $scalar) -> Reduced {
-            let rounded = mul_add(x, core::$scalar::consts::FRAC_2_PI, ROUND);
+            reduced(x, mul_add(x, core::$scalar::consts::FRAC_2_PI, ROUND))
+        }
+
+        /// The same, the number of quadrants being known, rounded in the last bits of a number.
+        #[inline]
+        fn reduced(x: $scalar, rounded: $scalar) -> Reduced {
             let n = rounded - ROUND;
             let x1 = mul_add(-n, FRAC_PI_2[0], x);
             let w = n * FRAC_PI_2[1];

@@ -7,7 +7,8 @@ macro_rules! special_values {
             use std::$type::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
             use linkage_runtime::math::$type::{
-                atan2, fused_sin_cos, fused_sin_cos_sum, polar, sin_cos, sin_cos_sum, sqrt, unit,
+                atan2, fused_sin_cos, fused_sin_cos_half, fused_sin_cos_sum, polar, sin_cos, sin_cos_half, sin_cos_sum,
+                sqrt, unit,
             };
 
             const BAD: [$type; 3] = [$type::NAN, $type::INFINITY, $type::NEG_INFINITY];
@@ -112,6 +113,20 @@ macro_rules! special_values {
                 for (x, y) in [(0.0, 0.0), (-0.0, 0.0), (0.0, -0.0)] {
                     same(unit(x, y).0, x);
                     same(unit(x, y).1, y);
+                }
+            }
+
+            #[test]
+            fn of_half_an_angle_the_same_bits() {
+                let bits = |(sin, cos): ($type, $type)| [sin, cos].map($type::to_bits);
+                let turns = (0_u16..50_000).map(|i| $type::from(i) * 0.013_7);
+                let sizes = (0..2000).map(|i| $type::from_bits($type::MAX.to_bits() / 2000 * i));
+                let long = (0_u16..100).map(|i| 4e5 + 5e3 * $type::from(i));
+                for x in turns.chain(sizes).chain(long).chain([0.0, $type::MAX, $type::INFINITY]) {
+                    for x in [x, -x] {
+                        assert_eq!(bits(sin_cos_half(x)), bits(sin_cos(0.5 * x)), "{x:e}");
+                        assert_eq!(bits(fused_sin_cos_half(x)), bits(fused_sin_cos(0.5 * x)), "fused, {x:e}");
+                    }
                 }
             }
 

@@ -19,13 +19,14 @@ linkage! {
 
     load angle_wheel_before: moment(wheel);
     load sin_mu_Q: force(wheel.B);
+    load cos_mu_Q: moment(wheel);
 
     scene statics: equilibrium;
 }
 
 fn main() {
     let linkage = wheels::Linkage::new(&wheels::Params { angle_wheel: 30.0 }).unwrap();
-    let loads = wheels::Loads { angle_wheel_before: 1.0, sin_mu_Q: polar(50.0, 4.0) };
+    let loads = wheels::Loads { angle_wheel_before: 1.0, sin_mu_Q: polar(50.0, 4.0), cos_mu_Q: 2.0 };
     let pose = wheels::Pose::at(&linkage, 1.0).unwrap();
     println!("{}", pose.statics(&loads).unwrap().effort_angle_crank);
 }

@@ -12,11 +12,16 @@
 //! its zeros the closure knows it better than the directions do. Where the lengths are constants of the same order, the vector along the
 //! longer link is that along the shorter one and d, `r₁u₁ − r₂u₂ = d`, and the step divides by the length too.
 //!
+//! Where moreover a driven angle ψ opens the outer pins, `D² = (b − a)² + 4ab sin²(ψ/2)`, all areas are divided when the linkage is
+//! compiled, so that the root is `sin μ` at once: by `2 r₁ r₂`, or at a fold so that `cos(ψ/2)` or `sin(ψ/2)` is left of the one margin and
+//! all factors are in the other. There `cos μ = u₁ · u₂ = (r₁² + r₂² − D²)/(2 r₁ r₂)` is one subtraction.
+//!
 //! Where a drive gives the length of one link, `r₁² = x² + y²` with a constant y, and D and r₂ are constants, the same four factors are
 //! taken together as `p = (D + r₂)² − r₁²`, `q = r₁² − (D − r₂)²`: there the constants fold.
 //!
 //! Forces, by the textbooks' resolution along and across the links: with `m₁`, `m₂` the moments of the loads about P and Q, the
-//! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`.
+//! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`. Where
+//! `m₂ = 0` the second link is held by two forces alone, which go along it: `F = t/sin μ u₂`.
 
 use super::dyad::{Dyad, Leg, dyad, towards_unit};
 use super::{Rule, RuleResult};
@@ -81,6 +86,12 @@ impl<'a> Dyad<'a> {
         format!("({first} + {second})")
     }
 
+    /// `2 r₁ r₂` as text.
+    fn area_name(&self) -> String {
+        let [first, second] = self.legs.each_ref().map(|leg| self.length_name(leg));
+        format!("(2 {first} {second})")
+    }
+
     fn difference_name(&self) -> String {
         let [first, second] = self.legs.each_ref().map(|leg| self.length_name(leg));
         format!("({first} − {second})")
@@ -119,7 +130,6 @@ impl Rule for Rrr {
         let Some(dyad) = pinned_dyad(model, group) else { return Ok(()) };
         dyad.check_lengths()?;
         let [first, second] = &dyad.legs;
-        let [u1, u2] = dyad.legs.each_ref().map(|leg| dyad.direction(balance.placement, leg));
         // Moments of the loads about the outer pins, over the lengths.
         let shares = dyad.legs.each_ref().map(|leg| dyad.share(balance, leg));
         let [across_first, across_second] = shares.map(|share| share.inner);
@@ -133,20 +143,7 @@ impl Rule for Rrr {
             balance.name(&format!("{inner}_across_{}", dyad.link_name(second))),
             format!("ΣM({other})/|{other} {inner}| of the loads on {}", dyad.link_name(second)),
         );
-        let along = if across.is_zero() && needed.is_zero() {
-            balance.graph().zero()
-        } else {
-            let cosine = balance
-                .pivots
-                .cosine(u1, u2)
-                .named(format!("cos_mu_{inner}"), format!("cos μ between {link} and {}", dyad.link_name(second)));
-            let sine = balance.pivots.dividing_sine(u1, u2, &dyad.pivot_name(), &dyad.group_name());
-            ((across * cosine - needed) / sine).named(
-                balance.name(&format!("{inner}_along_{link}")),
-                format!("({inner}_across_{link} cos μ − {inner}_across_{})/sin μ", dyad.link_name(second)),
-            )
-        };
-        let force = Framed { components: Vector::new(along, across), axes: u1 };
+        let force = inner_force(balance, &dyad, [across, needed]);
         let loads = [first, second].map(|leg| balance.total(leg.link()));
         let named = dyad.name_inner(balance, first, force);
         let forces = [if first.is_single() { named } else { force }, named.opposite()];
@@ -177,26 +174,73 @@ impl Rule for Rrr {
     }
 }
 
+/// The force of the second link on the first at the inner joint, from what it is across the first and from what has to be across the second.
+fn inner_force<'m>(balance: &Balance<'m, '_>, dyad: &Dyad<'m>, [across, needed]: [Expr<'m>; 2]) -> Framed<'m> {
+    let first = &dyad.legs[0];
+    let [u1, u2] = dyad.legs.each_ref().map(|leg| dyad.direction(balance.placement, leg));
+    let (inner, [link, other]) = (dyad.joint_name(dyad.inner), dyad.legs.each_ref().map(|leg| dyad.link_name(leg)));
+    let zero = balance.graph().zero();
+    if across.is_zero() && needed.is_zero() {
+        return Framed { components: Vector::new(zero, zero), axes: u1 };
+    }
+    let sine = balance.pivots.dividing_sine(u1, u2, &dyad.pivot_name(), &dyad.group_name());
+    if needed.is_zero() && first.is_single() {
+        // Nothing turns the second link: the force goes along it.
+        let along = (across / sine).named(
+            balance.name(&format!("{inner}_along_{other}")),
+            format!("{inner}_across_{link}/sin μ: nothing turns {other}"),
+        );
+        return Framed { components: Vector::new(along, zero), axes: u2 };
+    }
+    let known = balance.pivots.known_cosine(u1, u2);
+    let cosine = known
+        .unwrap_or_else(|| u1.dot(u2))
+        .named(format!("cos_mu_{inner}"), format!("cos μ between {link} and {other}"));
+    let part = across * cosine - needed;
+    // Found from the driver's angle with the cosine, the sine is there long before the loads' moments: so is its reciprocal.
+    let along = if known.is_some() && !across.is_zero() && !needed.is_zero() {
+        part * (sine.graph().one() / sine).named(format!("inverse_{}", dyad.pivot_name()), "")
+    } else {
+        part / sine
+    };
+    let along = along.named(
+        balance.name(&format!("{inner}_along_{link}")),
+        format!("({inner}_across_{link} cos μ − {inner}_across_{other})/sin μ"),
+    );
+    Framed { components: Vector::new(along, across), axes: u1 }
+}
+
 /// What the closure needs to know of the outer pins.
 struct Closing<'m> {
     /// From the first outer pin to the second.
     d: Vector<'m>,
-    /// Its square.
+    /// Its square; where the root is sin μ, divided by `2 r₁ r₂` too.
     d2: Expr<'m>,
     /// `D² ± (r₁² − r₂²)`, where these are not best made of the difference of the lengths.
     sums: Option<[Expr<'m>; 2]>,
-    /// `K = ±√(p q)`.
+    /// `K = ±√(p q)`, or sin μ, which is `K/(2 r₁ r₂)`.
     k: Expr<'m>,
+    /// What is known if it is sin μ.
+    of_angle: Option<OfAngle<'m>>,
     /// The sign of that root.
     sign: Sign<'m>,
     /// What must exceed what for `sin μ` to be more than rounding.
     significant: Vec<(Expr<'m>, Expr<'m>)>,
 }
 
+/// What constant lengths give beside sin μ, at no more operations than K takes.
+#[derive(Clone, Copy)]
+struct OfAngle<'m> {
+    /// `(D² + r² − r'²)/(2 r r')` of the shorter leg r.
+    sum: Expr<'m>,
+    /// cos μ, where by these lengths it is as good as that of the directions.
+    cosine: Option<Expr<'m>>,
+}
+
 impl<'m> Closing<'m> {
-    /// The sign before `K`.
-    fn sign(&self) -> String {
-        self.sign.text()
+    /// The root by its name.
+    fn root(&self, joint: &str) -> String {
+        if self.of_angle.is_some() { "sin μ".to_owned() } else { format!("{}K_{joint}", self.sign.text()) }
     }
 
     /// The parts along and across d of a leg: its sum and K, each times the scale, which is named after something.
@@ -207,13 +251,10 @@ impl<'m> Closing<'m> {
         sum: Expr<'m>,
         (scale, of, part): (Expr<'m>, &str, &str),
     ) -> [Expr<'m>; 2] {
-        let (link, name) = (dyad.link_name(leg), dyad.joint_name(dyad.inner));
+        let (link, root) = (dyad.link_name(leg), self.root(dyad.joint_name(dyad.inner)));
         let along = (sum * scale).named(format!("along_{link}"), format!("sum_{link} · scale_{of}, {part} along d"));
         let across = self.k * scale;
-        [
-            along,
-            across.named(format!("across_{link}"), format!("{}K_{name} · scale_{of}, the part across d", self.sign())),
-        ]
+        [along, across.named(format!("across_{link}"), format!("{root} · scale_{of}, the part across d"))]
     }
 }
 
@@ -247,11 +288,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     };
     let (r1, r2) = (dyad.length(first), dyad.length(second));
     let name = dyad.joint_name(dyad.inner);
-    let rough = if constant_lengths(r1, r2).is_some() && ratio_is_at_most(8, r1, r2) {
-        arms(dyad, &closing)
-    } else {
-        rough_directions(dyad, &closing)
-    };
+    let rough = if lead_by_arms(r1, r2) { arms(dyad, &closing) } else { rough_directions(dyad, &closing) };
     let (mut directions, mut closed) = ([closing.d; 2], Vec::new());
     for ((found, leg), direction) in directions.iter_mut().zip(&dyad.legs).zip(rough) {
         let link = dyad.link_name(leg);
@@ -263,23 +300,15 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     }
     assembly.placement.connect(dyad.inner);
     let [u1, u2] = directions;
-    let sine = if ratio_is_at_most(8, r1, r2) {
-        closing.k / (2 * (r1 * r2))
+    let sine = if closing.of_angle.is_some() {
+        closing.k
+    } else if ratio_is_at_most(8, r1, r2) {
+        name_sine(dyad, closing.k / (2 * (r1 * r2)), &format!("{}/{}", closing.root(name), dyad.area_name()))
     } else {
         // The direction of a much shorter link carries the rounding of the longer one, and forces balance along the directions as they
         // are.
-        u1.cross(u2)
+        name_sine(dyad, u1.cross(u2), "u₁ × u₂")
     };
-    let [n1, n2] = dyad.legs.each_ref().map(|leg| dyad.length_name(leg));
-    let sine = sine.named(
-        dyad.pivot_name(),
-        format!(
-            "sin μ at {name} = {}K_{name}/(2 {n1} {n2}), μ from {} to {}",
-            closing.sign(),
-            dyad.link_name(first),
-            dyad.link_name(second)
-        ),
-    );
     if let [u1, u2] = closed[..] {
         let legs = [u1.scaled(r1), u2.scaled(-r2)];
         assembly.closed(|| ClosedLoop {
@@ -298,9 +327,26 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let pivot = closing.significant.iter().fold(sine, |pivot, (value, limit)| pivot.where_above(*value, *limit));
     let pivot =
         pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding").held();
-    assembly.pivots.state(u1, u2, Some(pivot), None);
-    assembly.dyads.push(DyadPivot::sine(dyad.model, dyad.inner, pivot));
+    let cosine = closing.of_angle.and_then(|known| known.cosine).map(Expr::held);
+    assembly.pivots.state(u1, u2, Some(pivot), cosine);
+    assembly.dyads.push(DyadPivot { cosine, ..DyadPivot::sine(dyad.model, dyad.inner, pivot) });
     Ok(())
+}
+
+fn name_sine<'m>(dyad: &Dyad<'_>, sine: Expr<'m>, equation: &str) -> Expr<'m> {
+    let [first, second] = dyad.legs.each_ref().map(|leg| dyad.link_name(leg));
+    let equation = format!("sin μ at {} = {equation}, μ from {first} to {second}", dyad.joint_name(dyad.inner));
+    sine.named(dyad.pivot_name(), equation)
+}
+
+/// The shorter leg, then the longer one.
+fn by_length(lengths: [Expr<'_>; 2]) -> [usize; 2] {
+    if (lengths[0] - lengths[1]).sign() == Some(1) { [1, 0] } else { [0, 1] }
+}
+
+/// Whether the legs' directions come from the vectors along them.
+fn lead_by_arms(r1: Expr<'_>, r2: Expr<'_>) -> bool {
+    constant_lengths(r1, r2).is_some() && ratio_is_at_most(8, r1, r2)
 }
 
 /// The directions of both legs from the vectors along them, P → B and Q → B, of which the longer one is the shorter one and d.
@@ -308,12 +354,14 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
 /// Both vectors have the rounding of the shorter link and of d, which is at most twice as long as the longer link.
 fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     let lengths = dyad.lengths();
-    let Closing { d, d2, .. } = *closing;
+    let Closing { d, d2, of_angle, .. } = *closing;
     let name = dyad.joint_name(dyad.inner);
-    let [short, long] = if (lengths[0] - lengths[1]).sign() == Some(1) { [1, 0] } else { [0, 1] };
+    let [short, long] = by_length(lengths);
     let (leg, link) = (&dyad.legs[short], dyad.link_name(&dyad.legs[short]));
-    let sum = d2 + (lengths[short] - lengths[long]) * (lengths[short] + lengths[long]);
-    let sum = dyad.name_sum(leg, sum);
+    let sum = of_angle.map_or_else(
+        || dyad.name_sum(leg, d2 + (lengths[short] - lengths[long]) * (lengths[short] + lengths[long])),
+        |known| known.sum,
+    );
     let scale =
         (d2.graph().constant(&Number::ratio(1, 2)) / d2).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
     let [along, across] = closing.parts(dyad, leg, sum, (scale, name, "the part"));
@@ -419,6 +467,8 @@ fn fold_margins<'m>(arms: &HalfAngle<'m>, r1: Expr<'m>, r2: Expr<'m>) -> (Expr<'
 #[derive(Clone, Copy)]
 struct Margin<'m> {
     value: Expr<'m>,
+    /// What it was divided by.
+    by: Expr<'m>,
     /// What rounding could have made of a margin of zero.
     rounding: Expr<'m>,
     /// Whether it is `4ab cos²(ψ/2)` or `4ab sin²(ψ/2)` alone: then the dyad folds with its driver.
@@ -426,20 +476,28 @@ struct Margin<'m> {
 }
 
 impl<'m> Margin<'m> {
-    /// `k + 4ab cos²(ψ/2)` or `k + 4ab sin²(ψ/2)`: a positive constant keeps it from zero, of a negative one the rounding counts.
-    fn by_half(k: Expr<'m>, square: Expr<'m>) -> Self {
+    /// `k + 4ab cos²(ψ/2)` or `k + 4ab sin²(ψ/2)`, divided: a positive constant keeps it from zero, of a negative one the rounding counts.
+    fn by_half(k: Expr<'m>, span: Expr<'m>, square: Expr<'m>, by: Expr<'m>) -> Self {
         let graph = k.graph();
+        let k = k / by;
         let rounding = if k.sign() == Some(-1) { graph.epsilons(4) * k.abs() } else { graph.zero() };
-        Self { value: k + square, rounding, folds: k.is_zero() }
+        Self { value: k + (span / by) * square, by, rounding, folds: k.is_zero() }
+    }
+
+    /// Of a distance and a limit, whose rounding counts.
+    fn by_distance(value: Expr<'m>, limit: Expr<'m>) -> Self {
+        let graph = value.graph();
+        Self { value, by: graph.one(), rounding: graph.epsilons(4) * limit.squared(), folds: false }
     }
 
     fn named(self, name: String, equation: String) -> Self {
         Self { value: self.value.named(name, equation), ..self }
     }
 
-    /// Checked: below its rounding the dyad cannot be assembled.
+    /// Checked: below its rounding the dyad cannot be assembled. `d2` is `D²`.
     fn assembled(self, dyad: &Dyad<'m>, far: bool, d2: Expr<'m>) -> Self {
-        Self { value: self.value.require_at_least(self.value, -self.rounding, gap(dyad, self.value, far, d2)), ..self }
+        let gap = gap(dyad, self.value * self.by, far, d2);
+        Self { value: self.value.require_at_least(self.value, -self.rounding, gap), ..self }
     }
 }
 
@@ -455,8 +513,14 @@ fn by_half_angle<'m>(
     let (c, s) = (arms.half.x, arms.half.y);
     let (kp, kq) = fold_margins(arms, r1, r2);
     let span = 4 * (arms.a * arms.b);
-    let (sum, difference) = (dyad.sum_name(), dyad.difference_name());
-    let spread = (span * arms.sine_squared()).named(format!("spread_{joint}"), "4ab sin²(ψ/2), a and b the arms of ψ");
+    // With arms much longer than the dyad, cos² would bring the rounding of their lengths into p; D² does not.
+    let p_by_half = (4 * kp + (r1 + r2).squared()).sign() == Some(1);
+    // Constants can be divided by 2 r₁ r₂ beforehand: that makes the root of p q the sine of μ.
+    let by_angle = lead_by_arms(r1, r2) && p_by_half && kp.value().is_some();
+    let area = if by_angle { 2 * (r1 * r2) } else { graph.one() };
+    let divided = if by_angle { format!("/{}", dyad.area_name()) } else { String::new() };
+    let spread = ((span / area) * arms.sine_squared())
+        .named(format!("spread_{joint}"), format!("4ab sin²(ψ/2){divided}, a and b the arms of ψ"));
     let d = arms.separation();
     let d = if swapped { -d } else { d }.named(&format!("d_{joint}"), &dyad.separation_meaning());
     // ψ itself is rounded: at half a turn, cos(ψ/2) of the rounded angle is not zero.
@@ -465,28 +529,36 @@ fn by_half_angle<'m>(
     let angle_rounding = graph.epsilons(2) * (theta + fixed);
     let angle_rounding = angle_rounding.named(format!("rounding_psi_{joint}"), "what rounding makes of ψ at a fold");
     let apart = arms.b - arms.a;
-    let d2 = (apart.squared() + spread).named(format!("D2_{joint}"), format!("d·d = (b − a)² + spread_{joint}"));
+    let d2 = (apart.squared() / area + spread)
+        .named(format!("D2_{joint}"), format!("d·d{divided} = (b − a)²{divided} + spread_{joint}"));
     let d2 = if apart.sign().is_some_and(|s| s != 0) || (r1 - r2).sign().is_some_and(|s| s != 0) {
         // Arms or legs of different lengths keep the outer pins apart.
         d2.known_positive()
     } else {
         let failure = Failure::CoincidentPivots { group: dyad.group_name(), joint: joint.into() };
-        d2.require_above(d2, (angle_rounding * (arms.a + arms.b)).squared(), failure)
+        d2.require_above(d2, (angle_rounding * (arms.a + arms.b)).squared() / area, failure)
     };
-    // With arms much longer than the dyad, cos² would bring the rounding of their lengths into p; D² does not.
-    let rounding = graph.epsilons(4) * (r1 + r2).squared();
-    let p = if (4 * kp + (r1 + r2).squared()).sign() == Some(1) {
-        let p = Margin::by_half(kp, span * c.squared());
-        p.named(format!("p_{joint}"), format!("{sum}² − D2_{joint}, as k + 4ab cos²(ψ/2)"))
+    // The factor of a square alone goes to the other margin.
+    let by = |folds: bool, other_folds: bool| match (folds, other_folds) {
+        (true, false) if by_angle => (span, "/4ab".to_owned()),
+        (false, true) if by_angle => (area.squared() / span, format!(" · 4ab/{}²", dyad.area_name())),
+        _ => (area, divided.clone()),
+    };
+    let (sum, difference) = (dyad.sum_name(), dyad.difference_name());
+    let p = if p_by_half {
+        let (by, divided) = by(kp.is_zero(), kq.is_zero());
+        let p = Margin::by_half(kp, span, c.squared(), by);
+        p.named(format!("p_{joint}"), format!("({sum}² − d·d){divided}, by cos²(ψ/2)"))
     } else {
-        let p = Margin { value: (r1 + r2).squared() - d2, rounding, folds: false };
+        let p = Margin::by_distance((r1 + r2).squared() - d2, r1 + r2);
         p.named(format!("p_{joint}"), format!("{sum}² − D2_{joint}"))
     };
     let q = if kq.value().is_some() {
-        let q = Margin::by_half(kq, spread);
-        q.named(format!("q_{joint}"), format!("D2_{joint} − {difference}², as k + spread_{joint}"))
+        let (by, divided) = by(kq.is_zero(), p.folds);
+        let q = Margin::by_half(kq, span, arms.sine_squared(), by);
+        q.named(format!("q_{joint}"), format!("(d·d − {difference}²){divided}, by sin²(ψ/2)"))
     } else {
-        let q = Margin { value: d2 - (r1 - r2).squared(), rounding, folds: false };
+        let q = Margin::by_distance(d2 - (r1 - r2).squared(), r1 + r2);
         q.named(format!("q_{joint}"), format!("D2_{joint} − {difference}²"))
     };
     let smooth = closure.smooth_at.is_some();
@@ -498,11 +570,11 @@ fn by_half_angle<'m>(
         }
         return Err(not_folding(dyad, closure, "its lengths leave a gap"));
     }
-    let (p, q) = (p.assembled(dyad, true, d2), q.assembled(dyad, false, d2));
+    let (p, q) = (p.assembled(dyad, true, d2 * area), q.assembled(dyad, false, d2 * area));
     // Where a margin is a square alone, its root is that of its only term, and in a smooth motion keeps its sign through the fold.
     let root_of = |margin: Margin<'m>, half: Expr<'m>| match (margin.folds, smooth) {
-        (true, true) => (half, span),
-        (true, false) => (half.abs(), span),
+        (true, true) => (half, span / margin.by),
+        (true, false) => (half.abs(), span / margin.by),
         (false, _) => (margin.value.non_negative(), graph.one()),
     };
     let ((from_p, p_factor), (from_q, q_factor)) = (root_of(p, c), root_of(q, s));
@@ -515,7 +587,20 @@ fn by_half_angle<'m>(
         (false, false) => (from_p * from_q).sqrt(),
     };
     let sign = side_sign(dyad, (closure, side), arms, [p.folds, q.folds])?;
-    let k = sign.of(root.named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})")));
+    let (k, of_angle) = if by_angle {
+        let of_half = |function: &str| if smooth { format!("{function}(ψ/2)") } else { format!("|{function}(ψ/2)|") };
+        let (cosine, sine) = (of_half("cos"), of_half("sin"));
+        let equation = match (p.folds, q.folds) {
+            (true, true) => format!("4ab{divided} {cosine} {sine}"),
+            (true, false) => format!("{cosine} √(q_{joint})"),
+            (false, true) => format!("{sine} √(p_{joint})"),
+            (false, false) => format!("√(p_{joint} q_{joint})"),
+        };
+        let sine = name_sine(dyad, sign.of(root), &format!("{}{equation}", sign.text()));
+        (sine, Some(of_angle(dyad, apart, span, spread)))
+    } else {
+        (sign.of(root.named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"))), None)
+    };
     let significant = [(p, c), (q, s)].map(|(margin, half)| {
         if margin.folds {
             (half.abs().named(format!("fold_{joint}"), "distance from the fold"), angle_rounding)
@@ -523,7 +608,29 @@ fn by_half_angle<'m>(
             (margin.value, margin.rounding)
         }
     });
-    Ok(Closing { d, d2, sums: None, k, sign, significant: significant.to_vec() })
+    Ok(Closing { d, d2, sums: None, k, of_angle, sign, significant: significant.to_vec() })
+}
+
+/// `(D² + r² − r'²)/(2 r r')` of the shorter leg, and cos μ by the law of cosines, both from `spread = 4ab sin²(ψ/2)/(2 r r')`.
+///
+/// Where the driver goes all round, the spread is at most two. The more it may be, the more its rounding tells in the cosine, which then is
+/// that between the directions.
+fn of_angle<'m>(dyad: &Dyad<'m>, apart: Expr<'m>, span: Expr<'m>, spread: Expr<'m>) -> OfAngle<'m> {
+    let lengths = dyad.lengths();
+    let [short, long] = by_length(lengths);
+    let (r, other) = (lengths[short], lengths[long]);
+    let area = 2 * (r * other);
+    let (joint, area_name) = (dyad.joint_name(dyad.inner), dyad.area_name());
+    let [mine, its] = [short, long].map(|index| dyad.length_name(&dyad.legs[index]));
+    let sum = (apart.squared() + (r - other) * (r + other)) / area + spread;
+    let sum = sum.named(
+        format!("sum_{}", dyad.link_name(&dyad.legs[short])),
+        format!("D2_{joint} + ({mine}² − {its}²)/{area_name}"),
+    );
+    let cosine = (r.squared() + other.squared() - apart.squared()) / area - spread;
+    let cosine = cosine
+        .named(format!("cos_mu_{joint}"), format!("cos μ at {joint} = ({mine}² + {its}²)/{area_name} − D2_{joint}"));
+    OfAngle { sum, cosine: ((2 * area - span).sign() != Some(-1)).then_some(cosine) }
 }
 
 /// The failure to assemble, with the gap: how much too far apart (`p < 0`) or too close together (`q < 0`) the outer pins are.
@@ -601,7 +708,7 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let root =
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
     let significant = vec![(p, p_rounding), (q, q_rounding)];
-    Closing { d, d2, sums: None, k: sign.of(root), sign, significant }
+    Closing { d, d2, sums: None, k: sign.of(root), of_angle: None, sign, significant }
 }
 
 /// A leg whose length a drive gives, between pins that a constant distance separates; the other leg is constant.
@@ -676,7 +783,7 @@ fn by_driven_length<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>, driven: 
     let (constant, square) = (d2 + other.squared(), d2 - other.squared());
     let own = [(constant - y.squared()) - x.squared(), (square + y.squared()) + x.squared()];
     let sums = if leg == 1 { own } else { [own[1], own[0]] };
-    Closing { d, d2, sums: Some(sums), k: sign.of(root), sign, significant }
+    Closing { d, d2, sums: Some(sums), k: sign.of(root), of_angle: None, sign, significant }
 }
 
 /// The least and the largest distance that constant parts of a way can make up.

@@ -1,5 +1,5 @@
 //! Constant factors are brought together: `(k₁ x)(k₂ y) = (k₁k₂)(x y)` and `k (a x ± b y) = (ka) x ± (kb) y`, where nothing else
-//! reads the inner values. The constants are multiplied exactly and rounded once.
+//! reads the inner values. The constants are multiplied exactly and rounded once, and go to a reciprocal where there is one.
 
 use std::collections::BTreeMap;
 
@@ -20,6 +20,28 @@ pub(super) fn merge(program: Program, graph: &Graph) -> Program {
         merging.value(value);
     }
     merging.finish()
+}
+
+/// `k (x (1/y))` as `x (k (1/y))`: the reciprocal is known before x, which then waits for one product less.
+pub(super) fn multiply_reciprocals(mut program: Program, graph: &Graph) -> Program {
+    let uses = program.uses();
+    let is_reciprocal = |program: &Program, value: ValueId| match program.op(value) {
+        Some(Op::Div(one, _)) => program.constant(graph, *one).is_some_and(|one| one.is_one()),
+        _ => false,
+    };
+    for index in 0..program.steps.len() {
+        if let Step::Let(value) = program.steps[index]
+            && let Some(Op::Mul(k, rest)) = program.op(value).cloned()
+            && program.constant(graph, k).is_some()
+            && program.is_inner(rest, &uses)
+            && let Some(Op::Mul(x, y)) = program.op(rest).cloned()
+            && is_reciprocal(&program, y)
+        {
+            program.values[rest.index()].definition = Definition::Computed(Op::Mul(k, y));
+            program.values[value.index()].definition = Definition::Computed(Op::Mul(x, rest));
+        }
+    }
+    program
 }
 
 struct Merging<'g> {

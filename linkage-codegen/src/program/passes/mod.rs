@@ -17,13 +17,14 @@ use crate::graph::{Graph, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 8] = [
+pub const PASSES: [(&str, Pass); 9] = [
     ("pivots", pivots::compare_directly),
     ("reciprocals", reciprocals::share),
     ("constants", constants::merge),
     ("unused", unused::remove),
     ("signs", signs::absorb),
     ("unused", unused::remove),
+    ("reciprocals", constants::multiply_reciprocals),
     ("finite", finite::check_once),
     ("fused", fused::contract),
 ];
@@ -42,7 +43,7 @@ impl Program {
     }
 
     /// What a constant is.
-    fn constant(&self, graph: &Graph, value: ValueId) -> Option<Number> {
+    pub(crate) fn constant(&self, graph: &Graph, value: ValueId) -> Option<Number> {
         match self.op(value) {
             Some(Op::Constant(number)) => Some(graph.number(*number)),
             _ => None,

@@ -1,4 +1,4 @@
-//! A change of sign that an operand can take on costs nothing: `−(a − b) = b − a`, `−(k x) = (−k) x`.
+//! A change of sign that an operand can take on costs nothing: `−(a − b) = b − a`, `−(k x) = (−k) x`, `a − (−k) = a + k`.
 //!
 //! That of a sum goes to one of its terms, `−(a + b) = −a − b`: nothing then waits for it, and the formula ends as that of the other
 //! component of a vector does, so that a compiler can work at both at once.
@@ -26,6 +26,19 @@ pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
         steps.push(step);
     }
     program.steps = steps;
+    without_negative_constants(program, graph)
+}
+
+/// `a − (−k)` as `a + k`.
+fn without_negative_constants(mut program: Program, graph: &Graph) -> Program {
+    for index in 0..program.values.len() {
+        if let Definition::Computed(Op::Sub(a, b)) = program.values[index].definition
+            && let Some(number) = program.constant(graph, b).filter(|number| number.signum() < 0)
+        {
+            let opposite = program.add_constant(graph, &number.neg(), ValueId::new(index));
+            program.values[index].definition = Definition::Computed(Op::Add(a, opposite));
+        }
+    }
     program
 }
 

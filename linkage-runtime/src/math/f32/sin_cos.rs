@@ -50,6 +50,19 @@ fn large_sin_cos(x: f32) -> (f32, f32) {
     reduce_large(x).sin_cos()
 }
 
+/// (sin x/2, cos x/2): the bits of [`sin_cos`] of `0.5 * x`, whose product the quadrant does not wait for.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "as `sin_cos`")]
+#[must_use]
+pub fn sin_cos_half(x: f32) -> (f32, f32) {
+    let half = 0.5 * x;
+    if is_short_half(x) {
+        reduced(half, x * core::f32::consts::FRAC_1_PI + ROUND).sin_cos()
+    } else {
+        large_sin_cos(half)
+    }
+}
+
 /// (sin, cos) of the real number x + hi + lo, which is not rounded before the reduction.
 ///
 /// For a constant hi + lo in two parts, such as a phase: |hi| ≤ 4, |lo| ≤ ulp(hi). The rounding error of x + hi (Knuth's
@@ -78,6 +91,12 @@ fn large_sin_cos_sum(x: f32, hi: f32, lo: f32) -> (f32, f32) {
 #[must_use]
 pub fn is_short(x: f32) -> bool {
     x.abs() <= FAST
+}
+
+/// Whether it serves for half of an angle.
+#[inline]
+pub(super) fn is_short_half(x: f32) -> bool {
+    x.abs() <= 2.0 * FAST
 }
 
 /// [`sin_cos`] without its branch: for angles for which the short reduction serves; elsewhere the numbers mean nothing.
@@ -110,7 +129,12 @@ pub(super) fn two_sum(a: f32, b: f32) -> (f32, f32) {
 /// For |x| ≤ 402. Nothing is lost but by the last product and the last difference, which act on the tail.
 #[inline]
 pub(super) fn reduce(x: f32) -> Reduced {
-    let rounded = x * core::f32::consts::FRAC_2_PI + ROUND;
+    reduced(x, x * core::f32::consts::FRAC_2_PI + ROUND)
+}
+
+/// The same, the number of quadrants being known, rounded in the last bits of a number.
+#[inline]
+fn reduced(x: f32, rounded: f32) -> Reduced {
     let n = rounded - ROUND;
     let x1 = x - n * FRAC_PI_2[0];
     let w = n * FRAC_PI_2[1];
@@ -139,7 +163,7 @@ impl Reduced {
         let ([s0, s1, s2], [c0, c1, c2]) = (SINE, COSINE);
         let (s, c) = (s0 + z * (s1 + z * s2), c0 + z * (c1 + z * c2));
         let sin = y - (z * y * s + t * w);
-        let cos = w + (((1.0 - w) - half) + (z * z * c + y * t));
+        let cos = w + (z * z * c + (((1.0 - w) - half) + y * t));
 
         by_quadrant(quadrant, sin, cos)
     }

@@ -39,9 +39,9 @@ fn in_halves(Reduced { quadrant, y, t }: Reduced) -> (f64, f64) {
     let p = _mm_add_pd(_mm_add_pd(p0, _mm_mul_pd(z2, p1)), _mm_mul_pd(_mm_mul_pd(z2, z2), p2));
     let first = _mm_mul_pd(z, _mm_unpacklo_pd(y2, z));
     let tail = _mm_mul_pd(_mm_xor_pd(_mm_set1_pd(t), both(0.0, -0.0)), both(w, y));
-    let small = _mm_add_pd(_mm_mul_pd(first, p), tail);
     // −0 changes no number that it is added to.
-    let small = _mm_add_pd(both(-0.0, half - (1.0 - w)), small);
+    let tail = _mm_add_pd(both(-0.0, half - (1.0 - w)), tail);
+    let small = _mm_add_pd(_mm_mul_pd(first, p), tail);
     turned(quadrant, _mm_sub_pd(both(y, w), small))
 }
 

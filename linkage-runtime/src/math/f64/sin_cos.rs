@@ -64,6 +64,19 @@ fn large_sin_cos(x: f64) -> (f64, f64) {
     reduce_large(x).one_by_one()
 }
 
+/// (sin x/2, cos x/2): the bits of [`sin_cos`] of `0.5 * x`, whose product the quadrant does not wait for.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "as `sin_cos`")]
+#[must_use]
+pub fn sin_cos_half(x: f64) -> (f64, f64) {
+    let half = 0.5 * x;
+    if is_short_half(x) {
+        reduced(half, x * core::f64::consts::FRAC_1_PI + ROUND).sin_cos()
+    } else {
+        large_sin_cos(half)
+    }
+}
+
 /// (sin, cos) of the real number x + hi + lo, which is not rounded before the reduction.
 ///
 /// For a constant hi + lo in two parts, such as a phase: |hi| ≤ 4, |lo| ≤ ulp(hi). The rounding error of x + hi (Knuth's
@@ -92,6 +105,12 @@ fn large_sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
 #[must_use]
 pub fn is_short(x: f64) -> bool {
     x.abs() <= FAST
+}
+
+/// Whether it serves for half of an angle.
+#[inline]
+pub(super) fn is_short_half(x: f64) -> bool {
+    x.abs() <= 2.0 * FAST
 }
 
 /// [`sin_cos`] without its branch: for angles for which the short reduction serves; elsewhere the numbers mean nothing.
@@ -124,7 +143,12 @@ pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 /// For |x| ≤ 4.1·10⁵. Nothing is lost but by the last product and the last difference, which act on the tail.
 #[inline]
 pub(super) fn reduce(x: f64) -> Reduced {
-    let rounded = x * core::f64::consts::FRAC_2_PI + ROUND;
+    reduced(x, x * core::f64::consts::FRAC_2_PI + ROUND)
+}
+
+/// The same, the number of quadrants being known, rounded in the last bits of a number.
+#[inline]
+fn reduced(x: f64, rounded: f64) -> Reduced {
     let n = rounded - ROUND;
     let x1 = x - n * FRAC_PI_2[0];
     let w = n * FRAC_PI_2[1];
@@ -162,7 +186,7 @@ impl Reduced {
         let w = 1.0 - half;
         let (s, c) = (estrin!(z; SINE), estrin!(z; COSINE));
         let sin = y - (z * y * s + t * w);
-        let cos = w + (((1.0 - w) - half) + (z * z * c + y * t));
+        let cos = w + (z * z * c + (((1.0 - w) - half) + y * t));
         by_quadrant(quadrant, sin, cos)
     }
 }
