@@ -8,7 +8,7 @@ use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::graph::{Failure, Graph, Kernel, NodeId, Op};
 use linkage_codegen::program::Fault;
-use support::general::equations_at;
+use support::general::{Coordinates, residuals_at};
 use support::linkages::{Kind, Random, sample_with_search};
 use support::numbers::{Double, Extended, Single};
 use support::{Arguments, Number, compile, moved, pose};
@@ -30,8 +30,8 @@ const STEPHENSON: &str = "pub mod sample;
 fn errors<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &HashMap<NodeId, T>) -> (f64, f64) {
     let exact: HashMap<NodeId, Extended> =
         kept.iter().map(|(node, value)| (*node, Extended::exactly(value.to_f64()))).collect();
-    let general = equations_at(linkage, arguments, &exact);
-    let closure = general.residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs()));
+    let residuals = residuals_at(&Coordinates::at(linkage, arguments, &exact));
+    let closure = residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs()));
     let value = |name: String| linkage.plan.pose.iter().find(|k| k.name == name).map(|k| exact[&k.node].clone());
     let units = linkage.model.moving_links().filter_map(|link| {
         let name = &linkage.model.link(link).name;
@@ -260,8 +260,8 @@ fn near_singular_poses_are_refused_or_close() {
 fn extended_numbers_converge_to_their_own_precision() {
     let linkage = compile(STEPHENSON);
     let kept = pose::<Extended>(&linkage, &at(0.5)).expect("a pose");
-    let general = equations_at(&linkage, &at(0.5), &kept);
-    let worst = general.residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs()));
+    let residuals = residuals_at(&Coordinates::at(&linkage, &at(0.5), &kept));
+    let worst = residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs()));
     assert!(worst < 1e-63, "{worst:e}");
 }
 

@@ -12,7 +12,7 @@ use linkage_codegen::model::ids::LinkId;
 use linkage_codegen::plan::rules::RULES;
 use linkage_codegen::program::Fault;
 use linkage_codegen::topology::Group;
-use support::general::{equations, solve_extended, solve_nalgebra};
+use support::general::{equations, residuals, solve_extended, solve_nalgebra};
 use support::linkages::{Kind, Sample, sample, sample_with_search};
 use support::numbers::{Double, Extended};
 use support::{Arguments, Number, compile, scene};
@@ -188,10 +188,10 @@ fn shape(linkage: &Linkage, group: &Group) -> Option<&'static str> {
 fn check_exactly(sample: &Sample, linkage: &Linkage) {
     let context = &sample.text;
     let exact = solved::<Extended>(linkage, &sample.arguments);
-    let general = equations::<Extended>(linkage, &sample.arguments).expect("a pose");
-    for residual in &general.residuals {
+    for residual in residuals::<Extended>(linkage, &sample.arguments).expect("a pose") {
         assert!(residual.to_f64().abs() < 1e-50, "constraint {}\n{context}", residual.to_f64());
     }
+    let general = equations::<Extended>(linkage, &sample.arguments).expect("a pose");
     let right = general.right_side(&|_| true);
     let reference = solve_extended(&general.matrix, &right).expect("regular");
     let reference = general.named(linkage, reference);

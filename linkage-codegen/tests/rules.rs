@@ -5,7 +5,7 @@ mod support;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::plan::rules::RULES;
 use support::bounds::{LOOSEST, median, ratios_of};
-use support::general::{equations, open_motion, solve_extended};
+use support::general::{equations, open_motion, residuals, solve_extended};
 use support::numbers::Extended;
 use support::{Arguments, Number, compile, scene};
 
@@ -737,10 +737,10 @@ fn check_motion(linkage: &linkage_codegen::Linkage, arguments: &Arguments, text:
 
 fn check(linkage: &linkage_codegen::Linkage, arguments: &Arguments, text: &str) {
     // In 220 bits nothing but a wrong formula makes a difference.
-    let general = equations::<Extended>(linkage, arguments).unwrap_or_else(|fault| panic!("{fault:?}\n{text}"));
-    for residual in &general.residuals {
+    for residual in residuals::<Extended>(linkage, arguments).unwrap_or_else(|fault| panic!("{fault:?}\n{text}")) {
         assert!(residual.to_f64().abs() < 1e-55, "constraint: {:e}\n{text}", residual.to_f64());
     }
+    let general = equations::<Extended>(linkage, arguments).expect("a pose");
     let solution = solve_extended(&general.matrix, &general.right_side(&|_| true)).expect("regular");
     let all = scene::<Extended>(linkage, "all", arguments).unwrap();
     for (name, value) in general.named(linkage, solution) {

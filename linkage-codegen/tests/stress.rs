@@ -39,7 +39,7 @@ use support::families::{
     BARS, Family, boom, four_bar, length, loads, oscillating_block, planet, rounded, scotch_yoke, shaper, single,
     slider_crank, slotted_crank, slotted_yoke, tangent_mechanism, welded,
 };
-use support::general::equations_at;
+use support::general::{Coordinates, equations_at};
 use support::linkages::{Class, Place, Random, in_single_precision, sample_with_forces};
 use support::measures::{Measures, is_moment, measure};
 use support::numbers::{Double, Single};
@@ -285,7 +285,7 @@ fn at(drive: f64, loads: &[[f64; 2]]) -> Arguments {
 /// The equations of all free bodies, in doubles; nothing where the linkage cannot be assembled.
 fn equations(linkage: &Linkage, arguments: &Arguments) -> Option<(DMatrix<f64>, DVector<f64>)> {
     let kept = pose::<Double>(linkage, arguments).ok()?;
-    let general = equations_at(linkage, arguments, &kept);
+    let general = equations_at(&Coordinates::at(linkage, arguments, &kept));
     let right = DVector::from_vec(general.right_side(&|_| true).iter().map(|x| x.0).collect());
     let (lines, columns) = (right.len(), general.matrix[0].len());
     Some((DMatrix::from_fn(lines, columns, |i, j| general.matrix[i][j].0), right))

@@ -1,5 +1,6 @@
 //! The general solution: the unreduced equations of a linkage, at a pose, as one linear system.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 
 use linkage_codegen::Linkage;
@@ -8,9 +9,9 @@ use linkage_codegen::equations::loads::Case;
 use linkage_codegen::equations::{Declared, Exerted, Source, drive_row};
 use linkage_codegen::graph::number::Number as Exact;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{NodeId, Order, Symbol};
+use linkage_codegen::graph::{Coordinate, NodeId, Symbol};
 use linkage_codegen::model::JointKind;
-use linkage_codegen::model::ids::DriveId;
+use linkage_codegen::model::ids::{DriveId, LinkId};
 use linkage_codegen::program::Fault;
 use nalgebra::{DMatrix, DVector};
 
@@ -22,26 +23,20 @@ pub struct General<T> {
     pub matrix: Vec<Vec<T>>,
     /// What each load case exerts.
     pub cases: Vec<(Case, Vec<T>)>,
-    /// The residuals of the constraints and of the drives.
-    pub residuals: Vec<T>,
     pub sources: Vec<Source>,
 }
 
 /// The unreduced equations of a linkage at the pose of its own solution.
 pub fn equations<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<General<T>, Fault> {
-    Ok(equations_at(linkage, arguments, &pose::<T>(linkage, arguments)?))
+    Ok(equations_at(&Coordinates::at(linkage, arguments, &pose::<T>(linkage, arguments)?)))
 }
 
-/// The unreduced equations of a linkage at a pose, from what it keeps.
-pub fn equations_at<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &HashMap<NodeId, T>) -> General<T> {
-    let graph = &linkage.model.graph;
-    let coordinates = coordinates(linkage, arguments, kept);
-    let known = |symbol: Symbol| match symbol {
-        Symbol::Coordinate(..) | Symbol::Moving(..) => coordinates[&symbol].clone(),
-        _ => T::exactly(arguments.of(symbol)),
-    };
+/// The unreduced equations of a linkage at a pose.
+pub fn equations_at<T: Number>(pose: &Coordinates<'_, T>) -> General<T> {
+    let linkage = pose.linkage;
+    let known = |symbol| pose.known(symbol);
     let mut done: HashMap<NodeId, T> = HashMap::new();
-    let mut value = |node| graph.evaluate(node, &known, &mut done);
+    let mut value = |node| linkage.model.graph.evaluate(node, &known, &mut done);
     let lines = 3 * (linkage.model.links.len() - 1);
     let mut column = |exerts: &[Exerted]| {
         let mut column = vec![T::exactly(0.0); lines];
@@ -55,8 +50,24 @@ pub fn equations_at<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &
     };
     let columns: Vec<Vec<T>> = linkage.system.rows.iter().map(|row| column(&row.exerts)).collect();
     let cases = linkage.system.cases.iter().map(|case| (case.case, column(&case.exerts))).collect();
+    let matrix = (0..lines).map(|line| columns.iter().map(|column| column[line].clone()).collect()).collect();
+    let sources = linkage.system.rows.iter().map(|row| row.source).collect();
+    General { matrix, cases, sources }
+}
+
+/// The residuals of a linkage at the pose of its own solution.
+pub fn residuals<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<Vec<T>, Fault> {
+    Ok(residuals_at(&Coordinates::at(linkage, arguments, &pose::<T>(linkage, arguments)?)))
+}
+
+/// The residuals of the constraints and of the drives at a pose.
+pub fn residuals_at<T: Number>(pose: &Coordinates<'_, T>) -> Vec<T> {
+    let (linkage, graph) = (pose.linkage, &pose.linkage.model.graph);
+    let known = |symbol| pose.known(symbol);
+    let mut done: HashMap<NodeId, T> = HashMap::new();
+    let mut value = |node| graph.evaluate(node, &known, &mut done);
     let residuals = linkage.system.rows.iter().filter_map(|row| {
-        let residual = graph.evaluate(row.residual?, &known, &mut done);
+        let residual = value(row.residual?);
         let Source::Joint(joint, component) = row.source else { return Some(residual) };
         let period = match (linkage.model.joint(joint).kind, component) {
             (_, Component::Couple) => Some(graph.one()),
@@ -65,59 +76,65 @@ pub fn equations_at<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &
             _ => None,
         };
         Some(match period {
-            Some(size) => within_a_turn(&residual, &graph.evaluate(size.id(), &known, &mut done)),
+            Some(size) => within_a_turn(&residual, &value(size.id())),
             None => residual,
         })
     });
+    let residuals: Vec<T> = residuals.collect();
     // The joints' coordinates are those that the drives give.
     let drives = (0..linkage.model.drives.len()).map(DriveId::new).filter_map(|drive| {
         let coordinate = drive_row(&linkage.model, graph, &Declared(&linkage.model), drive).residual?;
         let coordinate = graph.evaluate(coordinate, &known, &mut HashMap::new());
-        let apart = coordinate.sub(&T::exactly(arguments.drives[drive.index()]));
+        let apart = coordinate.sub(&T::exactly(pose.arguments.drives[drive.index()]));
         Some(if linkage.model.drive(drive).turns { within_a_turn(&apart, &T::exactly(1.0)) } else { apart })
     });
-    let residuals = residuals.collect::<Vec<T>>().into_iter().chain(drives).collect();
-    let matrix = (0..lines).map(|line| columns.iter().map(|column| column[line].clone()).collect()).collect();
-    let sources = linkage.system.rows.iter().map(|row| row.source).collect();
-    General { matrix, cases, residuals, sources }
+    residuals.into_iter().chain(drives).collect()
 }
 
-/// The coordinates of all links at a pose, and if anything depends on them their rates and accelerations.
-pub fn coordinates<T: Number>(
-    linkage: &Linkage,
-    arguments: &Arguments,
-    kept: &HashMap<NodeId, T>,
-) -> HashMap<Symbol, T> {
-    use linkage_codegen::graph::Coordinate::{Angle, Cos, Sin, X, Y};
-    let graph = &linkage.model.graph;
-    let mut placed: HashMap<NodeId, T> = kept.clone();
-    let known = |symbol: Symbol| T::exactly(arguments.of(symbol));
-    let mut coordinates: HashMap<Symbol, T> = HashMap::new();
-    for (index, link) in linkage.plan.links.iter().enumerate() {
-        let id = linkage_codegen::model::ids::LinkId::new(index);
-        for which in [X, Y, Cos, Sin, Angle] {
-            let value = graph.evaluate(link.coordinate(which), &known, &mut placed);
-            coordinates.insert(Symbol::Coordinate(id, which), value);
-            for order in [Order::Rate, Order::Acceleration] {
-                if let Some(node) = link.moving(which, order) {
-                    let value = graph.evaluate(node, &known, &mut placed);
-                    coordinates.insert(Symbol::Moving(id, which, order), value);
-                }
+/// The coordinates of all links at a pose, and if anything depends on them their rates and accelerations. Each is found when it is asked
+/// for: an angle takes long in many digits.
+pub struct Coordinates<'a, T> {
+    pub linkage: &'a Linkage,
+    pub arguments: &'a Arguments,
+    placed: RefCell<HashMap<NodeId, T>>,
+}
+
+impl<'a, T: Number> Coordinates<'a, T> {
+    /// From what the pose keeps.
+    pub fn at(linkage: &'a Linkage, arguments: &'a Arguments, kept: &HashMap<NodeId, T>) -> Self {
+        Self { linkage, arguments, placed: RefCell::new(kept.clone()) }
+    }
+
+    /// A coordinate of a link.
+    pub fn of(&self, link: LinkId, which: Coordinate) -> T {
+        self.value(self.linkage.plan.links[link.index()].coordinate(which))
+    }
+
+    /// Coordinates, arguments of the linkage.
+    fn known(&self, symbol: Symbol) -> T {
+        match symbol {
+            Symbol::Coordinate(link, which) => self.of(link, which),
+            Symbol::Moving(link, which, order) => {
+                let node = self.linkage.plan.links[link.index()].moving(which, order);
+                self.value(node.expect("what something depends on"))
             }
+            _ => T::exactly(self.arguments.of(symbol)),
         }
     }
-    coordinates
+
+    /// What the pose keeps, or what follows from it.
+    pub fn value(&self, node: NodeId) -> T {
+        let known = |symbol| T::exactly(self.arguments.of(symbol));
+        self.linkage.model.graph.evaluate(node, &known, &mut self.placed.borrow_mut())
+    }
 }
 
 /// What the motion leaves open of every joint and drive: how fast its residual changes, and how fast that does. Of drives the residual is
 /// the coordinate less the given one.
 pub fn open_motion<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<Vec<(Source, [T; 2])>, Fault> {
     let (model, graph) = (&linkage.model, &linkage.model.graph);
-    let coordinates = coordinates(linkage, arguments, &pose::<T>(linkage, arguments)?);
-    let known = |symbol: Symbol| match symbol {
-        Symbol::Coordinate(..) | Symbol::Moving(..) => coordinates[&symbol].clone(),
-        _ => T::exactly(arguments.of(symbol)),
-    };
+    let pose = Coordinates::at(linkage, arguments, &pose::<T>(linkage, arguments)?);
+    let known = |symbol| pose.known(symbol);
     let joints = linkage.system.rows.iter().filter_map(|row| Some((row.source, graph.expr(row.residual?))));
     let drives = (0..model.drives.len()).map(DriveId::new).filter_map(|drive| {
         let row = drive_row(model, graph, &Declared(model), drive);

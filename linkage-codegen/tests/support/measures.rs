@@ -7,18 +7,15 @@ use linkage_codegen::equations::Source;
 use linkage_codegen::equations::joints::Component;
 use linkage_codegen::equations::loads::{self, Action};
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{Coordinate, Expr, NodeId, Symbol};
+use linkage_codegen::graph::{Coordinate, Expr, NodeId};
 use linkage_codegen::model::ids::{GROUND, JointId, LinkId};
 use linkage_codegen::model::{JointKind, LoadKind, UnknownKind};
 use linkage_codegen::program::Fault;
 use nalgebra::{DMatrix, DVector};
 
-use super::general::{General, coordinates, equations_at};
+use super::general::{Coordinates, General, equations_at, residuals_at};
 use super::numbers::Extended;
 use super::{Arguments, Number, from_pose, pose};
-
-/// What a pose keeps.
-type Kept = HashMap<NodeId, Extended>;
 
 /// The measures of the acceptance bars, in epsilons of the scalar.
 #[derive(Clone, Copy, Debug, Default)]
@@ -77,19 +74,16 @@ pub fn measure<T: Number>(
     let (all, work) = (from_kept(linkage, "all", &kept, arguments)?, from_kept(linkage, "work", &kept, arguments)?);
     let extended: HashMap<NodeId, Extended> =
         kept.iter().map(|(node, value)| (*node, Extended::exactly(value.to_f64()))).collect();
-    let general = equations_at(linkage, arguments, &extended);
     let unit = direction_error(linkage, &extended) / epsilon;
-    let side = (longest * sides(linkage) / 4.0).max(farthest(linkage, arguments, &extended));
-    let closure = general.residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs())) / (side * epsilon);
-    let unit_pose = normalised(linkage, &extended);
-    let general = equations_at(linkage, arguments, &unit_pose);
+    let here = Coordinates::at(linkage, arguments, &extended);
+    let side = (longest * sides(linkage) / 4.0).max(farthest(&here));
+    let closure = residuals_at(&here).iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs())) / (side * epsilon);
+    let here = Coordinates::at(linkage, arguments, &normalised(linkage, &extended));
+    let general = equations_at(&here);
     let solution = unknowns(linkage, &general, &all);
     let backward = backward_error(linkage, &general, &solution, longest) / epsilon;
-    let bodies: Vec<FreeBody> = linkage
-        .model
-        .moving_links()
-        .map(|link| free_body(linkage, arguments, (&general, &unit_pose), &solution, link))
-        .collect();
+    let bodies: Vec<FreeBody> =
+        linkage.model.moving_links().map(|link| free_body(&here, &general, &solution, link)).collect();
     let free_body = free_bodies(linkage, &bodies) / epsilon;
     // Where the unknown acts equilibrium takes its terms from, virtual work from the loads.
     let unknown = &linkage.model.unknowns[0];
@@ -101,8 +95,9 @@ pub fn measure<T: Number>(
         _ => &bodies[0],
     };
     let terms = if is_moment(linkage, &unknown.name) { held.moments } else { held.forces }
-        + work_terms(linkage, arguments, &unit_pose)
-        + passed_power(linkage, &general, &solution);
+        + virtual_velocities(&general).map_or(0.0, |velocities| {
+            work_terms(&here, &velocities) + passed_power(linkage, &general, &velocities, &solution)
+        });
     let torque = over((all[&unknown.name].to_f64() - work[&unknown.name].to_f64()).abs(), terms) / epsilon;
     Ok(Measures { unit, closure, backward, free_body, torque })
 }
@@ -144,20 +139,18 @@ fn sides(linkage: &Linkage) -> f64 {
 
 /// Sides of loops that no length bounds, but numbers of the pose with a rounding of their own: how far something slides where two slides
 /// are all that a pin leaves, which grows beyond all lengths as they become parallel; and how far wheels have rolled.
-fn farthest(linkage: &Linkage, arguments: &Arguments, kept: &HashMap<NodeId, Extended>) -> f64 {
-    let model = &linkage.model;
+fn farthest(pose: &Coordinates<'_, Extended>) -> f64 {
+    let (linkage, model) = (pose.linkage, &pose.linkage.model);
     let mut sides = Vec::new();
     if ["PRP dyad", "RPP dyad", "slot and slide"].iter().any(|rule| linkage.plan.motion_rules.contains(rule)) {
         let travels = linkage.plan.pose.iter().filter(|found| found.name.starts_with("travel_"));
-        sides.extend(travels.map(|found| kept[&found.node].to_f64().abs()));
+        sides.extend(travels.map(|found| pose.value(found.node).to_f64().abs()));
     }
-    let coordinates = coordinates(linkage, arguments, kept);
     for joint in (0..model.joints.len()).map(JointId::new) {
         let JointKind::Gear(gear) = model.joint(joint).kind else { continue };
         for (end, radius) in model.joint(joint).ends().into_iter().zip(gear.radii) {
             let radius = model.graph.expr(radius).value().expect("constant").to_f64();
-            let angle = coordinates.get(&Symbol::Coordinate(end.link, Coordinate::Angle)).map_or(0.0, Number::to_f64);
-            sides.push((radius * angle).abs());
+            sides.push((radius * pose.of(end.link, Coordinate::Angle).to_f64()).abs());
         }
     }
     sides.into_iter().fold(0.0, f64::max)
@@ -242,14 +235,8 @@ fn backward_error(linkage: &Linkage, general: &General<Extended>, solution: &[Ex
 /// Where a slide or the pin in a slot acts on a link, in the link's frame: the runner's own place, and on the link that carries the line
 /// the place of the slide's point with the travel from there, as the pose has it;
 /// and the lengths of these ways.
-fn runner_on(
-    linkage: &Linkage,
-    arguments: &Arguments,
-    kept: &Kept,
-    joint: JointId,
-    link: LinkId,
-) -> Option<([Extended; 2], f64)> {
-    let model = &linkage.model;
+fn runner_on(pose: &Coordinates<'_, Extended>, joint: JointId, link: LinkId) -> Option<([Extended; 2], f64)> {
+    let (linkage, model) = (pose.linkage, &pose.linkage.model);
     let data = model.joint(joint);
     let (carrier, axis) = data.kind.line()?;
     let exact = |x: Expr<'_>| Extended::from_number(&x.value().expect("constant"));
@@ -260,9 +247,9 @@ fn runner_on(
         return Some((local, near));
     }
     let name = format!("travel_{}", data.name);
-    let found = linkage.plan.pose.iter().find(|kept| kept.name == name).map(|found| kept[&found.node].clone());
+    let found = linkage.plan.pose.iter().find(|kept| kept.name == name).map(|found| pose.value(found.node));
     // The travel of a driven slide is an argument.
-    let drive = || model.drive_of(joint, false).map(|drive| Extended::exactly(arguments.drives[drive.index()]));
+    let drive = || model.drive_of(joint, false).map(|drive| Extended::exactly(pose.arguments.drives[drive.index()]));
     let travel = found.or_else(drive)?;
     let ahead = if data.from.link == carrier { travel } else { travel.neg() };
     let axis = axis.vector(&model.graph);
@@ -299,16 +286,15 @@ struct FreeBody {
 
 /// The check that an engineer makes on paper. Moments are about the origin of the link's frame.
 fn free_body(
-    linkage: &Linkage,
-    arguments: &Arguments,
-    (general, kept): (&General<Extended>, &Kept),
+    pose: &Coordinates<'_, Extended>,
+    general: &General<Extended>,
     solution: &[Extended],
     link: LinkId,
 ) -> FreeBody {
+    let (linkage, arguments) = (pose.linkage, pose.arguments);
     let first = 3 * (link.index() - 1);
     let coefficient = |offset: usize, column: usize| &general.matrix[first + offset][column];
-    let coordinates = coordinates(linkage, arguments, kept);
-    let [cos, sin] = [Coordinate::Cos, Coordinate::Sin].map(|which| &coordinates[&Symbol::Coordinate(link, which)]);
+    let [cos, sin] = [Coordinate::Cos, Coordinate::Sin].map(|which| pose.of(link, which));
     let mut sums = [Extended::zero(), Extended::zero(), Extended::zero()];
     let (mut forces, mut moments) = (0.0, 0.0);
     // Reactions: the components of a pin belong together, with the arm that their moments have.
@@ -332,7 +318,7 @@ fn free_body(
             },
             _ => None,
         };
-        let runner = slide.filter(|_| force > 0.0).and_then(|joint| runner_on(linkage, arguments, kept, joint, link));
+        let runner = slide.filter(|_| force > 0.0).and_then(|joint| runner_on(pose, joint, link));
         let arm = if let Some(([x, y], reach)) = runner {
             let along = cos.mul(&part[0]).add(&sin.mul(&part[1]));
             let across = cos.mul(&part[1]).sub(&sin.mul(&part[0]));
@@ -385,12 +371,27 @@ fn free_bodies(linkage: &Linkage, bodies: &[FreeBody]) -> f64 {
     residuals.fold(0.0, f64::max)
 }
 
-/// The power that passes at joints of which no term is counted already, `Σ|F||v|` at unit rate of the unknown's coordinate: between groups
-/// at those that are on neither the ground nor the driven link; and where a group is one system of equations at all of its joints.
+/// Virtual velocities at unit rate of the unknown's coordinate: for each link that of its frame's origin and its rate of turning, so that
+/// what the unknown does has the power one, and what each reaction does none.
+fn virtual_velocities(general: &General<Extended>) -> Option<DVector<f64>> {
+    let n = general.matrix.len();
+    let effort = general.sources.iter().position(|source| matches!(source, Source::Unknown(_))).expect("an unknown");
+    let matrix = DMatrix::from_fn(n, n, |column, line| general.matrix[line][column].to_f64());
+    let unit = DVector::from_fn(n, |column, _| if column == effort { 1.0 } else { 0.0 });
+    matrix.lu().solve(&unit)
+}
+
+/// The power that passes at joints of which no term is counted already, `Σ|F||v|`: between groups at those that are on neither the ground
+/// nor the driven link; and where a group is one system of equations at all of its joints.
 ///
 /// The torque of equilibrium is that of virtual work, and the power of what equilibrium leaves open of each free body and of what the virtual
 /// velocities leave open at each joint: a few roundings of their terms, and of these powers, whatever the condition of the equations.
-fn passed_power(linkage: &Linkage, general: &General<Extended>, solution: &[Extended]) -> f64 {
+fn passed_power(
+    linkage: &Linkage,
+    general: &General<Extended>,
+    velocities: &DVector<f64>,
+    solution: &[Extended],
+) -> f64 {
     let topology = &linkage.topology;
     let is_iterated = |index: usize| linkage.plan.motion_rules[index] == "block";
     let passing = topology.motion.iter().enumerate().flat_map(|(index, group)| {
@@ -402,19 +403,11 @@ fn passed_power(linkage: &Linkage, general: &General<Extended>, solution: &[Exte
         };
         group.outer.iter().chain(inner).filter_map(end)
     });
-    let between: Vec<(JointId, LinkId)> = passing.filter(|(_, link)| link.index() > 1).collect();
-    if between.is_empty() {
-        return 0.0;
-    }
-    // Virtual velocities: what the unknown does to all links has the power one, and what each reaction does none.
-    let n = general.matrix.len();
-    let effort = general.sources.iter().position(|source| matches!(source, Source::Unknown(_))).expect("an unknown");
-    let matrix = DMatrix::from_fn(n, n, |column, line| general.matrix[line][column].to_f64());
-    let unit = DVector::from_fn(n, |column, _| if column == effort { 1.0 } else { 0.0 });
-    let Some(velocities) = matrix.lu().solve(&unit) else { return 0.0 };
-    let power = |(joint, link): &(JointId, LinkId)| {
+    let between = passing.filter(|(_, link)| link.index() > 1);
+    let power = |(joint, link): (JointId, LinkId)| {
         let first = 3 * (link.index() - 1);
-        let columns = (0..n).filter(|c| matches!(general.sources[*c], Source::Joint(own, _) if own == *joint));
+        let columns =
+            (0..solution.len()).filter(|c| matches!(general.sources[*c], Source::Joint(own, _) if own == joint));
         columns
             .map(|c| {
                 let rate: f64 =
@@ -423,21 +416,31 @@ fn passed_power(linkage: &Linkage, general: &General<Extended>, solution: &[Exte
             })
             .sum::<f64>()
     };
-    between.iter().map(power).sum()
+    between.map(power).sum()
 }
 
-/// The sum of `|F||v|`, at unit rate of the unknown's coordinate.
-fn work_terms(linkage: &Linkage, arguments: &Arguments, kept: &HashMap<NodeId, Extended>) -> f64 {
-    // The velocity of a load's point is the work of unit forces.
-    let velocity = |load: usize| {
-        let part = |unit: [f64; 2]| {
-            let mut arguments = arguments.clone();
-            arguments.loads[load] = unit;
-            let name = format!("{}.work", linkage.model.loads[load].name);
-            from_kept::<Extended>(linkage, "work", kept, &arguments).map_or(0.0, |work| work[&name].to_f64())
+/// The terms of the loads' power, `Σ|F|(|v| + |ω||r|)`: the velocity of a load's point is that of a joint of its link and what turning adds
+/// to it, of which little can be left. The joint is that of each link with the smallest terms.
+fn work_terms(pose: &Coordinates<'_, Extended>, velocities: &DVector<f64>) -> f64 {
+    let model = &pose.linkage.model;
+    let terms = |index: usize, force: &[f64; 2]| {
+        let LoadKind::Force { at, .. } = model.loads[index].kind else { return 0.0 };
+        let [c, s] = [Coordinate::Cos, Coordinate::Sin].map(|which| pose.of(at.link, which).to_f64());
+        let first = 3 * (at.link.index() - 1);
+        let local = |end| {
+            let place = model.local(end);
+            [place.x, place.y].map(|x: Expr<'_>| Extended::from_number(&x.value().expect("constant")).to_f64())
         };
-        part([1.0, 0.0]).hypot(part([0.0, 1.0]))
+        let [x, y] = local(at);
+        let by_way_of = |end| {
+            let [px, py] = local(end);
+            let turning = velocities[first + 2];
+            let (vx, vy) =
+                (velocities[first] - turning * (s * px + c * py), velocities[first + 1] + turning * (c * px - s * py));
+            vx.hypot(vy) + turning.abs() * (x - px).hypot(y - py)
+        };
+        let joints = model.joint_ids().filter_map(|joint| model.joint(joint).end_on(at.link));
+        force[0].hypot(force[1]) * joints.map(by_way_of).fold(f64::INFINITY, f64::min)
     };
-    let loads = arguments.loads.iter().enumerate();
-    loads.map(|(index, force)| force[0].hypot(force[1]) * velocity(index)).sum()
+    pose.arguments.loads.iter().enumerate().map(|(index, force)| terms(index, force)).sum()
 }
