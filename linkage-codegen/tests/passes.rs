@@ -68,7 +68,7 @@ fn passes_keep_the_results() {
     }
 }
 
-/// A function that starts from a pose computes nothing that the pose holds: no trigonometry, and the same bits.
+/// A function that starts from a pose computes nothing that the pose holds: no trigonometry and no root.
 #[test]
 fn a_scene_from_a_pose_goes_on_where_the_pose_ends() {
     for seed in 0..40 {

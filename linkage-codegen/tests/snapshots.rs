@@ -154,7 +154,7 @@ fn poses(linkage: &Linkage) -> Vec<Vec<f64>> {
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
 /// cylinders, slots, welds, gears, inner slides, unknowns elsewhere than at the drives, equations of motion, inverse scenes,
 /// derivatives, fused arithmetic, a group of class IV.
-const OTHERS: [(&str, &str); 21] = [
+const OTHERS: [(&str, &str); 22] = [
     (
         "class_iv",
         "/// A group of class IV: two plates, on the crank and on the ground, joined by two rods.
@@ -343,6 +343,19 @@ const OTHERS: [(&str, &str); 21] = [
         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
         drive theta: A0; assemble B: left(A -> B0); assemble A: right(A0 -> B);
         scene place: position -> (rocker.angle); scene gains: coefficients -> (rocker.angle, B); scene crank_of: inverse(B0); scene angle_of: inverse(B0) -> (theta);",
+    ),
+    (
+        "either_side",
+        "/// A crank-rocker that is assembled on the side that the caller states, and one of its kind that folds.
+        pub mod either_side; units { mm, N }
+        ground { A0: (0, 0), B0: (100mm, 0), C0: (-150mm, 0) } link crank { A0 -> A: 40mm, D: (0, 50mm) }
+        link coupler { A -> B: 120mm, E: (60mm, 30mm) } link rocker { B0 -> B: 80mm }
+        link rod { D -> C: 120mm, G: (40mm, -10mm) } link lever { C0 -> C: 80mm }
+        revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+        revolute D: crank -> rod; revolute C: rod -> lever; revolute C0: ground -> lever;
+        drive theta: A0; assemble B: either(A -> B0); assemble C: either(D -> C0);
+        load F: force(coupler.E); load H: force(rod.G);
+        scene held: equilibrium -> (effort_theta, B); scene torque: virtual_work -> (effort_theta);",
     ),
     (
         "scotch_yoke",

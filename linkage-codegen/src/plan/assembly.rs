@@ -24,16 +24,29 @@ pub struct DyadPivot<'m> {
     /// Its value.
     pub value: Expr<'m>,
     /// With a sine, the cosine of the same angle, if the closure knows it.
-    pub cosine: Option<Expr<'m>>,
+    pub cosine: Option<Cosine<'m>>,
+}
+
+/// The cosine of a transmission angle.
+#[derive(Clone, Debug)]
+pub struct Cosine<'m> {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub what: String,
+    /// Its value.
+    pub value: Expr<'m>,
 }
 
 impl<'m> DyadPivot<'m> {
-    /// The sine of the transmission angle at a dyad's inner joint.
+    /// The sine of the transmission angle at a dyad's inner joint, and its cosine if that is known.
     #[must_use]
-    pub fn sine(model: &Model, inner: JointId, value: Expr<'m>) -> Self {
+    pub fn sine(model: &Model, inner: JointId, value: Expr<'m>, cosine: Option<Expr<'m>>) -> Self {
         let joint = &model.joint(inner).name;
-        let what = format!("sine of the transmission angle at `{joint}`");
-        Self { name: format!("sin_mu_{joint}"), what, meaning: Meaning::Sine, value, cosine: None }
+        let what = format!("of the transmission angle at `{joint}`");
+        let cosine =
+            cosine.map(|value| Cosine { name: format!("cos_mu_{joint}"), what: format!("cosine {what}"), value });
+        Self { name: format!("sin_mu_{joint}"), what: format!("sine {what}"), meaning: Meaning::Sine, value, cosine }
     }
 
     /// The distance of a dyad's outer pins along its slide.

@@ -188,7 +188,8 @@ impl Plan {
         let mut scenes = scenes::outputs(&assembly, posed, [&motion_rules, &force_rules], (system, &links), sink);
         pose.extend(error_bound::add(&assembly, &mut scenes, &pose));
         let read = read_of_poses(&model.graph, &scenes);
-        let cosines: Vec<NodeId> = assembly.dyads.iter().filter_map(|pivot| pivot.cosine).map(Expr::id).collect();
+        let cosines: Vec<NodeId> =
+            assembly.dyads.iter().filter_map(|pivot| Some(pivot.cosine.as_ref()?.value.id())).collect();
         pose.retain(|kept| !cosines.contains(&kept.node) || read.contains(&kept.node));
         let plan = Self {
             pose,
@@ -356,8 +357,8 @@ fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
     for pivot in &assembly.dyads {
         let meaning = format!("{}, zero where it is no larger than its rounding", pivot.what);
         keep(pivot.name.clone(), meaning, pivot.value);
-        if let Some(cosine) = pivot.cosine {
-            keep(pivot.name.replacen("sin", "cos", 1), pivot.what.replacen("sine", "cosine", 1), cosine);
+        if let Some(cosine) = &pivot.cosine {
+            keep(cosine.name.clone(), cosine.what.clone(), cosine.value);
         }
     }
     all

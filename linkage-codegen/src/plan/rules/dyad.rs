@@ -623,7 +623,7 @@ impl<'a> Dyad<'a> {
             .held();
         let [from, to] = slides.map(|slide| assembly.placement.slide_direction(slide));
         assembly.pivots.state(from, to, Some(pivot), None);
-        assembly.dyads.push(DyadPivot::sine(self.model, self.inner, pivot));
+        assembly.dyads.push(DyadPivot::sine(self.model, self.inner, pivot, None));
         Ok((between.x, divisor(pivot, &self.pivot_name(), &self.group_name())))
     }
 

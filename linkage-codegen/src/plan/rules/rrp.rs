@@ -177,7 +177,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     });
     assembly.placement.set_travel(slide, travel);
     assembly.pivots.state(u, e, None, Some(pivot));
-    assembly.dyads.push(DyadPivot::sine(dyad.model, dyad.inner, pivot));
+    assembly.dyads.push(DyadPivot::sine(dyad.model, dyad.inner, pivot, None));
     Ok(())
 }
 

@@ -23,6 +23,10 @@
 //! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`. Where
 //! `m₂ = 0` the second link is held by two forces alone, which go along it: `F = t/sin μ u₂`.
 
+mod by_half_angle;
+
+use by_half_angle::{by_half_angle, half_angle, not_folding};
+
 use super::dyad::{Dyad, Leg, dyad, towards_unit};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
@@ -32,7 +36,6 @@ use crate::model::{Closure, End, Model, Side};
 use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Pivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
-use crate::plan::half_angle::{HalfAngle, first_dyad_on};
 use crate::plan::placement::{Spot, Way};
 use crate::plan::velocities::Motion;
 use crate::topology::Group;
@@ -329,7 +332,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding").held();
     let cosine = closing.of_angle.and_then(|known| known.cosine).map(Expr::held);
     assembly.pivots.state(u1, u2, Some(pivot), cosine);
-    assembly.dyads.push(DyadPivot { cosine, ..DyadPivot::sine(dyad.model, dyad.inner, pivot) });
+    assembly.dyads.push(DyadPivot::sine(dyad.model, dyad.inner, pivot, cosine));
     Ok(())
 }
 
@@ -423,250 +426,6 @@ fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {
         .help(format!("choose one of\nassemble {joint}: left({of});\nassemble {joint}: right({of});")))
 }
 
-fn not_folding(dyad: &Dyad<'_>, closure: &Closure, why: &str) -> Diagnostic {
-    let joint = dyad.joint_name(dyad.inner);
-    Diagnostic::new(closure.smooth_place, format!("the dyad at `{joint}` does not fold: {why}"))
-        .help("without a fold there is nothing to go through smoothly: leave `smooth` out")
-        .note("a dyad folds with its driver where the lengths of its links and of the two arms satisfy r₁ + r₂ = a + b or |r₁ − r₂| = |a − b|, exactly")
-}
-
-/// The half-angle form, if the outer pins hang on the two links of a driven pin, and whether the first of them is on the unmoved one.
-///
-/// It costs nothing for the dyad for which the drive's angle is halved anyway; for another one it is taken where that dyad comes near
-/// its folds.
-fn half_angle<'m>(assembly: &Assembly<'m>, dyad: &Dyad<'m>, [p, q]: [End; 2]) -> Option<(HalfAngle<'m>, bool)> {
-    let model = dyad.model;
-    [(p, q, false), (q, p, true)].into_iter().find_map(|(moved, other, swapped)| {
-        let drive = model.drives.iter().position(|drive| {
-            let joint = model.joint(drive.joint);
-            let group = assembly.topology.motion.iter().find(|g| g.links == [moved.link]);
-            joint.end_on(moved.link).is_some() && group.is_some_and(|g| g.outer == [drive.joint])
-        })?;
-        let arms = HalfAngle::between(assembly, moved, other)?;
-        let first = first_dyad_on(assembly, crate::model::ids::DriveId::new(drive), moved.link) == Some((moved, other));
-        (first || comes_near_a_fold(dyad, &arms)).then_some((arms, swapped))
-    })
-}
-
-/// Whether constant lengths let `p` or `q` fall below a sixteenth of its largest value.
-fn comes_near_a_fold(dyad: &Dyad<'_>, arms: &HalfAngle<'_>) -> bool {
-    let [r1, r2] = dyad.lengths();
-    let (kp, kq) = fold_margins(arms, r1, r2);
-    let span = 4 * (arms.a * arms.b);
-    [kp, kq].into_iter().any(|k| (16 * k - span).sign() != Some(1))
-}
-
-/// `k_p = S² − (a + b)²` and `k_q = (a − b)² − M²`, as products that keep small differences: the least values of p and q.
-fn fold_margins<'m>(arms: &HalfAngle<'m>, r1: Expr<'m>, r2: Expr<'m>) -> (Expr<'m>, Expr<'m>) {
-    let (s, m) = (r1 + r2, r1 - r2);
-    let (sum, difference) = (arms.a + arms.b, arms.b - arms.a);
-    ((s - sum) * (s + sum), (difference - m) * (difference + m))
-}
-
-/// `p` or `q`: how far the outer pins are from one of the distances at which the dyad is stretched or folded.
-#[derive(Clone, Copy)]
-struct Margin<'m> {
-    value: Expr<'m>,
-    /// What it was divided by.
-    by: Expr<'m>,
-    /// What rounding could have made of a margin of zero.
-    rounding: Expr<'m>,
-    /// Whether it is `4ab cos²(ψ/2)` or `4ab sin²(ψ/2)` alone: then the dyad folds with its driver.
-    folds: bool,
-}
-
-impl<'m> Margin<'m> {
-    /// `k + 4ab cos²(ψ/2)` or `k + 4ab sin²(ψ/2)`, divided: a positive constant keeps it from zero, of a negative one the rounding counts.
-    fn by_half(k: Expr<'m>, span: Expr<'m>, square: Expr<'m>, by: Expr<'m>) -> Self {
-        let graph = k.graph();
-        let k = k / by;
-        let rounding = if k.sign() == Some(-1) { graph.epsilons(4) * k.abs() } else { graph.zero() };
-        Self { value: k + (span / by) * square, by, rounding, folds: k.is_zero() }
-    }
-
-    /// Of a distance and a limit, whose rounding counts.
-    fn by_distance(value: Expr<'m>, limit: Expr<'m>) -> Self {
-        let graph = value.graph();
-        Self { value, by: graph.one(), rounding: graph.epsilons(4) * limit.squared(), folds: false }
-    }
-
-    fn named(self, name: String, equation: String) -> Self {
-        Self { value: self.value.named(name, equation), ..self }
-    }
-
-    /// Checked: below its rounding the dyad cannot be assembled. `d2` is `D²`.
-    fn assembled(self, dyad: &Dyad<'m>, far: bool, d2: Expr<'m>) -> Self {
-        let gap = gap(dyad, self.value * self.by, far, d2);
-        Self { value: self.value.require_at_least(self.value, -self.rounding, gap), ..self }
-    }
-}
-
-fn by_half_angle<'m>(
-    dyad: &Dyad<'m>,
-    (closure, side): (&Closure, Sign<'m>),
-    arms: &HalfAngle<'m>,
-    swapped: bool,
-) -> Result<Closing<'m>, Diagnostic> {
-    let graph = arms.a.graph();
-    let joint = dyad.joint_name(dyad.inner);
-    let [r1, r2] = dyad.lengths();
-    let (c, s) = (arms.half.x, arms.half.y);
-    let (kp, kq) = fold_margins(arms, r1, r2);
-    let span = 4 * (arms.a * arms.b);
-    // With arms much longer than the dyad, cos² would bring the rounding of their lengths into p; D² does not.
-    let p_by_half = (4 * kp + (r1 + r2).squared()).sign() == Some(1);
-    // Constants can be divided by 2 r₁ r₂ beforehand: that makes the root of p q the sine of μ.
-    let by_angle = lead_by_arms(r1, r2) && p_by_half && kp.value().is_some();
-    let area = if by_angle { 2 * (r1 * r2) } else { graph.one() };
-    let divided = if by_angle { format!("/{}", dyad.area_name()) } else { String::new() };
-    let spread = ((span / area) * arms.sine_squared())
-        .named(format!("spread_{joint}"), format!("4ab sin²(ψ/2){divided}, a and b the arms of ψ"));
-    let d = arms.separation();
-    let d = if swapped { -d } else { d }.named(&format!("d_{joint}"), &dyad.separation_meaning());
-    // ψ itself is rounded: at half a turn, cos(ψ/2) of the rounded angle is not zero.
-    let theta = graph.symbol(crate::graph::Symbol::Drive(arms.drive)).abs();
-    let fixed = graph.constant(&arms.phase.abs().add(&Number::one()));
-    let angle_rounding = graph.epsilons(2) * (theta + fixed);
-    let angle_rounding = angle_rounding.named(format!("rounding_psi_{joint}"), "what rounding makes of ψ at a fold");
-    let apart = arms.b - arms.a;
-    let d2 = (apart.squared() / area + spread)
-        .named(format!("D2_{joint}"), format!("d·d{divided} = (b − a)²{divided} + spread_{joint}"));
-    let d2 = if apart.sign().is_some_and(|s| s != 0) || (r1 - r2).sign().is_some_and(|s| s != 0) {
-        // Arms or legs of different lengths keep the outer pins apart.
-        d2.known_positive()
-    } else {
-        let failure = Failure::CoincidentPivots { group: dyad.group_name(), joint: joint.into() };
-        d2.require_above(d2, (angle_rounding * (arms.a + arms.b)).squared() / area, failure)
-    };
-    // The factor of a square alone goes to the other margin.
-    let by = |folds: bool, other_folds: bool| match (folds, other_folds) {
-        (true, false) if by_angle => (span, "/4ab".to_owned()),
-        (false, true) if by_angle => (area.squared() / span, format!(" · 4ab/{}²", dyad.area_name())),
-        _ => (area, divided.clone()),
-    };
-    let (sum, difference) = (dyad.sum_name(), dyad.difference_name());
-    let p = if p_by_half {
-        let (by, divided) = by(kp.is_zero(), kq.is_zero());
-        let p = Margin::by_half(kp, span, c.squared(), by);
-        p.named(format!("p_{joint}"), format!("({sum}² − d·d){divided}, by cos²(ψ/2)"))
-    } else {
-        let p = Margin::by_distance((r1 + r2).squared() - d2, r1 + r2);
-        p.named(format!("p_{joint}"), format!("{sum}² − D2_{joint}"))
-    };
-    let q = if kq.value().is_some() {
-        let (by, divided) = by(kq.is_zero(), p.folds);
-        let q = Margin::by_half(kq, span, arms.sine_squared(), by);
-        q.named(format!("q_{joint}"), format!("(d·d − {difference}²){divided}, by sin²(ψ/2)"))
-    } else {
-        let q = Margin::by_distance(d2 - (r1 - r2).squared(), r1 + r2);
-        q.named(format!("q_{joint}"), format!("D2_{joint} − {difference}²"))
-    };
-    let smooth = closure.smooth_at.is_some();
-    if smooth && !p.folds && !q.folds {
-        if [kp, kq].iter().any(|k| k.value().is_none()) {
-            let problem = format!("whether the dyad at `{joint}` folds is not known before its parameters are");
-            return Err(Diagnostic::new(closure.smooth_place, problem)
-                .help("`smooth` is for lengths that are constants: leave it out, or give the lengths here"));
-        }
-        return Err(not_folding(dyad, closure, "its lengths leave a gap"));
-    }
-    let (p, q) = (p.assembled(dyad, true, d2 * area), q.assembled(dyad, false, d2 * area));
-    // Where a margin is a square alone, its root is that of its only term, and in a smooth motion keeps its sign through the fold.
-    let root_of = |margin: Margin<'m>, half: Expr<'m>| match (margin.folds, smooth) {
-        (true, true) => (half, span / margin.by),
-        (true, false) => (half.abs(), span / margin.by),
-        (false, _) => (margin.value.non_negative(), graph.one()),
-    };
-    let ((from_p, p_factor), (from_q, q_factor)) = (root_of(p, c), root_of(q, s));
-    let factor = (p_factor * q_factor).sqrt();
-    // The square root is known last: it is multiplied once.
-    let root = match (p.folds, q.folds) {
-        (true, true) => factor * (from_p * from_q),
-        (true, false) => (factor * from_p) * from_q.sqrt(),
-        (false, true) => (factor * from_q) * from_p.sqrt(),
-        (false, false) => (from_p * from_q).sqrt(),
-    };
-    let sign = side_sign(dyad, (closure, side), arms, [p.folds, q.folds])?;
-    let (k, of_angle) = if by_angle {
-        let of_half = |function: &str| if smooth { format!("{function}(ψ/2)") } else { format!("|{function}(ψ/2)|") };
-        let (cosine, sine) = (of_half("cos"), of_half("sin"));
-        let equation = match (p.folds, q.folds) {
-            (true, true) => format!("4ab{divided} {cosine} {sine}"),
-            (true, false) => format!("{cosine} √(q_{joint})"),
-            (false, true) => format!("{sine} √(p_{joint})"),
-            (false, false) => format!("√(p_{joint} q_{joint})"),
-        };
-        let sine = name_sine(dyad, sign.of(root), &format!("{}{equation}", sign.text()));
-        (sine, Some(of_angle(dyad, apart, span, spread)))
-    } else {
-        (sign.of(root.named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"))), None)
-    };
-    let significant = [(p, c), (q, s)].map(|(margin, half)| {
-        if margin.folds {
-            (half.abs().named(format!("fold_{joint}"), "distance from the fold"), angle_rounding)
-        } else {
-            (margin.value, margin.rounding)
-        }
-    });
-    Ok(Closing { d, d2, sums: None, k, of_angle, sign, significant: significant.to_vec() })
-}
-
-/// `(D² + r² − r'²)/(2 r r')` of the shorter leg, and cos μ by the law of cosines, both from `spread = 4ab sin²(ψ/2)/(2 r r')`.
-///
-/// Where the driver goes all round, the spread is at most two. The more it may be, the more its rounding tells in the cosine, which then is
-/// that between the directions.
-fn of_angle<'m>(dyad: &Dyad<'m>, apart: Expr<'m>, span: Expr<'m>, spread: Expr<'m>) -> OfAngle<'m> {
-    let lengths = dyad.lengths();
-    let [short, long] = by_length(lengths);
-    let (r, other) = (lengths[short], lengths[long]);
-    let area = 2 * (r * other);
-    let (joint, area_name) = (dyad.joint_name(dyad.inner), dyad.area_name());
-    let [mine, its] = [short, long].map(|index| dyad.length_name(&dyad.legs[index]));
-    let sum = (apart.squared() + (r - other) * (r + other)) / area + spread;
-    let sum = sum.named(
-        format!("sum_{}", dyad.link_name(&dyad.legs[short])),
-        format!("D2_{joint} + ({mine}² − {its}²)/{area_name}"),
-    );
-    let cosine = (r.squared() + other.squared() - apart.squared()) / area - spread;
-    let cosine = cosine
-        .named(format!("cos_mu_{joint}"), format!("cos μ at {joint} = ({mine}² + {its}²)/{area_name} − D2_{joint}"));
-    OfAngle { sum, cosine: ((2 * area - span).sign() != Some(-1)).then_some(cosine) }
-}
-
-/// The failure to assemble, with the gap: how much too far apart (`p < 0`) or too close together (`q < 0`) the outer pins are.
-fn gap<'m>(dyad: &Dyad<'m>, value: Expr<'m>, far: bool, d2: Expr<'m>) -> Failure {
-    let [r1, r2] = dyad.lengths();
-    let limit = if far { r1 + r2 } else { (r1 - r2).abs() };
-    let gap = -value / (d2.sqrt() + limit);
-    Failure::CannotAssemble { group: dyad.group_name(), joint: dyad.joint_name(dyad.inner).into(), gap: gap.id() }
-}
-
-/// The sign of K: of the side, and in a smooth motion of the fold factor at the stated angle.
-fn side_sign<'m>(
-    dyad: &Dyad<'_>,
-    (closure, side): (&Closure, Sign<'m>),
-    arms: &HalfAngle<'_>,
-    folds: [bool; 2],
-) -> Result<Sign<'m>, Diagnostic> {
-    let Some(at) = closure.smooth_at else { return Ok(side) };
-    let Some(at) = dyad.model.graph.constant_value(at) else {
-        return Err(Diagnostic::new(
-            closure.smooth_place,
-            "the angle at which a smooth motion starts must be a constant",
-        ));
-    };
-    let (cosine, sine) = arms.half_at(&at);
-    let sign = |part: &Number, counts: bool| if counts { i64::from(part.signum()) } else { 1 };
-    match sign(&cosine, folds[0]) * sign(&sine, folds[1]) {
-        0 => Err(Diagnostic::new(
-            closure.smooth_place,
-            format!("at this angle the dyad is folded: `{}` is on neither side", dyad.joint_name(dyad.inner)),
-        )
-        .help("state the side at an angle away from the folds")),
-        sign => Ok(if sign > 0 { side } else { side.opposite() }),
-    }
-}
-
 /// The general form: from the vector between the outer pins.
 fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m> {
     let joint = dyad.joint_name(dyad.inner);
@@ -709,6 +468,14 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
     let significant = vec![(p, p_rounding), (q, q_rounding)];
     Closing { d, d2, sums: None, k: sign.of(root), of_angle: None, sign, significant }
+}
+
+/// The failure to assemble, with the gap: how much too far apart (`p < 0`) or too close together (`q < 0`) the outer pins are.
+fn gap<'m>(dyad: &Dyad<'m>, value: Expr<'m>, far: bool, d2: Expr<'m>) -> Failure {
+    let [r1, r2] = dyad.lengths();
+    let limit = if far { r1 + r2 } else { (r1 - r2).abs() };
+    let gap = -value / (d2.sqrt() + limit);
+    Failure::CannotAssemble { group: dyad.group_name(), joint: dyad.joint_name(dyad.inner).into(), gap: gap.id() }
 }
 
 /// A leg whose length a drive gives, between pins that a constant distance separates; the other leg is constant.

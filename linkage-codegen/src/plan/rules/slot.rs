@@ -327,7 +327,7 @@ fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<
     assembly.placement.set_travel(slot, travel);
     let u = assembly.placement.turned(link, axis);
     assembly.pivots.state(u, e, None, Some(pivot));
-    assembly.dyads.push(DyadPivot::sine(model, slot, pivot));
+    assembly.dyads.push(DyadPivot::sine(model, slot, pivot, None));
     assembly.placement.set_arm(slot, held, r * pivot);
     Ok(())
 }
