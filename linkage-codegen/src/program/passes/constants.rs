@@ -1,5 +1,6 @@
-//! Constant factors are brought together: `(k₁ x)(k₂ y) = (k₁k₂)(x y)` and `k (a x ± b y) = (ka) x ± (kb) y`, where nothing else
-//! reads the inner values. The constants are multiplied exactly and rounded once, and go to a reciprocal where there is one.
+//! Constant factors are brought together: `(k₁ x)(k₂ y) = (k₁k₂)(x y)`, `k (a x ± b y) = (ka) x ± (kb) y`, and `k ((a x)/y) = ((ka) x)/y`,
+//! where nothing else reads the inner values. The constants are multiplied exactly and rounded once, and go to a reciprocal where there
+//! is one.
 
 use std::collections::BTreeMap;
 
@@ -100,21 +101,40 @@ impl Merging<'_> {
             if let Some((inner, rest)) = self.scaled(x) {
                 return self.constant_times(value, &k.mul(&inner), rest);
             }
-            let terms = match self.program.op(x).cloned() {
-                Some(Op::Add(a, b)) => Some((a, b, false)),
-                Some(Op::Sub(a, b)) => Some((a, b, true)),
-                _ => None,
+            let merged = match self.program.op(x).cloned() {
+                // The place of the quotient is taken by what is divided: both are known then.
+                Some(Op::Div(of, by)) if self.is_inner(of) => self.multiple(x, k, of).map(|multiple| {
+                    self.program.values[x.index()].definition = Definition::Computed(multiple);
+                    Op::Div(x, by)
+                }),
+                _ => self.multiple_of_terms(value, k, x),
             };
-            if let Some((a, b, minus)) = terms
-                && let (Some(a), Some(b)) = (self.rescaled(value, k, a), self.rescaled(value, k, b))
-            {
-                let op = if minus { Op::Sub(a, b) } else { Op::Add(a, b) };
+            if let Some(op) = merged {
                 self.program.values[value.index()].definition = Definition::Computed(op);
                 return;
             }
         }
         let k = self.number(value, k);
         self.program.values[value.index()].definition = Definition::Computed(Op::Mul(k, x));
+    }
+
+    /// `(ka) x`, if x is `a x`, or the same of its terms.
+    fn multiple(&mut self, before: ValueId, k: &Number, x: ValueId) -> Option<Op<ValueId>> {
+        match self.scaled(x) {
+            Some((inner, rest)) => Some(Op::Mul(self.number(before, &k.mul(&inner)), rest)),
+            None => self.multiple_of_terms(before, k, x),
+        }
+    }
+
+    /// `(ka) x ± (kb) y`, if x is `a x ± b y`.
+    fn multiple_of_terms(&mut self, before: ValueId, k: &Number, x: ValueId) -> Option<Op<ValueId>> {
+        let (a, b, minus) = match self.program.op(x).cloned()? {
+            Op::Add(a, b) => (a, b, false),
+            Op::Sub(a, b) => (a, b, true),
+            _ => return None,
+        };
+        let (a, b) = (self.rescaled(before, k, a)?, self.rescaled(before, k, b)?);
+        Some(if minus { Op::Sub(a, b) } else { Op::Add(a, b) })
     }
 
     /// A constant, or a constant multiple that nothing else reads, times `k`.

@@ -1,4 +1,4 @@
-//! A change of sign that an operand can take on costs nothing: `−(a − b) = b − a`, `−(k x) = (−k) x`, `a − (−k) = a + k`.
+//! A change of sign that an operand can take on costs nothing: `−(a − b) = b − a`, `−(k x) = (−k) x`, `−(k x / y) = (−k) x / y`, `a − (−k) = a + k`.
 //!
 //! That of a sum goes to one of its terms, `−(a + b) = −a − b`: nothing then waits for it, and the formula ends as that of the other
 //! component of a vector does, so that a compiler can work at both at once.
@@ -17,6 +17,13 @@ pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
         {
             let op = match program.op(inner).cloned() {
                 Some(Op::Add(a, b)) => Some(negative_sum(&mut program, graph, [a, b], (&uses, &depths), &mut steps)),
+                // The place of the quotient is taken by what is divided.
+                Some(Op::Div(a, b)) if program.is_inner(a, &uses) => {
+                    negative(&mut program, graph, a, &uses).map(|negative| {
+                        program.values[inner.index()].definition = Definition::Computed(negative);
+                        Op::Div(inner, b)
+                    })
+                }
                 _ => negative(&mut program, graph, inner, &uses),
             };
             if let Some(op) = op {
