@@ -324,7 +324,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
             }),
             determinant: -(r1 * r2 * sine),
             pivot: Some(Pivot { value: sine, again: u1.cross(u2), slopes: Some([-u1.dot(u2), u1.dot(u2)]) }),
-            apart: closing.sums.is_some(),
+            apart: closing.sums.is_some() || closing.of_angle.is_some(),
         });
     }
     let pivot = closing.significant.iter().fold(sine, |pivot, (value, limit)| pivot.where_above(*value, *limit));
