@@ -154,7 +154,7 @@ fn poses(linkage: &Linkage) -> Vec<Vec<f64>> {
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
 /// cylinders, slots, welds, gears, inner slides, unknowns elsewhere than at the drives, equations of motion, inverse scenes,
 /// derivatives, fused arithmetic, a group of class IV.
-const OTHERS: [(&str, &str); 22] = [
+const OTHERS: [(&str, &str); 23] = [
     (
         "class_iv",
         "/// A group of class IV: two plates, on the crank and on the ground, joined by two rods.
@@ -343,6 +343,15 @@ const OTHERS: [(&str, &str); 22] = [
         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
         drive theta: A0; assemble B: left(A -> B0); assemble A: right(A0 -> B);
         scene place: position -> (rocker.angle); scene gains: coefficients -> (rocker.angle, B); scene crank_of: inverse(B0); scene angle_of: inverse(B0) -> (theta);",
+    ),
+    (
+        "bounded_four_bar",
+        "/// A drag link with a bound of the rounding error of its torque.
+        pub mod bounded_four_bar; units { mm, N }
+        ground { A0: (0, 0), B0: (40mm, 0) } link crank { A0 -> A: 80mm } link coupler { A -> B: 100mm } link rocker { B0 -> B: 90mm, D: (60mm, 20mm) }
+        revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+        drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0);
+        load F: force(rocker.D); scene held: equilibrium -> (T, error_bound);",
     ),
     (
         "either_side",

@@ -57,7 +57,7 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept])
     }
     for closed in &assembly.closed {
         match closed {
-            Closed::Loop(closed) => state(&mut rounding, closed, assembly.closed.len() > 1),
+            Closed::Loop(closed) => state(&mut rounding, closed, kept, assembly.closed.len() > 1),
             Closed::Together(placed) => state_together(&mut rounding, placed),
         }
     }
@@ -104,10 +104,10 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept])
 }
 
 /// The errors of a loop's unknowns.
-fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: bool) {
+fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, kept: &[Kept], leads_on: bool) {
     let graph = closed.determinant.graph();
     let exact: Vec<Expr<'g>> = closed.found.iter().flat_map(Found::values).collect();
-    let ClosedLoop { residual, .. } = closed;
+    let ClosedLoop { residual, name, .. } = closed;
     // Where slides along the axes make the unknowns parts of the way itself, nothing is left over by form, and that says nothing of them:
     // their own operations do.
     if residual.x.is_zero() || residual.y.is_zero() {
@@ -119,7 +119,10 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
         Found::Length { .. } => graph.zero(),
     });
     // Of what has no source: by how much the parts of the residual, and the sizes of directions, may change a product with the residual.
-    let (own_x, own_y) = (residual.x.abs() + x.rest, residual.y.abs() + y.rest);
+    let [own_x, own_y] = [("x", residual.x, &x), ("y", residual.y, &y)].map(|(axis, residual, found)| {
+        let what = format!("what the loop at {name} leaves open along {axis}, and the rounding of that");
+        (residual.abs() + found.rest).named(format!("open_{name}_{axis}"), what)
+    });
     let own = |parts: Vector<'g>, arms: &dyn Fn(Vector<'g>) -> Expr<'g>| {
         closed.found.iter().zip(stretch).fold(parts.x.abs() * own_x + parts.y.abs() * own_y, |sum, (found, stretch)| {
             match found {
@@ -136,11 +139,18 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
     });
     // The rest as a source: the first unknown, which the second follows, but for what is along its column.
     let square = second.squared();
+    let [one_name, other_name] = closed.found.each_ref().map(|found| name_of(found, kept));
     let follows = -(first.dot(second) / square);
+    let follows = follows
+        .named(format!("follows_{name}"), format!("how {other_name} follows {one_name} where the loop stays closed"));
     let decisive = own(second.perp(), &|arm| arm.cross(second)) / size;
+    let decisive = decisive.named(format!("off_{name}"), format!("bound of the error of {one_name} by what is open"));
     let beside = own(second, &|arm| arm.dot(second)) / square;
+    let beside = beside.named(format!("beside_{name}"), format!("of {other_name} what does not follow {one_name}"));
     let totals = [one.total() + decisive, other.total() + follows.abs() * decisive + beside];
     let change = beyond_first_order(closed, totals);
+    let change = change
+        .named(format!("beyond_{name}"), "what is not linear in these errors; infinite where that is not bounded");
     let along = second.x.abs() + second.y.abs();
     let (decisive, beside) = (decisive + change * along / size, beside + change * along / square);
     // Near a dead centre the pivot, by its own operations, may tell more than the residual does.
@@ -154,7 +164,9 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
             let curved = 2 * (totals[0] + totals[1]).squared();
             let sum = unexpected + rounded + stretched + slopes[1].abs() * beside + curved;
             by_itself = Some(own);
-            lesser(decisive, sum / (slopes[0] + slopes[1] * follows).abs())
+            let by_pivot = sum / (slopes[0] + slopes[1] * follows).abs();
+            let what = format!("bound of the error of {one_name} by that of the pivot");
+            lesser(decisive, by_pivot.named(format!("off_{name}_by_pivot"), what))
         }
         _ => decisive,
     };
@@ -185,6 +197,21 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, leads_on: boo
         let found = rounding.deviation(again.id()).and((again - value).abs());
         let deviation = by_itself.map_or_else(|| found.clone(), |own| lesser_deviation(&found, &own));
         rounding.state(value, deviation);
+    }
+}
+
+/// What a loop's unknown is called in the text of its bounds: as a pose keeps it.
+fn name_of(found: &Found<'_>, kept: &[Kept]) -> String {
+    let of = |value: Expr<'_>| {
+        let node = value.held().id();
+        kept.iter().find(|kept| kept.node == node).map(|kept| kept.name.clone())
+    };
+    match found {
+        Found::Direction { direction, .. } => of(direction.x).map_or_else(
+            || "the direction".to_owned(),
+            |name| format!("the angle of {}", name.strip_suffix("_cos").unwrap_or(&name)),
+        ),
+        Found::Length { length, .. } => of(*length).unwrap_or_else(|| "the length".to_owned()),
     }
 }
 

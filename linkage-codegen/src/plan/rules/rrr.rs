@@ -238,6 +238,8 @@ struct OfAngle<'m> {
     sum: Expr<'m>,
     /// cos μ, where by these lengths it is as good as that of the directions.
     cosine: Option<Expr<'m>>,
+    /// Whether the inner pin is always much farther from the outer pins than these are from each other.
+    far: bool,
 }
 
 impl<'m> Closing<'m> {
@@ -324,7 +326,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
             }),
             determinant: -(r1 * r2 * sine),
             pivot: Some(Pivot { value: sine, again: u1.cross(u2), slopes: Some([-u1.dot(u2), u1.dot(u2)]) }),
-            apart: closing.sums.is_some() || closing.of_angle.is_some(),
+            apart: closing.sums.is_some() || closing.of_angle.is_some_and(|known| known.far),
         });
     }
     let pivot = closing.significant.iter().fold(sine, |pivot, (value, limit)| pivot.where_above(*value, *limit));

@@ -234,7 +234,8 @@ impl<'a, 'm> Opening<'a, 'm> {
             format!("cos_mu_{joint}"),
             format!("cos μ at {joint} = ({mine}² + {its}²)/{area_name} − D2_{joint}"),
         );
-        OfAngle { sum, cosine: ((2 * area - span).sign() != Some(-1)).then_some(cosine) }
+        let far = (r - 8 * (arms.a + arms.b)).sign() == Some(1);
+        OfAngle { sum, cosine: ((2 * area - span).sign() != Some(-1)).then_some(cosine), far }
     }
 
     fn does_not_fold(&self, closure: &Closure) -> Diagnostic {
