@@ -13,7 +13,7 @@ use linkage_codegen::model::{JointKind, LoadKind, UnknownKind};
 use linkage_codegen::program::Fault;
 use nalgebra::{DMatrix, DVector};
 
-use super::general::{Coordinates, General, equations_at, residuals_at};
+use super::general::{Coordinates, General, equations_at, residuals_at, solve_extended};
 use super::numbers::Extended;
 use super::{Arguments, Number, from_pose, pose};
 
@@ -373,12 +373,16 @@ fn free_bodies(linkage: &Linkage, bodies: &[FreeBody]) -> f64 {
 
 /// Virtual velocities at unit rate of the unknown's coordinate: for each link that of its frame's origin and its rate of turning, so that
 /// what the unknown does has the power one, and what each reaction does none.
+///
+/// In many digits: near a singular pose doubles would not tell how large they are.
 fn virtual_velocities(general: &General<Extended>) -> Option<DVector<f64>> {
-    let n = general.matrix.len();
+    let lines = 0..general.matrix.len();
+    let column = |column: usize| lines.clone().map(|line| general.matrix[line][column].clone()).collect();
+    let transposed: Vec<Vec<Extended>> = lines.clone().map(column).collect();
     let effort = general.sources.iter().position(|source| matches!(source, Source::Unknown(_))).expect("an unknown");
-    let matrix = DMatrix::from_fn(n, n, |column, line| general.matrix[line][column].to_f64());
-    let unit = DVector::from_fn(n, |column, _| if column == effort { 1.0 } else { 0.0 });
-    matrix.lu().solve(&unit)
+    let unit = lines.map(|line| Extended::exactly(f64::from(u8::from(line == effort)))).collect::<Vec<_>>();
+    let velocities = solve_extended(&transposed, &unit)?;
+    Some(DVector::from_iterator(velocities.len(), velocities.iter().map(Extended::to_f64)))
 }
 
 /// The power that passes at joints of which no term is counted already, `Σ|F||v|`: between groups at those that are on neither the ground
