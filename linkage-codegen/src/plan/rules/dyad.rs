@@ -600,6 +600,11 @@ impl<'a> Dyad<'a> {
         format!("sin_mu_{}", self.joint_name(self.inner))
     }
 
+    /// The name of the cosine of the same angle.
+    pub(super) fn cosine_name(&self) -> String {
+        format!("cos_mu_{}", self.joint_name(self.inner))
+    }
+
     /// States the sine between two slides; at a pose it divides what places the dyad. Slides that are always parallel guide nothing.
     pub(super) fn state_slides(
         &self,

@@ -196,9 +196,8 @@ fn inner_force<'m>(balance: &Balance<'m, '_>, dyad: &Dyad<'m>, [across, needed]:
         return Framed { components: Vector::new(along, zero), axes: u2 };
     }
     let known = balance.pivots.known_cosine(u1, u2);
-    let cosine = known
-        .unwrap_or_else(|| u1.dot(u2))
-        .named(format!("cos_mu_{inner}"), format!("cos μ between {link} and {other}"));
+    let cosine =
+        known.unwrap_or_else(|| u1.dot(u2)).named(dyad.cosine_name(), format!("cos μ between {link} and {other}"));
     let part = across * cosine - needed;
     // Found from the driver's angle with the cosine, the sine is there long before the loads' moments: so is its reciprocal.
     let along = if known.is_some() && !across.is_zero() && !needed.is_zero() {

@@ -24,7 +24,7 @@ pub const PASSES: [(&str, Pass); 9] = [
     ("unused", unused::remove),
     ("signs", signs::absorb),
     ("unused", unused::remove),
-    ("reciprocals", constants::multiply_reciprocals),
+    ("constants at reciprocals", constants::multiply_reciprocals),
     ("finite", finite::check_once),
     ("fused", fused::contract),
 ];

@@ -1,4 +1,5 @@
-//! A change of sign that an operand can take on costs nothing: `−(a − b) = b − a`, `−(k x) = (−k) x`, `−(k x / y) = (−k) x / y`, `a − (−k) = a + k`.
+//! A change of sign that an operand can take on costs nothing: `−(a − b) = b − a`, `−(k x) = (−k) x`, `−(k x / y) = (−k) x / y`,
+//! `a − (−k) = a + k`.
 //!
 //! That of a sum goes to one of its terms, `−(a + b) = −a − b`: nothing then waits for it, and the formula ends as that of the other
 //! component of a vector does, so that a compiler can work at both at once.

@@ -217,23 +217,20 @@ impl<'a, 'm> Opening<'a, 'm> {
     /// Where the driver goes all round, the spread is at most two. The more it may be, the more its rounding tells in the cosine, which then is
     /// that between the directions.
     fn of_angle(&self) -> OfAngle<'m> {
-        let Self { dyad, arms, span, spread, .. } = *self;
+        let Self { dyad, arms, span, area, spread, ref divided, .. } = *self;
         let (lengths, apart) = (dyad.lengths(), arms.b - arms.a);
         let [short, long] = by_length(lengths);
         let (r, other) = (lengths[short], lengths[long]);
-        let area = 2 * (r * other);
-        let (joint, area_name) = (dyad.joint_name(dyad.inner), dyad.area_name());
+        let joint = dyad.joint_name(dyad.inner);
         let [mine, its] = [short, long].map(|index| dyad.length_name(&dyad.legs[index]));
         let sum = (apart.squared() + (r - other) * (r + other)) / area + spread;
         let sum = sum.named(
             format!("sum_{}", dyad.link_name(&dyad.legs[short])),
-            format!("D2_{joint} + ({mine}² − {its}²)/{area_name}"),
+            format!("D2_{joint} + ({mine}² − {its}²){divided}"),
         );
         let cosine = (r.squared() + other.squared() - apart.squared()) / area - spread;
-        let cosine = cosine.named(
-            format!("cos_mu_{joint}"),
-            format!("cos μ at {joint} = ({mine}² + {its}²)/{area_name} − D2_{joint}"),
-        );
+        let cosine =
+            cosine.named(dyad.cosine_name(), format!("cos μ at {joint} = ({mine}² + {its}²){divided} − D2_{joint}"));
         let far = (r - 8 * (arms.a + arms.b)).sign() == Some(1);
         OfAngle { sum, cosine: ((2 * area - span).sign() != Some(-1)).then_some(cosine), far }
     }
