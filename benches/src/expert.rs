@@ -157,22 +157,20 @@ pub(crate) mod four_bar {
     four_bar!(f64);
 }
 
-/// For loads of the linkage in fused arithmetic.
-#[allow(dead_code, reason = "the formulas of the first, of which sweeps need two")]
-pub(crate) mod four_bar_fused {
-    use super::{Reactions, Vector2};
-    use crate::linkages::four_bar_fused::Loads;
-
-    four_bar!(f64);
-}
-
-/// In single precision.
+/// For the loads of linkages with sweeps.
 #[allow(dead_code, clippy::excessive_precision, reason = "the formulas of the other, of which sweeps need two")]
-pub(crate) mod four_bar_single {
-    use super::{Reactions, Vector2};
-    use crate::linkages::four_bar_single::Loads;
+pub(crate) mod swept {
+    macro_rules! four_bars {
+        ($($name:ident $scalar:ident)+) => {$(
+            pub(crate) mod $name {
+                use crate::expert::{Reactions, Vector2};
+                use crate::linkages::swept::$name::Loads;
 
-    four_bar!(f32);
+                four_bar!($scalar);
+            }
+        )+};
+    }
+    four_bars!(four_bar f64 four_bar_single f32 four_bar_fused f64);
 }
 
 /// The six-bar.

@@ -4,7 +4,7 @@ use linkage_runtime::linkage;
 
 /// METU Example 6.3, both loads given at run time, in a scalar.
 macro_rules! four_bar {
-    ($name:ident, $scalar:ident, $arithmetic:ident) => {
+    ($name:ident, $scalar:ident, $arithmetic:ident; $($sweeps:tt)*) => {
         linkage! {
             /// METU Example 6.3, both loads given at run time.
             pub(crate) mod $name;
@@ -32,15 +32,23 @@ macro_rules! four_bar {
             scene statics: equilibrium;
             scene parts:   superposition;
             scene torque:  virtual_work -> (T12);
-            scene torques: sweep(torque);
-            scene cycle:   sweep(statics);
+            $($sweeps)*
         }
     };
 }
 
-four_bar!(four_bar, f64, plain);
-four_bar!(four_bar_single, f32, plain);
-four_bar!(four_bar_fused, f64, fused);
+four_bar!(four_bar, f64, plain;);
+four_bar!(four_bar_single, f32, plain;);
+four_bar!(four_bar_fused, f64, fused;);
+
+/// The same with sweeps. By itself, so that each of the functions above is called in one place, of which it becomes part, as in most programs.
+pub(crate) mod swept {
+    use linkage_runtime::linkage;
+
+    four_bar!(four_bar, f64, plain; scene torques: sweep(torque); scene cycle: sweep(statics););
+    four_bar!(four_bar_single, f32, plain; scene torques: sweep(torque); scene cycle: sweep(statics););
+    four_bar!(four_bar_fused, f64, fused; scene torques: sweep(torque); scene cycle: sweep(statics););
+}
 
 /// The six-bar.
 macro_rules! six_bar {

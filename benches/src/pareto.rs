@@ -10,10 +10,12 @@ use nalgebra::SVector;
 use crate::exact::{Big, Exact, difference, size, vector};
 use crate::expert::four_bar as expert;
 use crate::harness::{Competitor, Mode, measure};
-use crate::items::four_bar::{equations, exact, exact_parts, put};
+use crate::items::four_bar::{
+    equations, exact, exact_parts, put, statics_at_fused, statics_at_generated, torque_at_fused, torque_at_generated,
+};
 use crate::items::{Case, Errors, Item, Random, Reactions, Results, Start, dense};
 use crate::linkages::four_bar::{self, Loads, Pose};
-use crate::linkages::{four_bar_fused, four_bar_single};
+use crate::linkages::four_bar_single;
 use crate::picture::{self, Family, Mark, Panel};
 use crate::{newton, textbook};
 
@@ -229,20 +231,8 @@ fn all(poses: &Posed<Truth>) -> Methods<'_> {
         true
     });
     methods.add(CAREFUL, same, |case: &At, out: &mut All| answer(expert::careful_pose(case.start), case, out));
-    methods.add((Family::Generated, "generated, equilibrium"), same, |case: &At, out: &mut All| {
-        match four_bar::statics_at(case.start, &case.loads) {
-            Ok(all) => *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] },
-            Err(_) => out.torque = f64::NAN,
-        }
-        true
-    });
-    methods.add((Family::Generated, "generated, equilibrium, fused"), fused, |case, out: &mut All| {
-        match four_bar_fused::statics_at(case.start, &case.loads) {
-            Ok(all) => *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] },
-            Err(_) => out.torque = f64::NAN,
-        }
-        true
-    });
+    methods.add((Family::Generated, "generated, equilibrium"), same, statics_at_generated);
+    methods.add((Family::Generated, "generated, equilibrium, fused"), same, statics_at_fused);
     methods.add((Family::Generated, "generated, equilibrium, f32"), single, |case, out: &mut Reactions<4, f32>| {
         match four_bar_single::statics_at(case.start, &case.loads) {
             Ok(all) => *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] },
@@ -286,14 +276,8 @@ fn torque(poses: &Posed<Truth>) -> Methods<'_> {
         *out = expert::careful_pose(case.start).map_or(f64::NAN, |pose| pose.torque_of(&case.loads));
         true
     });
-    methods.add((Family::Generated, "generated, virtual work"), same, |case: &At, out: &mut f64| {
-        *out = four_bar::torque_at(case.start, &case.loads).map_or(f64::NAN, |torque| torque.T12);
-        true
-    });
-    methods.add((Family::Generated, "generated, virtual work, fused"), fused, |case, out: &mut f64| {
-        *out = four_bar_fused::torque_at(case.start, &case.loads).map_or(f64::NAN, |torque| torque.T12);
-        true
-    });
+    methods.add((Family::Generated, "generated, virtual work"), same, torque_at_generated);
+    methods.add((Family::Generated, "generated, virtual work, fused"), same, torque_at_fused);
     methods.add((Family::Generated, "generated, virtual work, f32"), single, |case, out: &mut f32| {
         *out = four_bar_single::torque_at(case.start, &case.loads).map_or(f32::NAN, |torque| torque.T12);
         true
@@ -325,11 +309,6 @@ fn torque(poses: &Posed<Truth>) -> Methods<'_> {
 
 fn same(case: &At) -> At {
     *case
-}
-
-fn fused(case: &At) -> Case<f64, four_bar_fused::Loads> {
-    let Loads { F13, F14 } = case.loads;
-    Case { start: case.start, loads: four_bar_fused::Loads { F13, F14 } }
 }
 
 #[allow(clippy::cast_possible_truncation, reason = "they are numbers of single precision")]

@@ -84,9 +84,9 @@ macro_rules! sweeps {
             use linkage_runtime::{Series, Vector2};
 
             use super::{black_box, row};
-            use crate::expert::$linkage as expert;
+            use crate::expert::swept::$linkage as expert;
             use crate::items::Reactions;
-            use crate::linkages::$linkage::{self, Cycle, CycleInputs, Loads, Torques, TorquesInputs};
+            use crate::linkages::swept::$linkage::{self, Cycle, CycleInputs, Loads, Torques, TorquesInputs};
 
             /// What is given: the driver's angles, and a load on coupler and rocker.
             struct Given {

@@ -48,6 +48,7 @@ extern crate std;
 mod closure;
 pub mod cycle;
 mod error;
+mod finite;
 mod lanes;
 pub mod limits;
 mod linear;
@@ -80,6 +81,7 @@ pub mod __private {
 
     pub mod f32 {
         pub use crate::math::f32::*;
+        crate::finite::finite!(f32, four_f32);
         crate::lanes::lanes!(f32);
         crate::limits::limits!(f32);
         crate::linear::linear!(f32);
@@ -88,6 +90,7 @@ pub mod __private {
     }
     pub mod f64 {
         pub use crate::math::f64::*;
+        crate::finite::finite!(f64, four_f64);
         crate::lanes::lanes!(f64);
         crate::limits::limits!(f64);
         crate::linear::linear!(f64);

@@ -161,7 +161,7 @@ fn statics_at_careful(case: &At, out: &mut All) -> bool {
     out.is_finite()
 }
 
-fn statics_at_generated(case: &At, out: &mut All) -> bool {
+pub(crate) fn statics_at_generated(case: &At, out: &mut All) -> bool {
     match four_bar::statics_at(case.start, &case.loads) {
         Ok(all) => {
             *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
@@ -176,7 +176,7 @@ fn fused_loads(loads: &Loads) -> four_bar_fused::Loads {
     four_bar_fused::Loads { F13: loads.F13, F14: loads.F14 }
 }
 
-fn statics_at_fused(case: &At, out: &mut All) -> bool {
+pub(crate) fn statics_at_fused(case: &At, out: &mut All) -> bool {
     match four_bar_fused::statics_at(case.start, &fused_loads(&case.loads)) {
         Ok(all) => {
             *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
@@ -186,7 +186,7 @@ fn statics_at_fused(case: &At, out: &mut All) -> bool {
     }
 }
 
-fn torque_at_fused(case: &At, out: &mut f64) -> bool {
+pub(crate) fn torque_at_fused(case: &At, out: &mut f64) -> bool {
     match four_bar_fused::torque_at(case.start, &fused_loads(&case.loads)) {
         Ok(torque) => {
             *out = torque.T12;
@@ -231,7 +231,7 @@ fn torque_at_careful(case: &At, out: &mut f64) -> bool {
     out.is_finite()
 }
 
-fn torque_at_generated(case: &At, out: &mut f64) -> bool {
+pub(crate) fn torque_at_generated(case: &At, out: &mut f64) -> bool {
     match four_bar::torque_at(case.start, &case.loads) {
         Ok(torque) => {
             *out = torque.T12;

@@ -4,6 +4,7 @@
 mod constants;
 mod finite;
 mod fused;
+mod late;
 mod pivots;
 mod reciprocals;
 mod signs;
@@ -17,7 +18,7 @@ use crate::graph::{Graph, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 9] = [
+pub const PASSES: [(&str, Pass); 10] = [
     ("pivots", pivots::compare_directly),
     ("reciprocals", reciprocals::share),
     ("constants", constants::merge),
@@ -25,6 +26,7 @@ pub const PASSES: [(&str, Pass); 9] = [
     ("signs", signs::absorb),
     ("unused", unused::remove),
     ("constants at reciprocals", constants::multiply_reciprocals),
+    ("late", late::multiply_last),
     ("finite", finite::check_once),
     ("fused", fused::contract),
 ];

@@ -1,0 +1,232 @@
+//! What is known last is multiplied last, so that little has to wait for it: `(f a) x ± (f b) y = f (a x ± b y)` for an `f` that is known
+//! after all the others, as what brings a vector to unit size is; then `k (f x) = f (k x)`.
+//!
+//! And nothing that is known last waits for a constant: `k (a x ± b y) = (k a) x ± (k b) y`, where `x` and `y` are known last and a multiple
+//! of `a` or `b` by `k` is there already.
+
+use std::collections::BTreeMap;
+
+use crate::graph::number::Number;
+use crate::graph::{Graph, Kernel, Op};
+use crate::program::{Definition, Program, Step, ValueId};
+
+pub(super) fn multiply_last(program: Program, graph: &Graph) -> Program {
+    let (uses, ready) = (program.uses(), vec![0; program.values.len()]);
+    let mut ordering = Ordering { graph, program, uses, ready, multiples: BTreeMap::new(), steps: Vec::new() };
+    for step in core::mem::take(&mut ordering.program.steps) {
+        if let Step::Let(value) = step {
+            ordering.improve(value);
+            ordering.compute(value);
+        } else {
+            ordering.steps.push(step);
+        }
+    }
+    ordering.program.steps = ordering.steps;
+    super::unused::remove(ordering.program, graph)
+}
+
+struct Ordering<'g> {
+    graph: &'g Graph,
+    program: Program,
+    uses: Vec<usize>,
+    /// When each value is known, in cycles of a usual processor, of which only the order matters.
+    ready: Vec<u32>,
+    /// The multiples by constants that are computed so far, by what they are multiples of.
+    multiples: BTreeMap<ValueId, Vec<(Number, ValueId)>>,
+    steps: Vec<Step>,
+}
+
+/// The terms of a sum or a difference, products that nothing else reads.
+struct Products {
+    terms: [ValueId; 2],
+    minus: bool,
+}
+
+impl Ordering<'_> {
+    fn improve(&mut self, value: ValueId) {
+        match self.program.op(value).cloned() {
+            Some(Op::Add(..) | Op::Sub(..)) => self.take_out(value),
+            Some(Op::Mul(k, rest)) if self.program.constant(self.graph, k).is_some() => {
+                self.distribute(value, k, rest);
+                self.swap(value);
+            }
+            _ => {}
+        }
+    }
+
+    /// `(f a) x ± (f b) y = f (a x ± b y)`.
+    fn take_out(&mut self, value: ValueId) {
+        let Some(Products { terms, minus }) = self.products(value) else { return };
+        let Some((late, [first, second])) = self.common_factor(terms) else { return };
+        for (term, [a, x]) in terms.into_iter().zip([first, second]) {
+            self.compute_here(term, Op::Mul(a, x));
+        }
+        let [p, q] = terms;
+        let inner = self.add(if minus { Op::Sub(p, q) } else { Op::Add(p, q) }, value);
+        self.define(value, Op::Mul(late, inner));
+    }
+
+    /// The factor that two products have within one of their factors each, if it is known last, and the other two factors of each.
+    fn common_factor(&self, terms: [ValueId; 2]) -> Option<(ValueId, [[ValueId; 2]; 2])> {
+        let [first, second] = terms.map(|term| self.within(term));
+        first.iter().find_map(|(late, others)| {
+            let (_, same) = second.iter().find(|(factor, _)| factor == late)?;
+            let all = [*others, *same];
+            all.as_flattened().iter().all(|other| self.ready(*other) < self.ready(*late)).then_some((*late, all))
+        })
+    }
+
+    /// The factors within the factors of a product, each with what else the product is of.
+    fn within(&self, product: ValueId) -> Vec<(ValueId, [ValueId; 2])> {
+        let Some(Op::Mul(u, x)) = self.program.op(product) else { return Vec::new() };
+        let mut found = Vec::new();
+        for (factor, other) in [(*u, *x), (*x, *u)] {
+            if let Some(Op::Mul(f, a)) = self.program.op(factor) {
+                found.extend([(*f, [*a, other]), (*a, [*f, other])]);
+            }
+        }
+        found
+    }
+
+    /// `k (f x) = f (k x)`.
+    fn swap(&mut self, value: ValueId) {
+        if let Some(Op::Mul(k, product)) = self.program.op(value).cloned()
+            && self.program.is_inner(product, &self.uses)
+            && let Some(Op::Mul(a, b)) = self.program.op(product).cloned()
+            && self.program.constant(self.graph, a).is_none()
+        {
+            let [early, late] = if self.ready(a) < self.ready(b) { [a, b] } else { [b, a] };
+            if self.ready(early) < self.ready(late) {
+                self.compute_here(product, Op::Mul(k, early));
+                self.define(value, Op::Mul(product, late));
+            }
+        }
+    }
+
+    /// `k (a x ± b y) = (k a) x ± (k b) y`.
+    fn distribute(&mut self, value: ValueId, k: ValueId, sum: ValueId) {
+        if !self.program.is_inner(sum, &self.uses) {
+            return;
+        }
+        let (Some(Products { terms, minus }), Some(number)) =
+            (self.products(sum), self.program.constant(self.graph, k))
+        else {
+            return;
+        };
+        let Some(factors) = self.early_and_late(terms) else { return };
+        let there = factors.map(|[early, _]| self.multiple(&number, early));
+        if there.iter().all(Option::is_none) {
+            return;
+        }
+        for (term, ([early, late], there)) in terms.into_iter().zip(factors.into_iter().zip(there)) {
+            let multiple = match there {
+                Some((multiple, false)) => multiple,
+                Some((opposite, true)) => self.add(Op::Neg(opposite), term),
+                None => self.add(Op::Mul(k, early), term),
+            };
+            self.compute_here(term, Op::Mul(multiple, late));
+        }
+        let [p, q] = terms;
+        self.define(value, if minus { Op::Sub(p, q) } else { Op::Add(p, q) });
+    }
+
+    /// The factors of both products, if in both one is known before the other.
+    fn early_and_late(&self, terms: [ValueId; 2]) -> Option<[[ValueId; 2]; 2]> {
+        let of = |term: ValueId| match self.program.op(term) {
+            Some(Op::Mul(a, b)) if self.ready(*a) < self.ready(*b) => Some([*a, *b]),
+            Some(Op::Mul(a, b)) if self.ready(*b) < self.ready(*a) => Some([*b, *a]),
+            _ => None,
+        };
+        let [first, second] = terms;
+        Some([of(first)?, of(second)?])
+    }
+
+    /// A value that is `k` times another, and whether it is the negative of that, if there is one.
+    fn multiple(&self, k: &Number, of: ValueId) -> Option<(ValueId, bool)> {
+        let (own, base) = self.scaled(of);
+        let wanted = own.mul(k);
+        let is = |number: &Number| self.multiples.get(&base)?.iter().find(|(own, _)| own.sub(number).is_zero());
+        let there = is(&wanted).map(|(_, value)| (*value, false));
+        there.or_else(|| is(&wanted.neg()).map(|(_, value)| (*value, true)))
+    }
+
+    /// A value as a constant times another value.
+    fn scaled(&self, value: ValueId) -> (Number, ValueId) {
+        match self.program.op(value) {
+            Some(Op::Mul(k, x)) => match self.program.constant(self.graph, *k) {
+                Some(number) => {
+                    let (inner, base) = self.scaled(*x);
+                    (number.mul(&inner), base)
+                }
+                None => (Number::one(), value),
+            },
+            Some(Op::Neg(x)) => {
+                let (inner, base) = self.scaled(*x);
+                (inner.neg(), base)
+            }
+            _ => (Number::one(), value),
+        }
+    }
+
+    fn products(&self, sum: ValueId) -> Option<Products> {
+        let (terms, minus) = match self.program.op(sum)? {
+            Op::Add(a, b) => ([*a, *b], false),
+            Op::Sub(a, b) => ([*a, *b], true),
+            _ => return None,
+        };
+        let is_product = |term: &ValueId| {
+            self.program.is_inner(*term, &self.uses) && matches!(self.program.op(*term), Some(Op::Mul(..)))
+        };
+        (terms[0] != terms[1] && terms.iter().all(is_product)).then_some(Products { terms, minus })
+    }
+
+    fn ready(&self, value: ValueId) -> u32 {
+        self.ready[value.index()]
+    }
+
+    /// A value that is new, computed here.
+    fn add(&mut self, op: Op<ValueId>, beside: ValueId) -> ValueId {
+        let value = self.program.add(op, beside);
+        self.ready.push(0);
+        self.uses.push(1);
+        self.compute(value);
+        value
+    }
+
+    fn define(&mut self, value: ValueId, op: Op<ValueId>) {
+        self.program.values[value.index()].definition = Definition::Computed(op);
+    }
+
+    /// Another way to a value that nothing has read yet, at a later place.
+    fn compute_here(&mut self, value: ValueId, op: Op<ValueId>) {
+        self.steps.retain(|step| !matches!(step, Step::Let(other) if *other == value));
+        for multiples in self.multiples.values_mut() {
+            multiples.retain(|(_, other)| *other != value);
+        }
+        self.define(value, op);
+        self.compute(value);
+    }
+
+    fn compute(&mut self, value: ValueId) {
+        self.steps.push(Step::Let(value));
+        self.time(value);
+        let (number, base) = self.scaled(value);
+        if base != value {
+            self.multiples.entry(base).or_default().push((number, value));
+        }
+    }
+
+    fn time(&mut self, value: ValueId) {
+        let Some(op) = self.program.op(value) else { return };
+        let takes = match op {
+            Op::Neg(_) | Op::Abs(_) => 1,
+            Op::Div(..) => 14,
+            Op::Sqrt(_) => 18,
+            Op::Kernel { kernel: Kernel::MulAdd, .. } => 4,
+            Op::Kernel { .. } => 60,
+            _ => 4,
+        };
+        let known = op.operands().into_iter().map(|operand| self.ready(operand)).max().unwrap_or(0);
+        self.ready[value.index()] = known + takes;
+    }
+}
