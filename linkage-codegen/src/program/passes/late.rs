@@ -1,5 +1,6 @@
 //! What is known last is multiplied last, so that little has to wait for it: `(f a) x ± (f b) y = f (a x ± b y)` for an `f` that is known
-//! after all the others, as what brings a vector to unit size is; then `k (f x) = f (k x)`.
+//! after all the others, as what brings a vector to unit size is; then `k (f x) = f (k x)`. It is a product less where nothing else reads
+//! `f a` and `f b`, and a product more where something does: that is spent on the longest way to the results only.
 //!
 //! And nothing that is known last waits for a constant: `k (a x ± b y) = (k a) x ± (k b) y`, where `x` and `y` are known last and a multiple
 //! of `a` or `b` by `k` is there already.
@@ -11,8 +12,9 @@ use crate::graph::{Graph, Kernel, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn multiply_last(program: Program, graph: &Graph) -> Program {
-    let (uses, ready) = (program.uses(), vec![0; program.values.len()]);
-    let mut ordering = Ordering { graph, program, uses, ready, multiples: BTreeMap::new(), steps: Vec::new() };
+    let (uses, spare) = (program.uses(), spare(&program));
+    let ready = vec![0; program.values.len()];
+    let mut ordering = Ordering { graph, program, uses, spare, ready, multiples: BTreeMap::new(), steps: Vec::new() };
     for step in core::mem::take(&mut ordering.program.steps) {
         if let Step::Let(value) = step {
             ordering.improve(value);
@@ -25,11 +27,55 @@ pub(super) fn multiply_last(program: Program, graph: &Graph) -> Program {
     super::unused::remove(ordering.program, graph)
 }
 
+/// How much later each value could be known without a result being known later than the last one is.
+fn spare(program: &Program) -> Vec<u32> {
+    let mut ready = vec![0; program.values.len()];
+    for step in &program.steps {
+        if let Step::Let(value) = step {
+            ready[value.index()] = known(program, *value, &ready);
+        }
+    }
+    let last = ready.iter().copied().max().unwrap_or(0);
+    let mut latest = vec![last; program.values.len()];
+    for step in program.steps.iter().rev() {
+        if let Step::Let(value) = step {
+            let begin = latest[value.index()].saturating_sub(program.op(*value).map_or(0, cycles));
+            for operand in program.operands_of(step) {
+                latest[operand.index()] = latest[operand.index()].min(begin);
+            }
+        }
+    }
+    latest.iter().zip(&ready).map(|(latest, ready)| latest.saturating_sub(*ready)).collect()
+}
+
+/// When a value is known, by when its operands are.
+fn known(program: &Program, value: ValueId, ready: &[u32]) -> u32 {
+    let Some(op) = program.op(value) else { return 0 };
+    cycles(op) + op.operands().into_iter().map(|operand| ready[operand.index()]).max().unwrap_or(0)
+}
+
+/// How long an operation takes, in cycles of a usual processor. Only the order of sums of them matters.
+fn cycles(op: &Op<ValueId>) -> u32 {
+    match op {
+        Op::Neg(_) | Op::Abs(_) => 1,
+        Op::Div(..) => 14,
+        Op::Sqrt(_) => 18,
+        Op::Kernel { kernel: Kernel::MulAdd, .. } => 4,
+        Op::Kernel { .. } => 60,
+        _ => 4,
+    }
+}
+
+/// What is spare by less than this, about three operations, is on the longest way.
+const SHORT: u32 = 12;
+
 struct Ordering<'g> {
     graph: &'g Graph,
     program: Program,
     uses: Vec<usize>,
-    /// When each value is known, in cycles of a usual processor, of which only the order matters.
+    /// How long each could be waited for. New values have none: they stand within others.
+    spare: Vec<u32>,
+    /// When each value is known.
     ready: Vec<u32>,
     /// The multiples by constants that are computed so far, by what they are multiples of.
     multiples: BTreeMap<ValueId, Vec<(Number, ValueId)>>,
@@ -40,6 +86,15 @@ struct Ordering<'g> {
 struct Products {
     terms: [ValueId; 2],
     minus: bool,
+}
+
+/// A factor of a factor of a product: `late` of `product = late · within`, beside which stands `beside`.
+#[derive(Clone, Copy)]
+struct Factor {
+    late: ValueId,
+    within: ValueId,
+    product: ValueId,
+    beside: ValueId,
 }
 
 impl Ordering<'_> {
@@ -57,32 +112,39 @@ impl Ordering<'_> {
     /// `(f a) x ± (f b) y = f (a x ± b y)`.
     fn take_out(&mut self, value: ValueId) {
         let Some(Products { terms, minus }) = self.products(value) else { return };
-        let Some((late, [first, second])) = self.common_factor(terms) else { return };
-        for (term, [a, x]) in terms.into_iter().zip([first, second]) {
-            self.compute_here(term, Op::Mul(a, x));
+        let Some([first, second]) = self.common_factor(terms) else { return };
+        let saves = [first, second].iter().all(|factor| self.uses[factor.product.index()] == 1);
+        let is_on_the_longest_way = self.spare.get(value.index()).is_some_and(|spare| *spare < SHORT);
+        if !(saves || is_on_the_longest_way) {
+            return;
+        }
+        for (term, factor) in terms.into_iter().zip([first, second]) {
+            let Factor { product, within: a, beside: x, .. } = factor;
+            self.uses[product.index()] -= 1;
+            let is_constant = self.program.constant(self.graph, x).is_some();
+            self.compute_here(term, if is_constant { Op::Mul(x, a) } else { Op::Mul(a, x) });
         }
         let [p, q] = terms;
         let inner = self.add(if minus { Op::Sub(p, q) } else { Op::Add(p, q) }, value);
-        self.define(value, Op::Mul(late, inner));
+        self.define(value, Op::Mul(first.late, inner));
     }
 
-    /// The factor that two products have within one of their factors each, if it is known last, and the other two factors of each.
-    fn common_factor(&self, terms: [ValueId; 2]) -> Option<(ValueId, [[ValueId; 2]; 2])> {
-        let [first, second] = terms.map(|term| self.within(term));
-        first.iter().find_map(|(late, others)| {
-            let (_, same) = second.iter().find(|(factor, _)| factor == late)?;
-            let all = [*others, *same];
-            all.as_flattened().iter().all(|other| self.ready(*other) < self.ready(*late)).then_some((*late, all))
+    /// The factor that two products have within one of their factors each, if it is known last.
+    fn common_factor(&self, terms: [ValueId; 2]) -> Option<[Factor; 2]> {
+        let [first, second] = terms.map(|term| self.factors(term));
+        first.iter().find_map(|one| {
+            let other = second.iter().find(|other| other.late == one.late)?;
+            let all = [one.within, one.beside, other.within, other.beside];
+            all.iter().all(|factor| self.ready(*factor) < self.ready(one.late)).then_some([*one, *other])
         })
     }
 
-    /// The factors within the factors of a product, each with what else the product is of.
-    fn within(&self, product: ValueId) -> Vec<(ValueId, [ValueId; 2])> {
+    fn factors(&self, product: ValueId) -> Vec<Factor> {
         let Some(Op::Mul(u, x)) = self.program.op(product) else { return Vec::new() };
         let mut found = Vec::new();
-        for (factor, other) in [(*u, *x), (*x, *u)] {
-            if let Some(Op::Mul(f, a)) = self.program.op(factor) {
-                found.extend([(*f, [*a, other]), (*a, [*f, other])]);
+        for (product, beside) in [(*u, *x), (*x, *u)] {
+            if let Some(Op::Mul(f, a)) = self.program.op(product) {
+                found.extend([(*f, *a), (*a, *f)].map(|(late, within)| Factor { late, within, product, beside }));
             }
         }
         found
@@ -118,16 +180,27 @@ impl Ordering<'_> {
         if there.iter().all(Option::is_none) {
             return;
         }
-        for (term, ([early, late], there)) in terms.into_iter().zip(factors.into_iter().zip(there)) {
-            let multiple = match there {
-                Some((multiple, false)) => multiple,
-                Some((opposite, true)) => self.add(Op::Neg(opposite), term),
-                None => self.add(Op::Mul(k, early), term),
+        let mut negative = [false, minus];
+        for (((term, [early, late]), there), negative) in terms.into_iter().zip(factors).zip(there).zip(&mut negative) {
+            let multiple = if let Some((multiple, is_opposite)) = there {
+                *negative ^= is_opposite;
+                multiple
+            } else {
+                *negative ^= number.signum() < 0;
+                let size = self.program.add_constant(self.graph, &number.abs(), term);
+                self.grow();
+                self.add(Op::Mul(size, early), term)
             };
             self.compute_here(term, Op::Mul(multiple, late));
         }
         let [p, q] = terms;
-        self.define(value, if minus { Op::Sub(p, q) } else { Op::Add(p, q) });
+        let op = match negative {
+            [false, false] => Op::Add(p, q),
+            [false, true] => Op::Sub(p, q),
+            [true, false] => Op::Sub(q, p),
+            [true, true] => Op::Sub(self.add(Op::Neg(p), p), q),
+        };
+        self.define(value, op);
     }
 
     /// The factors of both products, if in both one is known before the other.
@@ -187,10 +260,15 @@ impl Ordering<'_> {
     /// A value that is new, computed here.
     fn add(&mut self, op: Op<ValueId>, beside: ValueId) -> ValueId {
         let value = self.program.add(op, beside);
-        self.ready.push(0);
-        self.uses.push(1);
+        self.grow();
         self.compute(value);
         value
+    }
+
+    /// Room for a value that is new.
+    fn grow(&mut self) {
+        self.ready.resize(self.program.values.len(), 0);
+        self.uses.resize(self.program.values.len(), 1);
     }
 
     fn define(&mut self, value: ValueId, op: Op<ValueId>) {
@@ -209,24 +287,10 @@ impl Ordering<'_> {
 
     fn compute(&mut self, value: ValueId) {
         self.steps.push(Step::Let(value));
-        self.time(value);
+        self.ready[value.index()] = known(&self.program, value, &self.ready);
         let (number, base) = self.scaled(value);
         if base != value {
             self.multiples.entry(base).or_default().push((number, value));
         }
-    }
-
-    fn time(&mut self, value: ValueId) {
-        let Some(op) = self.program.op(value) else { return };
-        let takes = match op {
-            Op::Neg(_) | Op::Abs(_) => 1,
-            Op::Div(..) => 14,
-            Op::Sqrt(_) => 18,
-            Op::Kernel { kernel: Kernel::MulAdd, .. } => 4,
-            Op::Kernel { .. } => 60,
-            _ => 4,
-        };
-        let known = op.operands().into_iter().map(|operand| self.ready(operand)).max().unwrap_or(0);
-        self.ready[value.index()] = known + takes;
     }
 }
