@@ -3,7 +3,7 @@
 //! `f a` and `f b`, and a product more where something does: that is spent on the longest way to the results only.
 //!
 //! And nothing that is known last waits for a constant: `k (a x ± b y) = (k a) x ± (k b) y`, where `x` and `y` are known last and a multiple
-//! of `a` or `b` by `k` is there already.
+//! of `a` or `b` by `k` is there already, under a name.
 
 use std::collections::BTreeMap;
 
@@ -77,7 +77,7 @@ struct Ordering<'g> {
     spare: Vec<u32>,
     /// When each value is known.
     ready: Vec<u32>,
-    /// The multiples by constants that are computed so far, by what they are multiples of.
+    /// The multiples by constants that are computed so far and have a name, by what they are multiples of.
     multiples: BTreeMap<ValueId, Vec<(Number, ValueId)>>,
     steps: Vec<Step>,
 }
@@ -278,9 +278,6 @@ impl Ordering<'_> {
     /// Another way to a value that nothing has read yet, at a later place.
     fn compute_here(&mut self, value: ValueId, op: Op<ValueId>) {
         self.steps.retain(|step| !matches!(step, Step::Let(other) if *other == value));
-        for multiples in self.multiples.values_mut() {
-            multiples.retain(|(_, other)| *other != value);
-        }
         self.define(value, op);
         self.compute(value);
     }
@@ -289,7 +286,7 @@ impl Ordering<'_> {
         self.steps.push(Step::Let(value));
         self.ready[value.index()] = known(&self.program, value, &self.ready);
         let (number, base) = self.scaled(value);
-        if base != value {
+        if base != value && self.program.value(value).label.is_some() {
             self.multiples.entry(base).or_default().push((number, value));
         }
     }
