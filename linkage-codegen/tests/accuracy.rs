@@ -3,7 +3,7 @@
 mod support;
 
 use support::families::{
-    Family, boom, check, four_bar, length, loads, oscillating_block, planet, scotch_yoke, searched, shaper,
+    Family, SCENES, boom, check, four_bar, length, loads, oscillating_block, planet, scotch_yoke, searched, shaper,
     slider_crank, slotted_crank, slotted_yoke, tangent_mechanism,
 };
 use support::linkages::{Class, Random};
@@ -120,6 +120,26 @@ fn ten_thousand_poses_of_gears() {
 fn oscillating_blocks_and_booms() {
     assert!(check(oscillating_blocks(5, (60, 20)), "oscillating blocks") > 600);
     assert!(check(booms(6, (60, 20)), "booms on cylinders") > 300);
+}
+
+/// A rod with a load near its runner, which the drive holds against its tube: the pin at the rod's end is far from the load and has little
+/// to hold, so that the moments about that pin are large and those about the runner are not.
+#[test]
+fn a_load_near_the_runner() {
+    let text = format!(
+        "pub mod sample; ground {{ O: (0, 0), P: 0.7060748338699341m @ 249.6663629451129deg }} link boom {{ O -> Q: 1.242154836654663m }}
+         link tube {{ P: (0, 0), D: (-0.005465666297823191m, 0.02559126541018486m) }}
+         link rod {{ Q: (0, 0.14513885974884033m), S: (0, 0), E: (0.02559126541018486m, -0.005465666297823191m) }}
+         revolute O: ground -> boom; revolute P: ground -> tube; revolute Q: rod -> boom;
+         prismatic lift: tube.P -> rod.S along 0deg of tube; drive extension: lift; assemble Q: left(P -> O);
+         load F: force(tube.D); load H: force(rod.E); {SCENES}"
+    );
+    let loads = vec![[5.9312052726745605, 39.466209411621094], [47.785552978515625, -16.239543914794922]];
+    let drives = vec![0.8292769193649292];
+    assert_eq!(
+        check([Family { text, longest: 1.242154836654663, drives, loads }].into_iter(), "a load near the runner"),
+        1
+    );
 }
 
 #[test]

@@ -132,6 +132,13 @@ impl<'m, 'p> Balance<'m, 'p> {
         self.wrenches[link.index()] = Wrench { forces: vec![Acting { at, force, is_load: false }], couple };
     }
 
+    /// Whether a force on a link is known to act nearer to one of its places than another place is.
+    #[must_use]
+    pub fn acts_nearer(&self, link: LinkId, to: Vector<'m>, than: Vector<'m>) -> bool {
+        let nearer = |acting: &Acting<'m>| ((acting.at - to).squared() - (than - to).squared()).sign() == Some(-1);
+        self.wrenches[link.index()].forces.iter().any(nearer)
+    }
+
     /// The sum of the forces on a link.
     #[must_use]
     pub fn total(&self, link: LinkId) -> Framed<'m> {

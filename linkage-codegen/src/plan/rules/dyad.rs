@@ -69,6 +69,39 @@ struct Cut<'m> {
     moment: Expr<'m>,
 }
 
+/// What holds a link at the end of a leg: a pin of the leg, and a joint within the leg.
+#[derive(Clone, Copy, Debug)]
+struct Held<'m> {
+    /// The link.
+    link: LinkId,
+    /// The pin's place on the link.
+    pin: Vector<'m>,
+    /// The force of the pin on the link.
+    reaction: Framed<'m>,
+    /// The sum of that force and of the loads on the link and on those it holds: what the joint passes on.
+    passed: Framed<'m>,
+    /// The moment of the loads about the pin.
+    moment: Expr<'m>,
+}
+
+impl<'m> Held<'m> {
+    /// Puts what the joint passes on in the stead of all that acts on the link.
+    ///
+    /// About the pin the moment is that of the loads alone, and carried to the joint it has that of what is passed on besides. Loads that act
+    /// nearer to the joint may have little moment about it, and what they have about the pin would only be taken off again and leave its
+    /// rounding. So then the moments of the loads and of the pin's force are taken about the joint itself.
+    fn reduce(&self, balance: &mut Balance<'m, '_>, joint: JointId) {
+        let own = balance.placement.slide_point(joint, self.link);
+        if !balance.acts_nearer(self.link, own, self.pin) {
+            balance.reduce(self.link, self.pin, self.passed, self.moment);
+            return;
+        }
+        balance.push(self.link, self.pin, self.reaction);
+        let moment = balance.moment(self.link, own, balance.graph().one());
+        balance.reduce(self.link, own, self.passed, moment);
+    }
+}
+
 /// The parts of a dyad.
 #[derive(Clone, Debug)]
 pub struct Dyad<'a> {
@@ -504,16 +537,19 @@ impl<'a> Dyad<'a> {
             balance.push(leg.tip.end.link, tip, pin);
             return self.balance_rest(balance, leg);
         };
+        let (link, moment) = (cut.from, cut.moment);
         let passed = own(along + cut.along, -cut.across);
-        if cut.from != first {
-            self.balance_towards(balance, leg, cut.towards, Some((cut.from, tip, passed, cut.moment)))?;
+        if link != first {
+            let held = Held { link, pin: tip, reaction: pin, passed, moment };
+            self.balance_towards(balance, leg, cut.towards, Some(held))?;
             self.hold(balance, leg);
             return Ok(());
         }
         let (near, ground) = (balance.placement.point(leg.near), balance.placement.direction(GROUND));
-        balance.pin(outer, first, passed.plus(&cut.outer, ground).opposite());
+        let reaction = balance.pin(outer, first, passed.plus(&cut.outer, ground).opposite());
         balance.push(leg.tip.end.link, tip, pin);
-        self.balance_towards(balance, leg, cut.towards, Some((first, near, passed.opposite(), cut.moment)))
+        let held = Held { link, pin: near, reaction, passed: passed.opposite(), moment };
+        self.balance_towards(balance, leg, cut.towards, Some(held))
     }
 
     /// A force along and across a leg, along and across the direction of its first link.
@@ -527,21 +563,18 @@ impl<'a> Dyad<'a> {
         Framed { components: force.turned_by(lean), axes: placement.direction(leg.link()) }
     }
 
-    /// The efforts and welds within a leg, from its ends towards one of its links; for one of the others all that acts on it and on those
-    /// it holds may be given as a force and a couple.
+    /// The efforts and welds within a leg, from its ends towards one of its links; for one of the others what it passes on may be known.
     fn balance_towards(
         &self,
         balance: &mut Balance<'a, '_>,
         leg: &Leg,
         link: LinkId,
-        given: Option<(LinkId, Vector<'a>, Framed<'a>, Expr<'a>)>,
+        held: Option<Held<'a>>,
     ) -> RuleResult {
         let effort = |drive: DriveId| self.model.effort_at(drive).map_or(Input::Drive(drive), Input::Unknown);
         self.joined(leg, link, effort).iter().rev().try_for_each(|(rule, group)| {
-            if let Some((own, at, force, couple)) = given
-                && group.links == [own]
-            {
-                balance.reduce(own, at, force, couple);
+            if let Some(held) = held.filter(|held| group.links == [held.link]) {
+                group.outer.iter().for_each(|joint| held.reduce(balance, *joint));
             }
             rule.balance(balance, group)
         })
