@@ -73,7 +73,10 @@ impl Real for Big {
 /// A linkage that is measured, from the very text that declares it.
 fn linkage(name: &str) -> Linkage {
     // Each in a macro of its name.
-    let source = include_str!("../linkages.rs").replace("$scalar", "f64").replace("$arithmetic", "plain");
+    let source = include_str!("../linkages.rs")
+        .replace("$scalar", "f64")
+        .replace("$arithmetic", "plain")
+        .replace("$($sweeps)*", "");
     let named = |part: &str| part.replace("$name", part.split_whitespace().next().expect("a name"));
     let source = source.split("macro_rules! ").map(named).collect::<Vec<_>>().join("macro_rules! ");
     let mut declarations = Vec::new();

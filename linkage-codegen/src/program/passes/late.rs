@@ -8,8 +8,8 @@
 use std::collections::BTreeMap;
 
 use crate::graph::number::Number;
-use crate::graph::{Graph, Kernel, Op};
-use crate::program::{Definition, Program, Step, ValueId};
+use crate::graph::{Graph, Kernel, Op, Symbol};
+use crate::program::{Definition, Input, Program, Step, ValueId};
 
 pub(super) fn multiply_last(program: Program, graph: &Graph) -> Program {
     let (uses, spare) = (program.uses(), spare(&program));
@@ -39,7 +39,7 @@ fn spare(program: &Program) -> Vec<u32> {
     let mut latest = vec![last; program.values.len()];
     for step in program.steps.iter().rev() {
         if let Step::Let(value) = step {
-            let begin = latest[value.index()].saturating_sub(program.op(*value).map_or(0, cycles));
+            let begin = latest[value.index()].saturating_sub(program.op(*value).map_or(0, |op| cycles(program, op)));
             for operand in program.operands_of(step) {
                 latest[operand.index()] = latest[operand.index()].min(begin);
             }
@@ -51,19 +51,25 @@ fn spare(program: &Program) -> Vec<u32> {
 /// When a value is known, by when its operands are.
 fn known(program: &Program, value: ValueId, ready: &[u32]) -> u32 {
     let Some(op) = program.op(value) else { return 0 };
-    cycles(op) + op.operands().into_iter().map(|operand| ready[operand.index()]).max().unwrap_or(0)
+    cycles(program, op) + op.operands().into_iter().map(|operand| ready[operand.index()]).max().unwrap_or(0)
 }
 
-/// How long an operation takes, in cycles of a usual processor. Only the order of sums of them matters.
-fn cycles(op: &Op<ValueId>) -> u32 {
+/// How long an operation takes, in cycles of a usual processor. Only the order of sums of them matters. A change of sign takes none, and so
+/// does a side that is given at run time, so that its code is that of the same side in the declaration.
+fn cycles(program: &Program, op: &Op<ValueId>) -> u32 {
     match op {
-        Op::Neg(_) | Op::Abs(_) => 1,
+        Op::Neg(_) | Op::Abs(_) => 0,
+        Op::Mul(side, _) if is_side(program, *side) => 0,
         Op::Div(..) => 14,
         Op::Sqrt(_) => 18,
         Op::Kernel { kernel: Kernel::MulAdd, .. } => 4,
         Op::Kernel { .. } => 60,
         _ => 4,
     }
+}
+
+fn is_side(program: &Program, value: ValueId) -> bool {
+    matches!(program.value(value).definition, Definition::Input(Input::Symbol(Symbol::Side(_))))
 }
 
 /// What is spare by less than this, about three operations, is on the longest way.
@@ -77,7 +83,7 @@ struct Ordering<'g> {
     spare: Vec<u32>,
     /// When each value is known.
     ready: Vec<u32>,
-    /// The multiples by constants that are computed so far and have a name, by what they are multiples of.
+    /// The multiples by constants that others may use, by what they are multiples of.
     multiples: BTreeMap<ValueId, Vec<(Number, ValueId)>>,
     steps: Vec<Step>,
 }
@@ -119,8 +125,7 @@ impl Ordering<'_> {
             return;
         }
         for (term, factor) in terms.into_iter().zip([first, second]) {
-            let Factor { product, within: a, beside: x, .. } = factor;
-            self.uses[product.index()] -= 1;
+            let Factor { within: a, beside: x, .. } = factor;
             let is_constant = self.program.constant(self.graph, x).is_some();
             self.compute_here(term, if is_constant { Op::Mul(x, a) } else { Op::Mul(a, x) });
         }
@@ -188,8 +193,9 @@ impl Ordering<'_> {
             } else {
                 *negative ^= number.signum() < 0;
                 let size = self.program.add_constant(self.graph, &number.abs(), term);
-                self.grow();
-                self.add(Op::Mul(size, early), term)
+                let multiple = self.add(Op::Mul(size, early), term);
+                self.remember(multiple);
+                multiple
             };
             self.compute_here(term, Op::Mul(multiple, late));
         }
@@ -259,23 +265,30 @@ impl Ordering<'_> {
 
     /// A value that is new, computed here.
     fn add(&mut self, op: Op<ValueId>, beside: ValueId) -> ValueId {
-        let value = self.program.add(op, beside);
-        self.grow();
+        let value = self.program.add(op.clone(), beside);
+        self.ready.resize(self.program.values.len(), 0);
+        self.uses.resize(self.program.values.len(), 0);
+        self.read(&op);
         self.compute(value);
         value
     }
 
-    /// Room for a value that is new.
-    fn grow(&mut self) {
-        self.ready.resize(self.program.values.len(), 0);
-        self.uses.resize(self.program.values.len(), 1);
-    }
-
+    /// Another way to a value that nothing has read yet.
     fn define(&mut self, value: ValueId, op: Op<ValueId>) {
+        for operand in self.program.op(value).map(Op::operands).unwrap_or_default() {
+            self.uses[operand.index()] -= 1;
+        }
+        self.read(&op);
         self.program.values[value.index()].definition = Definition::Computed(op);
     }
 
-    /// Another way to a value that nothing has read yet, at a later place.
+    fn read(&mut self, op: &Op<ValueId>) {
+        for operand in op.operands() {
+            self.uses[operand.index()] += 1;
+        }
+    }
+
+    /// Another way to a value, at a later place.
     fn compute_here(&mut self, value: ValueId, op: Op<ValueId>) {
         self.steps.retain(|step| !matches!(step, Step::Let(other) if *other == value));
         self.define(value, op);
@@ -285,8 +298,15 @@ impl Ordering<'_> {
     fn compute(&mut self, value: ValueId) {
         self.steps.push(Step::Let(value));
         self.ready[value.index()] = known(&self.program, value, &self.ready);
+        if self.program.value(value).label.is_some() {
+            self.remember(value);
+        }
+    }
+
+    /// A multiple for others to use.
+    fn remember(&mut self, value: ValueId) {
         let (number, base) = self.scaled(value);
-        if base != value && self.program.value(value).label.is_some() {
+        if base != value {
             self.multiples.entry(base).or_default().push((number, value));
         }
     }
