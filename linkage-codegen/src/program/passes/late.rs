@@ -72,8 +72,8 @@ fn is_side(program: &Program, value: ValueId) -> bool {
     matches!(program.value(value).definition, Definition::Input(Input::Symbol(Symbol::Side(_))))
 }
 
-/// What is spare by less than this, about three operations, is on the longest way.
-const SHORT: u32 = 12;
+/// What is spare by less than this, little more than an operation, is on the longest way.
+const SHORT: u32 = 5;
 
 struct Ordering<'g> {
     graph: &'g Graph,
