@@ -134,7 +134,8 @@ fn a_load_near_the_runner() {
          prismatic lift: tube.P -> rod.S along 0deg of tube; drive extension: lift; assemble Q: left(P -> O);
          load F: force(tube.D); load H: force(rod.E); {SCENES}"
     );
-    let loads = vec![[5.9312052726745605, 39.466209411621094], [47.785552978515625, -16.239543914794922]];
+    let loads =
+        vec![[5.931_205_272_674_560_5, 39.466_209_411_621_094], [47.785_552_978_515_625, -16.239_543_914_794_922]];
     let drives = vec![0.8292769193649292];
     assert_eq!(
         check([Family { text, longest: 1.242154836654663, drives, loads }].into_iter(), "a load near the runner"),

@@ -265,10 +265,11 @@ impl Ordering<'_> {
 
     /// A value that is new, computed here.
     fn add(&mut self, op: Op<ValueId>, beside: ValueId) -> ValueId {
-        let value = self.program.add(op.clone(), beside);
+        let operands = op.operands();
+        let value = self.program.add(op, beside);
         self.ready.resize(self.program.values.len(), 0);
         self.uses.resize(self.program.values.len(), 0);
-        self.read(&op);
+        self.read(&operands);
         self.compute(value);
         value
     }
@@ -278,12 +279,12 @@ impl Ordering<'_> {
         for operand in self.program.op(value).map(Op::operands).unwrap_or_default() {
             self.uses[operand.index()] -= 1;
         }
-        self.read(&op);
+        self.read(&op.operands());
         self.program.values[value.index()].definition = Definition::Computed(op);
     }
 
-    fn read(&mut self, op: &Op<ValueId>) {
-        for operand in op.operands() {
+    fn read(&mut self, operands: &[ValueId]) {
+        for operand in operands {
             self.uses[operand.index()] += 1;
         }
     }
