@@ -136,9 +136,9 @@ fn a_load_near_the_runner() {
     );
     let loads =
         vec![[5.931_205_272_674_560_5, 39.466_209_411_621_094], [47.785_552_978_515_625, -16.239_543_914_794_922]];
-    let drives = vec![0.8292769193649292];
+    let drives = vec![0.829_276_919_364_929_2];
     assert_eq!(
-        check([Family { text, longest: 1.242154836654663, drives, loads }].into_iter(), "a load near the runner"),
+        check([Family { text, longest: 1.242_154_836_654_663, drives, loads }].into_iter(), "a load near the runner"),
         1
     );
 }
