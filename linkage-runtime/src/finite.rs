@@ -35,8 +35,10 @@ macro_rules! finite {
             each_finite(values)
         }
 
+        /// The same for loops that are vectorised, which look at several positions at once.
         #[inline]
-        fn each_finite<const N: usize>(values: [$scalar; N]) -> bool {
+        #[must_use]
+        pub fn each_finite<const N: usize>(values: [$scalar; N]) -> bool {
             let (mut finite, mut rest) = (true, values.as_slice());
             while let [value, others @ ..] = rest {
                 finite &= value.is_finite();

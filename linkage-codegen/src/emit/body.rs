@@ -129,7 +129,10 @@ impl<'a> Body<'a> {
                 let value = body.code(*value).within(Binding::Atom);
                 Some(quote!(#value.is_finite()))
             }
-            Step::FiniteResults(checked) => Some(body.all_finite(checked)),
+            Step::FiniteResults(checked) => {
+                let values = body.finite(checked);
+                Some(quote!(math::each_finite(#values)))
+            }
         });
         let conditions = checks.chain(angles).collect();
         (statements, conditions, body)
@@ -503,15 +506,16 @@ impl<'a> Body<'a> {
         }
     }
 
-    fn all_finite(&self, checked: &[ValueId]) -> TokenStream {
+    /// What is checked to be finite, as an array.
+    fn finite(&self, checked: &[ValueId]) -> TokenStream {
         let values = checked.iter().map(|value| self.code(*value).tokens);
-        quote!(math::all_finite([#(#values),*]))
+        quote!([#(#values),*])
     }
 
     fn finite_results(&self, checked: &[ValueId]) -> TokenStream {
-        let condition = self.all_finite(checked);
+        let values = self.finite(checked);
         let what = if self.program.reads_loads() { "a load or a result" } else { "a result" };
-        quote!(if !#condition { return Err(Error::NotFinite { what: #what }); })
+        quote!(if !math::all_finite(#values) { return Err(Error::NotFinite { what: #what }); })
     }
 }
 
