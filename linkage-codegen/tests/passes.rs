@@ -25,18 +25,21 @@ fn results<T: Number>(linkage: &Linkage, program: &Program, arguments: &Argument
     .expect("results")
 }
 
+/// What the linkages of most tests may have.
+const KIND: Kind = Kind {
+    dyads: 2,
+    sliders: true,
+    joints: true,
+    unknown_anywhere: false,
+    moving: false,
+    params: false,
+    scalar: "f64",
+};
+
 #[test]
 fn passes_keep_the_results() {
     for seed in 0..40 {
-        let kind = Kind {
-            dyads: 1 + usize::try_from(seed % 3).unwrap(),
-            sliders: true,
-            joints: false,
-            unknown_anywhere: false,
-            moving: false,
-            params: false,
-            scalar: "f64",
-        };
+        let kind = Kind { dyads: 1 + usize::try_from(seed % 3).unwrap(), joints: false, ..KIND };
         let sample = sample(seed, kind);
         let linkage = compile(&sample.text);
         let graph = &linkage.model.graph;
@@ -72,16 +75,7 @@ fn passes_keep_the_results() {
 #[test]
 fn a_scene_from_a_pose_goes_on_where_the_pose_ends() {
     for seed in 0..40 {
-        let kind = Kind {
-            dyads: 2,
-            sliders: true,
-            joints: true,
-            unknown_anywhere: false,
-            moving: false,
-            params: false,
-            scalar: "f64",
-        };
-        let sample = sample(seed, kind);
+        let sample = sample(seed, KIND);
         let linkage = compile(&sample.text);
         for (index, functions) in linkage.functions.scenes.iter().enumerate() {
             let counts = functions.from_pose.counts();
@@ -106,29 +100,19 @@ fn a_scene_from_a_pose_goes_on_where_the_pose_ends() {
 /// What is multiplied last makes no way to the results longer, many shorter, and spends no more than one product in a hundred on it.
 #[test]
 fn nothing_waits_longer_for_what_is_multiplied_last() {
-    let late = PASSES.iter().position(|(name, _)| *name == "late").expect("the pass");
     let (mut shorter, mut products) = (0, [0, 0]);
     for seed in 0..40 {
-        let kind = Kind {
-            dyads: 1 + usize::try_from(seed % 3).unwrap(),
-            sliders: true,
-            joints: true,
-            unknown_anywhere: false,
-            moving: seed % 2 == 0,
-            params: false,
-            scalar: "f64",
-        };
+        let kind = Kind { dyads: 1 + usize::try_from(seed % 3).unwrap(), moving: seed % 2 == 0, ..KIND };
         let sample = sample(seed, kind);
         let linkage = compile(&sample.text);
         let graph = &linkage.model.graph;
         for output in &linkage.plan.scenes {
             for form in [Form::Direct, Form::FromPose] {
                 let program = unoptimised(output, graph, form);
-                let before = PASSES[..late].iter().fold(program, |program, (_, pass)| pass(program, graph));
-                let after = PASSES[late].1(before.clone(), graph);
-                let ways = [&before, &after].map(longest_way);
+                let programs = before_and_after("late", program, graph);
+                let ways = programs.each_ref().map(longest_way);
                 assert!(ways[1] <= ways[0], "{ways:?}\n{}", sample.text);
-                let count = [&before, &after].map(|program| program.counts().mul);
+                let count = programs.each_ref().map(|program| program.counts().mul);
                 shorter += usize::from(ways[1] < ways[0]);
                 products = [products[0] + count[0], products[1] + count[1]];
             }
@@ -162,23 +146,13 @@ fn fewer_checks_find_the_same() {
     for seed in 0..26 {
         // With rates, and with groups that are placed by iteration, too; how many checks are left is counted without.
         let (moving, searches) = (seed >= 20, seed % 4 == 3);
-        let kind = Kind {
-            dyads: 2,
-            sliders: true,
-            joints: true,
-            unknown_anywhere: false,
-            moving,
-            params: false,
-            scalar: "f64",
-        };
+        let kind = Kind { moving, ..KIND };
         let sample = if searches { sample_with_search(seed, kind) } else { sample(seed, kind) };
         let linkage = compile(&sample.text);
         let graph = &linkage.model.graph;
         for output in &linkage.plan.scenes {
             let program = unoptimised(output, graph, Form::Direct);
-            let finite = PASSES.iter().position(|(name, _)| *name == "finite").expect("the pass");
-            let before = PASSES[..finite].iter().fold(program, |program, (_, pass)| pass(program, graph));
-            let after = PASSES[finite].1(before.clone(), graph);
+            let [before, after] = before_and_after("finite", program, graph);
             for (count, program) in checks.iter_mut().zip([&before, &after]).filter(|_| !moving && !searches) {
                 *count += program.steps.iter().map(checked).sum::<usize>();
             }
@@ -206,6 +180,14 @@ fn fewer_checks_find_the_same() {
     }
     assert!(refused > 100, "{refused} refused");
     assert!(3 * checks[1] < 2 * checks[0], "{checks:?}");
+}
+
+/// A program before and after a pass, behind all passes that come before it.
+fn before_and_after(name: &str, program: Program, graph: &Graph) -> [Program; 2] {
+    let index = PASSES.iter().position(|(pass, _)| *pass == name).expect("the pass");
+    let before = PASSES[..index].iter().fold(program, |program, (_, pass)| pass(program, graph));
+    let after = PASSES[index].1(before.clone(), graph);
+    [before, after]
 }
 
 /// All of a scene's results, which are to be finite.

@@ -50,7 +50,7 @@ macro_rules! finite {
 }
 pub(crate) use finite;
 
-/// By the registers of x86-64, where the sign, the exponent and the first digits of four numbers are compared at once.
+/// By the registers of x86-64, in which the exponents of four numbers are compared at once.
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 #[allow(unsafe_code, reason = "a function that uses instructions beyond the oldest processors' is unsafe to call")]
 pub(crate) mod registers {
@@ -118,12 +118,12 @@ mod tests {
             ($scalar:ident: $($length:literal)+) => {$({
                 let finite = [0.0, -0.0, 5e-324 as $scalar, -$scalar::MIN_POSITIVE, $scalar::MAX, -$scalar::MAX, 1.0];
                 for x in finite {
-                    assert!($scalar::all_finite([x; $length]), "{x:e}");
+                    assert!($scalar::all_finite([x; $length]) && $scalar::each_finite([x; $length]), "{x:e}");
                     for not in [$scalar::INFINITY, -$scalar::INFINITY, $scalar::NAN, -$scalar::NAN] {
                         for place in 0..$length {
                             let mut values = [x; $length];
                             values[place] = not;
-                            assert!(!$scalar::all_finite(values), "{values:?}");
+                            assert!(!$scalar::all_finite(values) && !$scalar::each_finite(values), "{values:?}");
                         }
                     }
                 }

@@ -271,6 +271,22 @@ impl<T: Copy> Op<T> {
         }
     }
 
+    /// The terms of a sum or a difference, and whether it is a difference.
+    #[must_use]
+    pub fn terms(&self) -> Option<([T; 2], bool)> {
+        match self {
+            Self::Add(a, b) => Some(([*a, *b], false)),
+            Self::Sub(a, b) => Some(([*a, *b], true)),
+            _ => None,
+        }
+    }
+
+    /// The sum of two terms, or their difference.
+    #[must_use]
+    pub fn of_terms([a, b]: [T; 2], minus: bool) -> Self {
+        if minus { Self::Sub(a, b) } else { Self::Add(a, b) }
+    }
+
     /// What it reads, checks aside.
     #[must_use]
     pub fn operands(&self) -> Vec<T> {

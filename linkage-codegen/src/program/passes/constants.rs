@@ -128,13 +128,8 @@ impl Merging<'_> {
 
     /// `(ka) x ± (kb) y`, if x is `a x ± b y`.
     fn multiple_of_terms(&mut self, before: ValueId, k: &Number, x: ValueId) -> Option<Op<ValueId>> {
-        let (a, b, minus) = match self.program.op(x).cloned()? {
-            Op::Add(a, b) => (a, b, false),
-            Op::Sub(a, b) => (a, b, true),
-            _ => return None,
-        };
-        let (a, b) = (self.rescaled(before, k, a)?, self.rescaled(before, k, b)?);
-        Some(if minus { Op::Sub(a, b) } else { Op::Add(a, b) })
+        let ([a, b], minus) = self.program.op(x)?.terms()?;
+        Some(Op::of_terms([self.rescaled(before, k, a)?, self.rescaled(before, k, b)?], minus))
     }
 
     /// A constant, or a constant multiple that nothing else reads, times `k`.

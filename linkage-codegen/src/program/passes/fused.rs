@@ -24,11 +24,7 @@ pub(super) fn contract(mut program: Program, graph: &Graph) -> Program {
 
 /// Factors and summand of a sum with a product.
 fn operands(program: &mut Program, graph: &Graph, sum: ValueId, steps: &mut Vec<Step>) -> Option<[ValueId; 3]> {
-    let (a, b, minus) = match program.op(sum)? {
-        Op::Add(a, b) => (*a, *b, false),
-        Op::Sub(a, b) => (*a, *b, true),
-        _ => return None,
-    };
+    let ([a, b], minus) = program.op(sum)?.terms()?;
     let product = |value: ValueId| match program.op(value) {
         Some(Op::Mul(x, y)) if program.value(value).label.is_none() => Some((*x, *y)),
         _ => None,

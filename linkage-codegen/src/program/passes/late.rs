@@ -129,8 +129,7 @@ impl Ordering<'_> {
             let is_constant = self.program.constant(self.graph, x).is_some();
             self.compute_here(term, if is_constant { Op::Mul(x, a) } else { Op::Mul(a, x) });
         }
-        let [p, q] = terms;
-        let inner = self.add(if minus { Op::Sub(p, q) } else { Op::Add(p, q) }, value);
+        let inner = self.add(Op::of_terms(terms, minus), value);
         self.define(value, Op::Mul(first.late, inner));
     }
 
@@ -248,11 +247,7 @@ impl Ordering<'_> {
     }
 
     fn products(&self, sum: ValueId) -> Option<Products> {
-        let (terms, minus) = match self.program.op(sum)? {
-            Op::Add(a, b) => ([*a, *b], false),
-            Op::Sub(a, b) => ([*a, *b], true),
-            _ => return None,
-        };
+        let (terms, minus) = self.program.op(sum)?.terms()?;
         let is_product = |term: &ValueId| {
             self.program.is_inner(*term, &self.uses) && matches!(self.program.op(*term), Some(Op::Mul(..)))
         };
