@@ -17,10 +17,10 @@ macro_rules! finite {
             }
             let (mut marks, mut rest) = ($crate::finite::registers::none(), values.as_slice());
             while let [a, others @ ..] = rest {
-                // What is missing of the last four is the first of them once more.
+                // What is missing of the last four is the one before once more, which need not be moved for it.
                 let (b, others) = if let [b, others @ ..] = others { (b, others) } else { (a, others) };
-                let (c, others) = if let [c, others @ ..] = others { (c, others) } else { (a, others) };
-                let (d, others) = if let [d, others @ ..] = others { (d, others) } else { (a, others) };
+                let (c, others) = if let [c, others @ ..] = others { (c, others) } else { (b, others) };
+                let (d, others) = if let [d, others @ ..] = others { (d, others) } else { (c, others) };
                 marks = $crate::finite::registers::$four(marks, *a, *b, *c, *d);
                 rest = others;
             }

@@ -21,10 +21,33 @@ pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
         checked.retain(|value| !bounds[value.index()].are_finite(scalar) && all.insert(bare(*value)));
         let shown = shown_by(&program, &all);
         checked.retain(|value| !shown.contains(&bare(*value)));
+        pairs_first(&program, checked);
     }
     steps.retain(|step| !matches!(step, Step::FiniteResults(checked) if checked.is_empty()));
     program.steps = steps;
     program
+}
+
+/// In the order in which they are computed, the two components of a vector before what stands alone: one register may hold both.
+fn pairs_first(program: &Program, checked: &mut Vec<ValueId>) {
+    checked.sort_unstable();
+    let kind = |value: &ValueId| program.op(*value).map(core::mem::discriminant);
+    let (mut pairs, mut alone) = (Vec::new(), Vec::new());
+    let mut rest = checked.as_slice();
+    while let [first, others @ ..] = rest {
+        match others {
+            [second, others @ ..] if kind(first) == kind(second) => {
+                pairs.extend([*first, *second]);
+                rest = others;
+            }
+            _ => {
+                alone.push(*first);
+                rest = others;
+            }
+        }
+    }
+    pairs.append(&mut alone);
+    *checked = pairs;
 }
 
 /// The values that are finite if the checked ones are: those from which these are formed.
