@@ -286,7 +286,10 @@ impl Ordering<'_> {
 
     /// Another way to a value, at a later place.
     fn compute_here(&mut self, value: ValueId, op: Op<ValueId>) {
-        self.steps.retain(|step| !matches!(step, Step::Let(other) if *other == value));
+        // It stands a few steps before this one.
+        if let Some(place) = self.steps.iter().rposition(|step| matches!(step, Step::Let(other) if *other == value)) {
+            self.steps.remove(place);
+        }
         self.define(value, op);
         self.compute(value);
     }
