@@ -117,14 +117,19 @@ impl<'a> Body<'a> {
     pub(super) fn straight(mut self) -> (Vec<TokenStream>, Vec<TokenStream>, Self) {
         self.checks = Checks::Gathered;
         let (statements, body) = self.each_statement();
-        let angles: BTreeSet<(Kernel, Vec<ValueId>)> = body.kernels().collect();
-        let angles = angles.into_iter().filter_map(|(kernel, args)| body.is_short(kernel, &args));
+        let kernels: BTreeSet<(Kernel, Vec<ValueId>)> = body.kernels().collect();
+        let sines = kernels.into_iter().filter_map(|(kernel, args)| Some((body.is_short(kernel, &args)?, args)));
+        let (angles, args): (Vec<TokenStream>, Vec<Vec<ValueId>>) = sines.unzip();
+        // No angle is short that is not finite.
+        let args = || args.iter().flatten().copied();
+        let shown: BTreeSet<ValueId> = body.program.shown_by(args()).into_iter().chain(args()).collect();
         let checks = body.program.steps.iter().filter_map(|step| match step {
             Step::Let(_) => None,
             Step::Check { guard, .. } => {
                 let condition = body.condition(guard);
                 Some(quote!((#condition)))
             }
+            Step::FiniteInput(value) if shown.contains(value) => None,
             Step::FiniteInput(value) => {
                 let value = body.code(*value).within(Binding::Atom);
                 Some(quote!(#value.is_finite()))

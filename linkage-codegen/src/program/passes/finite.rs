@@ -19,7 +19,7 @@ pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
         let bare = |value: ValueId| bare(&program, &bounds, scalar, value);
         let mut all = BTreeSet::new();
         checked.retain(|value| !bounds[value.index()].are_finite(scalar) && all.insert(bare(*value)));
-        let shown = shown_by(&program, &all);
+        let shown = program.shown_by(all);
         checked.retain(|value| !shown.contains(&bare(*value)));
         pairs_first(&program, checked);
     }
@@ -50,26 +50,28 @@ fn pairs_first(program: &Program, checked: &mut Vec<ValueId>) {
     *checked = pairs;
 }
 
-/// The values that are finite if the checked ones are: those from which these are formed.
-fn shown_by(program: &Program, checked: &BTreeSet<ValueId>) -> BTreeSet<ValueId> {
-    let inherited = |value: &ValueId| match program.op(*value) {
-        Some(Op::Neg(a) | Op::Abs(a) | Op::Sqrt(a) | Op::Div(a, _)) => vec![*a],
-        Some(Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b)) => vec![*a, *b],
-        Some(Op::Kernel {
-            kernel: Kernel::SinCos | Kernel::SinCosSum(_) | Kernel::Atan2 | Kernel::MulAdd,
-            args,
-            ..
-        }) => args.clone(),
-        _ => Vec::new(),
-    };
-    let mut shown = BTreeSet::new();
-    let mut open: Vec<ValueId> = checked.iter().flat_map(inherited).collect();
-    while let Some(value) = open.pop() {
-        if shown.insert(value) {
-            open.extend(inherited(&value));
+impl Program {
+    /// The values that are finite if those given are: those from which these are formed.
+    pub(crate) fn shown_by(&self, finite: impl IntoIterator<Item = ValueId>) -> BTreeSet<ValueId> {
+        let inherited = |value: ValueId| match self.op(value) {
+            Some(Op::Neg(a) | Op::Abs(a) | Op::Sqrt(a) | Op::Div(a, _)) => vec![*a],
+            Some(Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b)) => vec![*a, *b],
+            Some(Op::Kernel {
+                kernel: Kernel::SinCos | Kernel::SinCosSum(_) | Kernel::Atan2 | Kernel::MulAdd,
+                args,
+                ..
+            }) => args.clone(),
+            _ => Vec::new(),
+        };
+        let mut shown = BTreeSet::new();
+        let mut open: Vec<ValueId> = finite.into_iter().flat_map(inherited).collect();
+        while let Some(value) = open.pop() {
+            if shown.insert(value) {
+                open.extend(inherited(value));
+            }
         }
+        shown
     }
-    shown
 }
 
 /// The value without its signs, and without terms too small to take a finite number beyond the largest: it is finite where that is.
