@@ -100,12 +100,23 @@ impl<'a> Dyad<'a> {
         format!("({first} − {second})")
     }
 
-    fn name_sum(&self, leg: &Leg, sum: Expr<'a>) -> Expr<'a> {
+    /// `±(D² + r² − r'²)` of a leg r, over a divisor given as text: positive where it goes along d, from the first outer pin to the second.
+    fn name_sum(&self, leg: &Leg, sum: Expr<'a>, divided: &str) -> Expr<'a> {
         let (mine, its) = (self.length_name(leg), self.length_name(self.other(leg)));
-        sum.named(
-            format!("sum_{}", self.link_name(leg)),
-            format!("D2_{} + {mine}² − {its}²", self.joint_name(self.inner)),
-        )
+        let squares = |from: String, less: String| {
+            if divided.is_empty() {
+                format!("{from}² − {less}²")
+            } else {
+                format!("({from}² − {less}²){divided}")
+            }
+        };
+        let d2 = format!("D2_{}", self.joint_name(self.inner));
+        let equation = if leg.link() == self.legs[0].link() {
+            format!("{d2} + {}", squares(mine, its))
+        } else {
+            format!("{} − {d2}", squares(its, mine))
+        };
+        sum.named(format!("sum_{}", self.link_name(leg)), equation)
     }
 
     fn separation_meaning(&self) -> String {
@@ -218,7 +229,7 @@ struct Closing<'m> {
     d: Vector<'m>,
     /// Its square; where the root is sin μ, divided by `2 r₁ r₂` too.
     d2: Expr<'m>,
-    /// `D² ± (r₁² − r₂²)`, where these are not best made of the difference of the lengths.
+    /// `±D² + (r₁² − r₂²)`, where these are not best made of the difference of the lengths.
     sums: Option<[Expr<'m>; 2]>,
     /// `K = ±√(p q)`, or sin μ, which is `K/(2 r₁ r₂)`.
     k: Expr<'m>,
@@ -233,7 +244,7 @@ struct Closing<'m> {
 /// What constant lengths give beside sin μ, at no more operations than K takes.
 #[derive(Clone, Copy)]
 struct OfAngle<'m> {
-    /// `(D² + r² − r'²)/(2 r r')` of the shorter leg r.
+    /// `±(D² + r² − r'²)/(2 r r')` of the shorter leg r, negative if it is the second.
     sum: Expr<'m>,
     /// cos μ, where by these lengths it is as good as that of the directions.
     cosine: Option<Expr<'m>>,
@@ -362,18 +373,21 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     let name = dyad.joint_name(dyad.inner);
     let [short, long] = by_length(lengths);
     let (leg, link) = (&dyad.legs[short], dyad.link_name(&dyad.legs[short]));
+    let [r1, r2] = lengths;
     let sum = of_angle.map_or_else(
-        || dyad.name_sum(leg, d2 + (lengths[short] - lengths[long]) * (lengths[short] + lengths[long])),
+        || {
+            let difference = (r1 - r2) * (r1 + r2);
+            dyad.name_sum(leg, if short == 0 { d2 + difference } else { difference - d2 }, "")
+        },
         |known| known.sum,
     );
     let scale =
         (d2.graph().constant(&Number::ratio(1, 2)) / d2).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
     let [along, across] = closing.parts(dyad, leg, sum, (scale, name, "the part"));
-    let (sense, minus) = if short == 0 { (1, "") } else { (-1, "−") };
     let mut vectors = [d; 2];
-    vectors[short] = (d.scaled(sense * along) + d.perp().scaled(across)).named(
+    vectors[short] = (d.scaled(along) + d.perp().scaled(across)).named(
         &format!("arm_{link}"),
-        &format!("from {} to {name}: {minus}along_{link} d + across_{link} d⊥", dyad.joint_name(leg.outer)),
+        &format!("from {} to {name}: along_{link} d + across_{link} d⊥", dyad.joint_name(leg.outer)),
     );
     let (far, other) = (&dyad.legs[long], dyad.link_name(&dyad.legs[long]));
     let (sign, difference) = if short == 0 { ('−', vectors[short] - d) } else { ('+', vectors[short] + d) };
@@ -394,20 +408,17 @@ fn rough_directions<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 
     let inverse = (d2.graph().one() / d2).named(format!("inverse_D2_{name}"), "");
     let sums = closing.sums.unwrap_or_else(|| {
         let difference = (r1 - r2) * (r1 + r2);
-        [d2 + difference, d2 - difference]
+        [d2 + difference, difference - d2]
     });
     let [first, second] = &dyad.legs;
-    [(first, r1, r2, sums[0], 1), (second, r2, r1, sums[1], -1)].map(|(leg, own, other, sum, sense)| {
+    [(first, r1, r2, sums[0]), (second, r2, r1, sums[1])].map(|(leg, own, other, sum)| {
         let link = dyad.link_name(leg);
-        let sum = dyad.name_sum(leg, sum);
+        let sum = dyad.name_sum(leg, sum, "");
         let scale = inverse / (2 * own);
         let scale = scale.named(format!("scale_{link}"), format!("1/(2 {} D2_{name})", dyad.length_name(leg)));
         let [along, across] = closing.parts(dyad, leg, sum, (scale, &link, "the part of the direction"));
-        let rough = d.scaled(sense * along) + d.perp().scaled(across);
-        let rough = rough.named_direction(
-            &format!("rough_{link}"),
-            &format!("{}along_{link} d + across_{link} d⊥", if sense < 0 { "−" } else { "" }),
-        );
+        let rough = d.scaled(along) + d.perp().scaled(across);
+        let rough = rough.named_direction(&format!("rough_{link}"), &format!("along_{link} d + across_{link} d⊥"));
         normalised(rough, own, other, &link)
     })
 }
@@ -548,9 +559,12 @@ fn by_driven_length<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>, driven: 
         reached(q, rounding("q", least), least - length)
     };
     let root = (p * q).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
-    let (constant, square) = (d2 + other.squared(), d2 - other.squared());
-    let own = [(constant - y.squared()) - x.squared(), (square + y.squared()) + x.squared()];
-    let sums = if leg == 1 { own } else { [own[1], own[0]] };
+    let (constant, square) = (d2 + other.squared() - y.squared(), d2 - other.squared() + y.squared());
+    let sums = if leg == 1 {
+        [constant - x.squared(), -square - x.squared()]
+    } else {
+        [square + x.squared(), x.squared() - constant]
+    };
     Closing { d, d2, sums: Some(sums), k: sign.of(root), of_angle: None, sign, significant }
 }
 

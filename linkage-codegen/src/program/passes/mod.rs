@@ -18,7 +18,7 @@ use crate::graph::{Graph, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 10] = [
+pub const PASSES: [(&str, Pass); 12] = [
     ("pivots", pivots::compare_directly),
     ("reciprocals", reciprocals::share),
     ("constants", constants::merge),
@@ -27,6 +27,8 @@ pub const PASSES: [(&str, Pass); 10] = [
     ("unused", unused::remove),
     ("constants at reciprocals", constants::multiply_reciprocals),
     ("late", late::multiply_last),
+    ("signs", signs::absorb),
+    ("unused", unused::remove),
     ("finite", finite::check_once),
     ("fused", fused::contract),
 ];

@@ -1,5 +1,5 @@
 //! A change of sign that an operand can take on costs nothing: `−(a − b) = b − a`, `−(k x) = (−k) x`, `−(k x / y) = (−k) x / y`,
-//! `a − (−k) = a + k`.
+//! `a − (−k) = a + k`, `a − (−b − c) = a + (b + c)`.
 //!
 //! That of a sum goes to one of its terms, `−(a + b) = −a − b`: nothing then waits for it, and the formula ends as that of the other
 //! component of a vector does, so that a compiler can work at both at once.
@@ -31,10 +31,33 @@ pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
                 program.values[value.index()].definition = Definition::Computed(op);
             }
         }
+        if let Step::Let(value) = step {
+            take_negative_sum(&mut program, value, &uses);
+        }
         steps.push(step);
     }
     program.steps = steps;
     without_negative_constants(program, graph)
+}
+
+/// `a ± (−b − c)` as `a ∓ (b + c)`.
+fn take_negative_sum(program: &mut Program, value: ValueId, uses: &[usize]) {
+    let Some(([a, sum], minus)) = program.op(value).and_then(Op::terms) else { return };
+    let [a, sum] = if !minus && program.negative_terms(sum, uses).is_none() { [sum, a] } else { [a, sum] };
+    if let Some([b, c]) = program.negative_terms(sum, uses) {
+        program.values[sum.index()].definition = Definition::Computed(Op::Add(b, c));
+        program.values[value.index()].definition =
+            Definition::Computed(if minus { Op::Add(a, sum) } else { Op::Sub(a, sum) });
+    }
+}
+
+impl Program {
+    /// `b` and `c` of `−b − c` that nothing else reads.
+    fn negative_terms(&self, sum: ValueId, uses: &[usize]) -> Option<[ValueId; 2]> {
+        let Some(Op::Sub(negated, c)) = self.op(sum) else { return None };
+        let Some(Op::Neg(b)) = self.op(*negated) else { return None };
+        (self.is_inner(sum, uses) && self.is_inner(*negated, uses)).then_some([*b, *c])
+    }
 }
 
 /// `a − (−k)` as `a + k`.

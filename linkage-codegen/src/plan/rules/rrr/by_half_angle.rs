@@ -212,7 +212,7 @@ impl<'a, 'm> Opening<'a, 'm> {
         vec![above(p, self.arms.half.x), above(q, self.arms.half.y)]
     }
 
-    /// `(D² + r² − r'²)/(2 r r')` of the shorter leg, and cos μ by the law of cosines, both from `spread = 4ab sin²(ψ/2)/(2 r r')`.
+    /// `±(D² + r² − r'²)/(2 r r')` of the shorter leg, and cos μ by the law of cosines, both from `spread = 4ab sin²(ψ/2)/(2 r r')`.
     ///
     /// Where the driver goes all round, the spread is at most two. The more it may be, the more its rounding tells in the cosine, which then is
     /// that between the directions.
@@ -223,11 +223,9 @@ impl<'a, 'm> Opening<'a, 'm> {
         let (r, other) = (lengths[short], lengths[long]);
         let joint = dyad.joint_name(dyad.inner);
         let [mine, its] = [short, long].map(|index| dyad.length_name(&dyad.legs[index]));
-        let sum = (apart.squared() + (r - other) * (r + other)) / area + spread;
-        let sum = sum.named(
-            format!("sum_{}", dyad.link_name(&dyad.legs[short])),
-            format!("D2_{joint} + ({mine}² − {its}²){divided}"),
-        );
+        let constant = (apart.squared() + (r - other) * (r + other)) / area;
+        let sum = if short == 0 { constant + spread } else { -constant - spread };
+        let sum = dyad.name_sum(&dyad.legs[short], sum, divided);
         let cosine = (r.squared() + other.squared() - apart.squared()) / area - spread;
         let cosine =
             cosine.named(dyad.cosine_name(), format!("cos μ at {joint} = ({mine}² + {its}²){divided} − D2_{joint}"));
