@@ -9,7 +9,7 @@ use linkage_codegen::graph::real::Real;
 use linkage_codegen::graph::{Graph, NodeId, Op};
 use linkage_codegen::plan::Output;
 use linkage_codegen::program::passes::PASSES;
-use linkage_codegen::program::{Extract, Form, Input, Program, Run, Step};
+use linkage_codegen::program::{Extract, Form, Input, Program, Run, Step, ValueId};
 use support::linkages::{Kind, sample, sample_with_search};
 use support::numbers::{Double, Extended};
 use support::{Arguments, Number, compile, pose};
@@ -137,6 +137,30 @@ fn longest_way(program: &Program) -> usize {
         known[value.index()] = takes + op.operands().iter().map(|operand| known[operand.index()]).max().unwrap_or(0);
     }
     program.outputs.iter().map(|(_, value)| known[value.index()]).max().unwrap_or(0)
+}
+
+/// No `a ± (−b − c)` is left, which is `a ∓ (b + c)`.
+#[test]
+fn no_sum_of_two_negatives_is_added_or_subtracted() {
+    let mut sums = 0;
+    for seed in 0..40 {
+        let linkage = compile(&sample(seed, KIND).text);
+        for program in linkage.functions.scenes.iter().flat_map(|scene| [&scene.direct, &scene.from_pose]) {
+            let uses = program.uses();
+            let is_inner = |value: &ValueId| uses[value.index()] == 1 && program.values[value.index()].label.is_none();
+            let of_negatives = |sum: &ValueId| match program.op(*sum) {
+                Some(Op::Sub(b, _)) => [sum, b].into_iter().all(is_inner) && matches!(program.op(*b), Some(Op::Neg(_))),
+                _ => false,
+            };
+            for step in &program.steps {
+                let Step::Let(value) = step else { continue };
+                let Some((terms, _)) = program.op(*value).and_then(Op::terms) else { continue };
+                assert!(!terms.iter().any(of_negatives), "{program:?}");
+                sums += 1;
+            }
+        }
+    }
+    assert!(sums > 1000, "{sums}");
 }
 
 /// A result that is not finite is found out by the checks that are left, whatever comes in.

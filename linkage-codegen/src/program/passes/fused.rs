@@ -1,6 +1,9 @@
 //! With `arithmetic fused;` a product that a sum reads is added without being rounded: `a·b + c` is one operation. What has a name of its own
 //! is a line of the derivation and stays a number of its own, rounded as such.
+//!
+//! Of two products the one that is known last is added to the other, which has been rounded by then.
 
+use super::cycles::known;
 use crate::graph::{Graph, Kernel, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
@@ -9,31 +12,45 @@ pub(super) fn contract(mut program: Program, graph: &Graph) -> Program {
         return program;
     }
     let mut steps = Vec::new();
+    let mut ready = vec![0; program.values.len()];
     for step in core::mem::take(&mut program.steps) {
+        let done = steps.len();
         if let Step::Let(value) = step
-            && let Some([a, b, c]) = operands(&mut program, graph, value, &mut steps)
+            && let Some([a, b, c]) = operands(&mut program, graph, value, (&ready, &mut steps))
         {
             let op = Op::Kernel { kernel: Kernel::MulAdd, args: vec![a, b, c], part: 0 };
             program.values[value.index()].definition = Definition::Computed(op);
         }
         steps.push(step);
+        ready.resize(program.values.len(), 0);
+        for step in steps.iter().skip(done) {
+            if let Step::Let(value) = step {
+                ready[value.index()] = known(&program, *value, &ready);
+            }
+        }
     }
     program.steps = steps;
     super::unused::remove(program, graph)
 }
 
 /// Factors and summand of a sum with a product.
-fn operands(program: &mut Program, graph: &Graph, sum: ValueId, steps: &mut Vec<Step>) -> Option<[ValueId; 3]> {
+fn operands(
+    program: &mut Program,
+    graph: &Graph,
+    sum: ValueId,
+    (ready, steps): (&[u32], &mut Vec<Step>),
+) -> Option<[ValueId; 3]> {
     let ([a, b], minus) = program.op(sum)?.terms()?;
     let product = |value: ValueId| match program.op(value) {
         Some(Op::Mul(x, y)) if program.value(value).label.is_none() => Some((*x, *y)),
         _ => None,
     };
-    Some(match (product(a), product(b), minus) {
-        (Some((x, y)), _, false) => [x, y, b],
-        (Some((x, y)), _, true) => [x, y, negative(program, graph, b, steps)],
-        (None, Some((x, y)), false) => [x, y, a],
-        (None, Some((x, y)), true) => [negative(program, graph, x, steps), y, a],
+    let second = product(b).filter(|_| product(a).is_none() || ready[b.index()] > ready[a.index()]);
+    Some(match (product(a), second, minus) {
+        (_, Some((x, y)), false) => [x, y, a],
+        (_, Some((x, y)), true) => [negative(program, graph, x, steps), y, a],
+        (Some((x, y)), None, false) => [x, y, b],
+        (Some((x, y)), None, true) => [x, y, negative(program, graph, b, steps)],
         (None, None, _) => return None,
     })
 }

@@ -2,6 +2,7 @@
 //! program before and after each of them.
 
 mod constants;
+mod cycles;
 mod finite;
 mod fused;
 mod late;
