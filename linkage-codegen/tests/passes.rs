@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{Graph, NodeId, Op};
+use linkage_codegen::graph::{Graph, Kernel, NodeId, Op};
 use linkage_codegen::plan::Output;
 use linkage_codegen::program::passes::PASSES;
 use linkage_codegen::program::{Extract, Form, Input, Program, Run, Step, ValueId};
@@ -122,8 +122,42 @@ fn nothing_waits_longer_for_what_is_multiplied_last() {
     assert!(100 * products[1] <= 101 * products[0], "{products:?} products");
 }
 
+/// Of two products the one that a fused sum adds is not known before the one that is rounded.
+#[test]
+fn the_product_that_is_known_last_is_fused() {
+    let mut sums = 0;
+    for seed in 0..20 {
+        let linkage = compile(&sample(seed, KIND).text.replacen(';', "; arithmetic fused;", 1));
+        for program in linkage.functions.scenes.iter().flat_map(|scene| [&scene.direct, &scene.from_pose]) {
+            let known = known(program);
+            for step in &program.steps {
+                let Step::Let(value) = step else { continue };
+                let Some(Op::Kernel { kernel: Kernel::MulAdd, args, .. }) = program.op(*value) else { continue };
+                let [x, y, sum] = args[..] else { panic!("{args:?}") };
+                let rounded = match program.op(sum) {
+                    Some(Op::Neg(product)) => *product,
+                    _ => sum,
+                };
+                let is_product = matches!(program.op(rounded), Some(Op::Mul(..)));
+                if is_product && program.values[rounded.index()].label.is_none() {
+                    let added = 1 + known[x.index()].max(known[y.index()]);
+                    assert!(known[rounded.index()] <= added, "{program:?}");
+                    sums += 1;
+                }
+            }
+        }
+    }
+    assert!(sums > 300, "{sums}");
+}
+
 /// In sums and products, of which a quotient or a root takes about four, a kernel some fifteen; a change of sign none.
 fn longest_way(program: &Program) -> usize {
+    let known = known(program);
+    program.outputs.iter().map(|(_, value)| known[value.index()]).max().unwrap_or(0)
+}
+
+/// When each value is known.
+fn known(program: &Program) -> Vec<usize> {
     let mut known = vec![0; program.values.len()];
     for step in &program.steps {
         let Step::Let(value) = step else { continue };
@@ -131,12 +165,13 @@ fn longest_way(program: &Program) -> usize {
         let takes = match op {
             Op::Neg(_) | Op::Abs(_) => 0,
             Op::Div(..) | Op::Sqrt(_) => 4,
+            Op::Kernel { kernel: Kernel::MulAdd, .. } => 1,
             Op::Kernel { .. } => 15,
             _ => 1,
         };
         known[value.index()] = takes + op.operands().iter().map(|operand| known[operand.index()]).max().unwrap_or(0);
     }
-    program.outputs.iter().map(|(_, value)| known[value.index()]).max().unwrap_or(0)
+    known
 }
 
 /// No `a ± (−b − c)` is left, which is `a ∓ (b + c)`.
@@ -154,8 +189,8 @@ fn no_sum_of_two_negatives_is_added_or_subtracted() {
             };
             for step in &program.steps {
                 let Step::Let(value) = step else { continue };
-                let Some((terms, _)) = program.op(*value).and_then(Op::terms) else { continue };
-                assert!(!terms.iter().any(of_negatives), "{program:?}");
+                let Some(([a, b], minus)) = program.op(*value).and_then(Op::terms) else { continue };
+                assert!(!of_negatives(&b) && (minus || !of_negatives(&a)), "{program:?}");
                 sums += 1;
             }
         }
