@@ -182,9 +182,11 @@ fn no_sum_of_two_negatives_is_added_or_subtracted() {
         let linkage = compile(&sample(seed, KIND).text);
         for program in linkage.functions.scenes.iter().flat_map(|scene| [&scene.direct, &scene.from_pose]) {
             let uses = program.uses();
-            let is_inner = |value: &ValueId| uses[value.index()] == 1 && program.values[value.index()].label.is_none();
             let of_negatives = |sum: &ValueId| match program.op(*sum) {
-                Some(Op::Sub(b, _)) => [sum, b].into_iter().all(is_inner) && matches!(program.op(*b), Some(Op::Neg(_))),
+                Some(Op::Sub(b, _)) => {
+                    [sum, b].into_iter().all(|value| program.is_inner(*value, &uses))
+                        && matches!(program.op(*b), Some(Op::Neg(_)))
+                }
                 _ => false,
             };
             for step in &program.steps {

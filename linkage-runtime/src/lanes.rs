@@ -137,21 +137,17 @@ macro_rules! lanes {
                 }
                 crate::Series::Each(values) => {
                     let values = values.get(first..).unwrap_or_default();
+                    let mut lay = |lane: usize, value: T| {
+                        let parts = parts(value);
+                        for which in 0..PARTS {
+                            columns[which][lane] = parts[which];
+                        }
+                    };
                     // A whole block has a length that the compiler knows.
                     if let Some(values) = values.first_chunk::<BLOCK>() {
-                        for lane in 0..BLOCK {
-                            let parts = parts(values[lane]);
-                            for which in 0..PARTS {
-                                columns[which][lane] = parts[which];
-                            }
-                        }
+                        values.iter().enumerate().for_each(|(lane, value)| lay(lane, *value));
                     } else {
-                        for (lane, value) in values.iter().enumerate().take(BLOCK) {
-                            let parts = parts(*value);
-                            for which in 0..PARTS {
-                                columns[which][lane] = parts[which];
-                            }
-                        }
+                        values.iter().enumerate().take(BLOCK).for_each(|(lane, value)| lay(lane, *value));
                     }
                 }
             }

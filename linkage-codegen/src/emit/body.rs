@@ -117,12 +117,14 @@ impl<'a> Body<'a> {
     pub(super) fn straight(mut self) -> (Vec<TokenStream>, Vec<TokenStream>, Self) {
         self.checks = Checks::Gathered;
         let (statements, body) = self.each_statement();
-        let kernels: BTreeSet<(Kernel, Vec<ValueId>)> = body.kernels().collect();
-        let sines = kernels.into_iter().filter_map(|(kernel, args)| Some((body.is_short(kernel, &args)?, args)));
-        let (angles, args): (Vec<TokenStream>, Vec<Vec<ValueId>>) = sines.unzip();
+        let angles: BTreeSet<(Kernel, Vec<ValueId>)> = body.kernels().collect();
+        let angles = angles.into_iter().filter_map(|(kernel, args)| body.is_short(kernel, &args));
         // No angle is short that is not finite.
-        let args = || args.iter().flatten().copied();
-        let shown: BTreeSet<ValueId> = body.program.shown_by(args()).into_iter().chain(args()).collect();
+        let sines = body.program.steps.iter().filter_map(|step| match step {
+            Step::Let(value) => Some(*value).filter(|value| body.is_sine(*value)),
+            _ => None,
+        });
+        let shown = body.program.shown_by(sines);
         let checks = body.program.steps.iter().filter_map(|step| match step {
             Step::Let(_) => None,
             Step::Check { guard, .. } => {
@@ -152,6 +154,10 @@ impl<'a> Body<'a> {
             },
             _ => None,
         })
+    }
+
+    fn is_sine(&self, value: ValueId) -> bool {
+        matches!(self.program.op(value), Some(Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_), .. }))
     }
 
     /// The condition under which a sine and cosine need no branch.

@@ -258,6 +258,14 @@ impl<'m> Closing<'m> {
         if self.of_angle.is_some() { "sin μ".to_owned() } else { format!("{}K_{joint}", self.sign.text()) }
     }
 
+    /// `±D² + (r₁² − r₂²)` for both legs.
+    fn sums(&self, [r1, r2]: [Expr<'m>; 2]) -> [Expr<'m>; 2] {
+        self.sums.unwrap_or_else(|| {
+            let difference = (r1 - r2) * (r1 + r2);
+            [self.d2 + difference, difference - self.d2]
+        })
+    }
+
     /// The parts along and across d of a leg: its sum and K, each times the scale, which is named after something.
     fn parts(
         &self,
@@ -373,14 +381,7 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     let name = dyad.joint_name(dyad.inner);
     let [short, long] = by_length(lengths);
     let (leg, link) = (&dyad.legs[short], dyad.link_name(&dyad.legs[short]));
-    let [r1, r2] = lengths;
-    let sum = of_angle.map_or_else(
-        || {
-            let difference = (r1 - r2) * (r1 + r2);
-            dyad.name_sum(leg, if short == 0 { d2 + difference } else { difference - d2 }, "")
-        },
-        |known| known.sum,
-    );
+    let sum = of_angle.map_or_else(|| dyad.name_sum(leg, closing.sums(lengths)[short], ""), |known| known.sum);
     let scale =
         (d2.graph().constant(&Number::ratio(1, 2)) / d2).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
     let [along, across] = closing.parts(dyad, leg, sum, (scale, name, "the part"));
@@ -406,10 +407,7 @@ fn rough_directions<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 
     let Closing { d, d2, .. } = *closing;
     let name = dyad.joint_name(dyad.inner);
     let inverse = (d2.graph().one() / d2).named(format!("inverse_D2_{name}"), "");
-    let sums = closing.sums.unwrap_or_else(|| {
-        let difference = (r1 - r2) * (r1 + r2);
-        [d2 + difference, difference - d2]
-    });
+    let sums = closing.sums([r1, r2]);
     let [first, second] = &dyad.legs;
     [(first, r1, r2, sums[0]), (second, r2, r1, sums[1])].map(|(leg, own, other, sum)| {
         let link = dyad.link_name(leg);

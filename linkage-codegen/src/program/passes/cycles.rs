@@ -1,12 +1,34 @@
 //! How long values take to be known, in cycles of a usual processor that has whatever it takes to work on all of them at once.
 
 use crate::graph::{Kernel, Op, Symbol};
-use crate::program::{Definition, Input, Program, ValueId};
+use crate::program::{Definition, Input, Program, Step, ValueId};
 
-/// When a value is known, by when its operands are.
-pub(super) fn known(program: &Program, value: ValueId, ready: &[u32]) -> u32 {
-    let Some(op) = program.op(value) else { return 0 };
-    cycles(program, op) + op.operands().into_iter().map(|operand| ready[operand.index()]).max().unwrap_or(0)
+/// When each value is known: an input at once, what is computed after its operands.
+#[derive(Default)]
+pub(super) struct Ready(Vec<u32>);
+
+impl Ready {
+    pub(super) fn all(program: &Program) -> Self {
+        let mut ready = Self::default();
+        for step in &program.steps {
+            if let Step::Let(value) = step {
+                ready.compute(program, *value);
+            }
+        }
+        ready
+    }
+
+    pub(super) fn of(&self, value: ValueId) -> u32 {
+        self.0.get(value.index()).copied().unwrap_or(0)
+    }
+
+    /// Computes a value, its operands being computed.
+    pub(super) fn compute(&mut self, program: &Program, value: ValueId) {
+        let Some(op) = program.op(value) else { return };
+        let begin = op.operands().into_iter().map(|operand| self.of(operand)).max().unwrap_or(0);
+        self.0.resize(program.values.len(), 0);
+        self.0[value.index()] = begin + cycles(program, op);
+    }
 }
 
 /// How long an operation takes, in cycles of a usual processor. Only the order of sums of them matters. A change of sign takes none, and so

@@ -32,22 +32,14 @@ pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
 fn pairs_first(program: &Program, checked: &mut Vec<ValueId>) {
     checked.sort_unstable();
     let kind = |value: &ValueId| program.op(*value).map(core::mem::discriminant);
-    let (mut pairs, mut alone) = (Vec::new(), Vec::new());
-    let mut rest = checked.as_slice();
-    while let [first, others @ ..] = rest {
-        match others {
-            [second, others @ ..] if kind(first) == kind(second) => {
-                pairs.extend([*first, *second]);
-                rest = others;
-            }
-            _ => {
-                alone.push(*first);
-                rest = others;
-            }
-        }
+    let (mut all, mut alone) = (Vec::new(), Vec::new());
+    for alike in checked.chunk_by(|one, next| kind(one) == kind(next)) {
+        let pairs = alike.chunks_exact(2);
+        alone.extend(pairs.remainder());
+        all.extend(pairs.flatten());
     }
-    pairs.append(&mut alone);
-    *checked = pairs;
+    all.append(&mut alone);
+    *checked = all;
 }
 
 impl Program {

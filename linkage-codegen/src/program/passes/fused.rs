@@ -3,7 +3,7 @@
 //!
 //! Of two products the one that is known last is added to the other, which has been rounded by then.
 
-use super::cycles::known;
+use super::cycles::Ready;
 use crate::graph::{Graph, Kernel, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
@@ -12,7 +12,7 @@ pub(super) fn contract(mut program: Program, graph: &Graph) -> Program {
         return program;
     }
     let mut steps = Vec::new();
-    let mut ready = vec![0; program.values.len()];
+    let mut ready = Ready::default();
     for step in core::mem::take(&mut program.steps) {
         let done = steps.len();
         if let Step::Let(value) = step
@@ -22,10 +22,9 @@ pub(super) fn contract(mut program: Program, graph: &Graph) -> Program {
             program.values[value.index()].definition = Definition::Computed(op);
         }
         steps.push(step);
-        ready.resize(program.values.len(), 0);
         for step in steps.iter().skip(done) {
             if let Step::Let(value) = step {
-                ready[value.index()] = known(&program, *value, &ready);
+                ready.compute(&program, *value);
             }
         }
     }
@@ -38,14 +37,14 @@ fn operands(
     program: &mut Program,
     graph: &Graph,
     sum: ValueId,
-    (ready, steps): (&[u32], &mut Vec<Step>),
+    (ready, steps): (&Ready, &mut Vec<Step>),
 ) -> Option<[ValueId; 3]> {
     let ([a, b], minus) = program.op(sum)?.terms()?;
     let product = |value: ValueId| match program.op(value) {
         Some(Op::Mul(x, y)) if program.value(value).label.is_none() => Some((*x, *y)),
         _ => None,
     };
-    let second = product(b).filter(|_| product(a).is_none() || ready[b.index()] > ready[a.index()]);
+    let second = product(b).filter(|_| product(a).is_none() || ready.of(b) > ready.of(a));
     Some(match (product(a), second, minus) {
         (_, Some((x, y)), false) => [x, y, a],
         (_, Some((x, y)), true) => [negative(program, graph, x, steps), y, a],

@@ -7,15 +7,15 @@
 
 use std::collections::BTreeMap;
 
-use super::cycles::{cycles, known};
+use super::cycles::{Ready, cycles};
 use crate::graph::number::Number;
 use crate::graph::{Graph, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn multiply_last(program: Program, graph: &Graph) -> Program {
     let (uses, spare) = (program.uses(), spare(&program));
-    let ready = vec![0; program.values.len()];
-    let mut ordering = Ordering { graph, program, uses, spare, ready, multiples: BTreeMap::new(), steps: Vec::new() };
+    let (ready, multiples) = (Ready::default(), BTreeMap::new());
+    let mut ordering = Ordering { graph, program, uses, spare, ready, multiples, steps: Vec::new() };
     for step in core::mem::take(&mut ordering.program.steps) {
         if let Step::Let(value) = step {
             ordering.improve(value);
@@ -30,13 +30,9 @@ pub(super) fn multiply_last(program: Program, graph: &Graph) -> Program {
 
 /// How much later each value could be known without a result being known later than the last one is.
 fn spare(program: &Program) -> Vec<u32> {
-    let mut ready = vec![0; program.values.len()];
-    for step in &program.steps {
-        if let Step::Let(value) = step {
-            ready[value.index()] = known(program, *value, &ready);
-        }
-    }
-    let last = ready.iter().copied().max().unwrap_or(0);
+    let ready = Ready::all(program);
+    let values = || (0..program.values.len()).map(ValueId::new);
+    let last = values().map(|value| ready.of(value)).max().unwrap_or(0);
     let mut latest = vec![last; program.values.len()];
     for step in program.steps.iter().rev() {
         if let Step::Let(value) = step {
@@ -46,7 +42,7 @@ fn spare(program: &Program) -> Vec<u32> {
             }
         }
     }
-    latest.iter().zip(&ready).map(|(latest, ready)| latest.saturating_sub(*ready)).collect()
+    latest.iter().zip(values()).map(|(latest, value)| latest.saturating_sub(ready.of(value))).collect()
 }
 
 /// What is spare by less than this, little more than an operation, is on the longest way.
@@ -58,8 +54,7 @@ struct Ordering<'g> {
     uses: Vec<usize>,
     /// How long each could be waited for. New values have none: they stand within others.
     spare: Vec<u32>,
-    /// When each value is known.
-    ready: Vec<u32>,
+    ready: Ready,
     /// The multiples by constants that others may use, by what they are multiples of.
     multiples: BTreeMap<ValueId, Vec<(Number, ValueId)>>,
     steps: Vec<Step>,
@@ -232,14 +227,13 @@ impl Ordering<'_> {
     }
 
     fn ready(&self, value: ValueId) -> u32 {
-        self.ready[value.index()]
+        self.ready.of(value)
     }
 
     /// A value that is new, computed here.
     fn add(&mut self, op: Op<ValueId>, beside: ValueId) -> ValueId {
         let operands = op.operands();
         let value = self.program.add(op, beside);
-        self.ready.resize(self.program.values.len(), 0);
         self.uses.resize(self.program.values.len(), 0);
         self.read(&operands);
         self.compute(value);
@@ -273,7 +267,7 @@ impl Ordering<'_> {
 
     fn compute(&mut self, value: ValueId) {
         self.steps.push(Step::Let(value));
-        self.ready[value.index()] = known(&self.program, value, &self.ready);
+        self.ready.compute(&self.program, value);
         if self.program.value(value).label.is_some() {
             self.remember(value);
         }

@@ -19,17 +19,15 @@ use crate::graph::{Graph, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 12] = [
+pub const PASSES: [(&str, Pass); 10] = [
     ("pivots", pivots::compare_directly),
     ("reciprocals", reciprocals::share),
     ("constants", constants::merge),
     ("unused", unused::remove),
     ("signs", signs::absorb),
-    ("unused", unused::remove),
     ("constants at reciprocals", constants::multiply_reciprocals),
     ("late", late::multiply_last),
     ("signs", signs::absorb),
-    ("unused", unused::remove),
     ("finite", finite::check_once),
     ("fused", fused::contract),
 ];
@@ -56,7 +54,8 @@ impl Program {
     }
 
     /// Whether only one other value reads it, and it has no name of its own.
-    fn is_inner(&self, value: ValueId, uses: &[usize]) -> bool {
+    #[must_use]
+    pub fn is_inner(&self, value: ValueId, uses: &[usize]) -> bool {
         uses.get(value.index()) == Some(&1) && self.value(value).label.is_none()
     }
 }
@@ -64,7 +63,7 @@ impl Program {
 /// A program after the passes that leave every bit of its results as it is.
 #[must_use]
 pub fn exact(program: Program, graph: &Graph) -> Program {
-    unused::remove(signs::absorb(program, graph), graph)
+    signs::absorb(program, graph)
 }
 
 /// A program after all passes.

@@ -37,18 +37,19 @@ pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
         steps.push(step);
     }
     program.steps = steps;
-    without_negative_constants(program, graph)
+    super::unused::remove(without_negative_constants(program, graph), graph)
 }
 
 /// `a ± (−b − c)` as `a ∓ (b + c)`.
 fn take_negative_sum(program: &mut Program, value: ValueId, uses: &[usize]) {
-    let Some(([a, sum], minus)) = program.op(value).and_then(Op::terms) else { return };
-    let [a, sum] = if !minus && program.negative_terms(sum, uses).is_none() { [sum, a] } else { [a, sum] };
-    if let Some([b, c]) = program.negative_terms(sum, uses) {
-        program.values[sum.index()].definition = Definition::Computed(Op::Add(b, c));
-        program.values[value.index()].definition =
-            Definition::Computed(if minus { Op::Add(a, sum) } else { Op::Sub(a, sum) });
-    }
+    let Some(([first, second], minus)) = program.op(value).and_then(Op::terms) else { return };
+    let ([b, c], sum, a) = match [first, second].map(|term| program.negative_terms(term, uses)) {
+        [_, Some(terms)] => (terms, second, first),
+        [Some(terms), None] if !minus => (terms, first, second),
+        _ => return,
+    };
+    program.values[sum.index()].definition = Definition::Computed(Op::Add(b, c));
+    program.values[value.index()].definition = Definition::Computed(Op::of_terms([a, sum], !minus));
 }
 
 impl Program {
