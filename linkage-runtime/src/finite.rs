@@ -13,9 +13,9 @@ macro_rules! finite {
         #[must_use]
         pub fn all_finite<const N: usize>(values: [$scalar; N]) -> bool {
             match values.as_slice() {
-                // In a register of its kind: one for integers, kept for this from the check of the angle on, would have to be saved.
+                // In registers of their kind: one for integers, kept for this from the check of the angle on, would have to be saved.
                 [value] => return value.abs() <= $scalar::MAX,
-                [_, _] => return each_finite(values),
+                [one, other] => return (one.abs() <= $scalar::MAX) & (other.abs() <= $scalar::MAX),
                 _ => {}
             }
             let (mut marks, mut rest) = ($crate::finite::registers::none(), values.as_slice());

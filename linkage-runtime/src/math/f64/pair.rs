@@ -5,9 +5,8 @@
 #[cfg(target_feature = "fma")]
 use core::arch::x86_64::_mm_fmadd_pd;
 use core::arch::x86_64::{
-    __m128d, _mm_add_epi64, _mm_add_pd, _mm_and_si128, _mm_castpd_si128, _mm_castsi128_pd, _mm_cvtsd_f64, _mm_mul_pd,
-    _mm_set_epi64x, _mm_set_pd, _mm_set1_epi64x, _mm_set1_pd, _mm_setzero_si128, _mm_shuffle_epi32, _mm_slli_epi64,
-    _mm_sub_epi64, _mm_sub_pd, _mm_unpackhi_pd, _mm_unpacklo_pd, _mm_xor_pd, _mm_xor_si128,
+    __m128d, _mm_add_pd, _mm_and_pd, _mm_cvtsd_f64, _mm_loadu_pd, _mm_mul_pd, _mm_or_pd, _mm_set_pd, _mm_set_sd,
+    _mm_set1_pd, _mm_shuffle_pd, _mm_sub_pd, _mm_unpackhi_pd, _mm_unpacklo_pd, _mm_xor_pd,
 };
 
 #[cfg(target_feature = "fma")]
@@ -27,7 +26,7 @@ pub(super) fn sin_cos(reduced: Reduced) -> (f64, f64) {
 #[inline]
 #[target_feature(enable = "sse2")]
 fn in_halves(Reduced { quadrant, y, t }: Reduced) -> (f64, f64) {
-    let y2 = _mm_set1_pd(y);
+    let y2 = twice(y);
     let z = _mm_mul_pd(y2, y2);
     let z2 = _mm_mul_pd(z, z);
     let half = 0.5 * _mm_cvtsd_f64(z);
@@ -38,7 +37,7 @@ fn in_halves(Reduced { quadrant, y, t }: Reduced) -> (f64, f64) {
     let p2 = _mm_add_pd(both(s4, -c4), _mm_mul_pd(z, both(s5, -c5)));
     let p = _mm_add_pd(_mm_add_pd(p0, _mm_mul_pd(z2, p1)), _mm_mul_pd(_mm_mul_pd(z2, z2), p2));
     let first = _mm_mul_pd(z, _mm_unpacklo_pd(y2, z));
-    let tail = _mm_mul_pd(_mm_xor_pd(_mm_set1_pd(t), both(0.0, -0.0)), both(w, y));
+    let tail = _mm_mul_pd(_mm_xor_pd(_mm_set1_pd(t), both(0.0, -0.0)), _mm_shuffle_pd::<0b10>(_mm_set_sd(w), y2));
     // −0 changes no number that it is added to.
     let tail = _mm_add_pd(both(-0.0, half - (1.0 - w)), tail);
     let small = _mm_add_pd(_mm_mul_pd(first, p), tail);
@@ -59,7 +58,7 @@ pub(super) fn fused_sin_cos(reduced: Reduced) -> (f64, f64) {
 #[inline]
 #[target_feature(enable = "sse2,fma")]
 fn fused_in_halves(Reduced { quadrant, y, t }: Reduced) -> (f64, f64) {
-    let y2 = _mm_set1_pd(y);
+    let y2 = twice(y);
     let z = _mm_mul_pd(y2, y2);
     let z2 = _mm_mul_pd(z, z);
     let square = _mm_cvtsd_f64(z);
@@ -74,19 +73,52 @@ fn fused_in_halves(Reduced { quadrant, y, t }: Reduced) -> (f64, f64) {
     turned(quadrant, _mm_sub_pd(both(y, w), _mm_fmadd_pd(first, p, rest)))
 }
 
+/// What a quadrant does to sine and cosine, in bits: which keep their places, which change them, which are negated. From a table, because
+/// what is read takes none of the units that calculate.
+#[repr(align(16))]
+struct Turn {
+    kept: [u64; 2],
+    exchanged: [u64; 2],
+    negated: [u64; 2],
+}
+
+const BOTH: [u64; 2] = [u64::MAX; 2];
+const NEITHER: [u64; 2] = [0; 2];
+const MINUS: u64 = 1 << 63;
+
+static TURNS: [Turn; 4] = [
+    Turn { kept: BOTH, exchanged: NEITHER, negated: [0, 0] },
+    Turn { kept: NEITHER, exchanged: BOTH, negated: [0, MINUS] },
+    Turn { kept: BOTH, exchanged: NEITHER, negated: [MINUS, MINUS] },
+    Turn { kept: NEITHER, exchanged: BOTH, negated: [MINUS, 0] },
+];
+
 /// Sine and cosine of the reduced angle, exchanged and negated as the quadrant says.
 #[inline]
 #[target_feature(enable = "sse2")]
 fn turned(quadrant: u64, found: __m128d) -> (f64, f64) {
-    let found = _mm_castpd_si128(found);
-    let quadrant = _mm_castpd_si128(_mm_set1_pd(f64::from_bits(quadrant)));
-    let odd = _mm_sub_epi64(_mm_setzero_si128(), _mm_and_si128(quadrant, _mm_set1_epi64x(1)));
-    let exchange = _mm_and_si128(_mm_xor_si128(found, _mm_shuffle_epi32::<0b01_00_11_10>(found)), odd);
-    // Of the sine in the second half of the turn, of the cosine a quarter of a turn before.
-    let sign = _mm_slli_epi64::<62>(_mm_add_epi64(quadrant, _mm_set_epi64x(1, 0)));
-    let sign = _mm_and_si128(sign, _mm_set1_epi64x(i64::MIN));
-    let turned = _mm_castsi128_pd(_mm_xor_si128(_mm_xor_si128(found, sign), exchange));
+    let Turn { kept, exchanged, negated } = &TURNS[(quadrant & 3) as usize];
+    let other = _mm_shuffle_pd::<0b01>(found, found);
+    let turned = _mm_or_pd(_mm_and_pd(found, bits(kept)), _mm_and_pd(other, bits(exchanged)));
+    let turned = _mm_xor_pd(turned, bits(negated));
     (_mm_cvtsd_f64(turned), _mm_cvtsd_f64(_mm_unpackhi_pd(turned, turned)))
+}
+
+#[inline]
+#[target_feature(enable = "sse2")]
+fn bits(of: &[u64; 2]) -> __m128d {
+    // SAFETY: sixteen bytes are read of sixteen, wherever they stand.
+    unsafe { _mm_loadu_pd(core::ptr::from_ref(of).cast()) }
+}
+
+/// A number in both halves, unknown to the compiler, which would calculate squares of the number alone and spread each over a register.
+#[inline]
+#[target_feature(enable = "sse2")]
+fn twice(number: f64) -> __m128d {
+    let mut halves = _mm_set1_pd(number);
+    // SAFETY: no instruction at all.
+    unsafe { core::arch::asm!("/* {0} */", inout(xmm_reg) halves, options(pure, nomem, nostack, preserves_flags)) };
+    halves
 }
 
 /// A number in each half, the first in the lower.
