@@ -266,18 +266,9 @@ impl<'m> Closing<'m> {
         })
     }
 
-    /// The parts along and across d of a leg: its sum and K, each times the scale, which is named after something.
-    fn parts(
-        &self,
-        dyad: &Dyad<'_>,
-        leg: &Leg,
-        sum: Expr<'m>,
-        (scale, of, part): (Expr<'m>, &str, &str),
-    ) -> [Expr<'m>; 2] {
-        let (link, root) = (dyad.link_name(leg), self.root(dyad.joint_name(dyad.inner)));
-        let along = (sum * scale).named(format!("along_{link}"), format!("sum_{link} · scale_{of}, {part} along d"));
-        let across = self.k * scale;
-        [along, across.named(format!("across_{link}"), format!("{root} · scale_{of}, the part across d"))]
+    /// The sum of a leg along e and K across it: with `e = d/(2D²)` the vector along the leg, with half of that over r its direction.
+    fn resolved(&self, sum: Expr<'m>, e: Vector<'m>) -> Vector<'m> {
+        e.scaled(sum) + e.perp().scaled(self.k)
     }
 }
 
@@ -378,27 +369,36 @@ fn lead_by_arms(r1: Expr<'_>, r2: Expr<'_>) -> bool {
 fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     let lengths = dyad.lengths();
     let Closing { d, d2, of_angle, .. } = *closing;
-    let name = dyad.joint_name(dyad.inner);
+    let (graph, name) = (d2.graph(), dyad.joint_name(dyad.inner));
+    let half = || graph.constant(&Number::ratio(1, 2));
     let [short, long] = by_length(lengths);
-    let (leg, link) = (&dyad.legs[short], dyad.link_name(&dyad.legs[short]));
+    let (leg, far) = (&dyad.legs[short], &dyad.legs[long]);
+    let (link, other) = (dyad.link_name(leg), dyad.link_name(far));
     let sum = of_angle.map_or_else(|| dyad.name_sum(leg, closing.sums(lengths)[short], ""), |known| known.sum);
-    let scale =
-        (d2.graph().constant(&Number::ratio(1, 2)) / d2).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
-    let [along, across] = closing.parts(dyad, leg, sum, (scale, name, "the part"));
-    let mut vectors = [d; 2];
-    vectors[short] = (d.scaled(along) + d.perp().scaled(across)).named(
+    let scale = (half() / d2).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
+    let e = d.scaled(scale).named(&format!("e_{name}"), &format!("scale_{name} d"));
+    let root = closing.root(name);
+    let arm = closing.resolved(sum, e).named(
         &format!("arm_{link}"),
-        &format!("from {} to {name}: along_{link} d + across_{link} d⊥", dyad.joint_name(leg.outer)),
+        &format!("from {} to {name}: sum_{link} e + {root} e⊥", dyad.joint_name(leg.outer)),
     );
-    let (far, other) = (&dyad.legs[long], dyad.link_name(&dyad.legs[long]));
-    let (sign, difference) = if short == 0 { ('−', vectors[short] - d) } else { ('+', vectors[short] + d) };
-    vectors[long] = difference
+    let (sign, difference) = if short == 0 { ('−', arm - d) } else { ('+', arm + d) };
+    let far_arm = difference
         .named(&format!("arm_{other}"), &format!("from {} to {name}: arm_{link} {sign} d", dyad.joint_name(far.outer)));
+    let mut vectors = [arm; 2];
+    vectors[long] = far_arm;
     let unit = |index: usize| {
         let (link, length) = (dyad.link_name(&dyad.legs[index]), dyad.length_name(&dyad.legs[index]));
         scaled_to_unit(vectors[index], lengths[index], &link, &length)
     };
     [unit(0), unit(1)]
+}
+
+/// One step towards unit size of a vector that has nearly the given length: `u = v (3 − v·v/r²)/(2r)`.
+fn scaled_to_unit<'m>(arm: Vector<'m>, length: Expr<'m>, link: &str, name: &str) -> Vector<'m> {
+    let half = |n: i64| arm.graph().constant(&Number::ratio(n, 2));
+    let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
+    arm.scaled(factor.named(format!("unit_{link}"), format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}")))
 }
 
 /// The directions of both legs, each by itself: for lengths that are not known before run time, or that differ by far.
@@ -414,9 +414,10 @@ fn rough_directions<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 
         let sum = dyad.name_sum(leg, sum, "");
         let scale = inverse / (2 * own);
         let scale = scale.named(format!("scale_{link}"), format!("1/(2 {} D2_{name})", dyad.length_name(leg)));
-        let [along, across] = closing.parts(dyad, leg, sum, (scale, &link, "the part of the direction"));
-        let rough = d.scaled(along) + d.perp().scaled(across);
-        let rough = rough.named_direction(&format!("rough_{link}"), &format!("along_{link} d + across_{link} d⊥"));
+        let e = d.scaled(scale).named(&format!("e_{link}"), &format!("scale_{link} d"));
+        let rough = closing.resolved(sum, e);
+        let rough =
+            rough.named_direction(&format!("rough_{link}"), &format!("sum_{link} e + {} e⊥", closing.root(name)));
         normalised(rough, own, other, &link)
     })
 }
@@ -578,13 +579,6 @@ fn reach<'m>(way: &Way<'m>) -> (Option<Expr<'m>>, Option<Expr<'m>>) {
     let least = longest.mul(&Number::integer(2)).sub(&sum);
     let least = if least.signum() < 0 { Number::zero() } else { least };
     (Some(graph.constant(&least)), Some(graph.constant(&sum)))
-}
-
-/// One step towards unit size of a vector that has nearly the given length: `u = v (3 − v·v/r²)/(2r)`.
-fn scaled_to_unit<'m>(arm: Vector<'m>, length: Expr<'m>, link: &str, name: &str) -> Vector<'m> {
-    let half = |n: i64| arm.graph().constant(&Number::ratio(n, 2));
-    let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
-    arm.scaled(factor.named(format!("unit_{link}"), format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}")))
 }
 
 /// One step towards unit size, which squares the error; for legs so different that this does not suffice, by root and division.

@@ -1,16 +1,18 @@
-//! Constant factors are brought together: `(k₁ x)(k₂ y) = (k₁k₂)(x y)`, `k (a x ± b y) = (ka) x ± (kb) y`, and `k ((a x)/y) = ((ka) x)/y`,
-//! where nothing else reads the inner values. The constants are multiplied exactly and rounded once, and go to a reciprocal where there
+//! Constant factors are brought together: `(k₁ x)(k₂ y) = (k₁k₂)(x y)`, `k (a x ± b y) = (ka) x ± (kb) y`, `k ((a x)/y) = ((ka) x)/y` and
+//! `(a x)/(k y) = ((a/k) x)/y`, where nothing else reads the inner values. The constants are multiplied exactly and rounded once, and go to a reciprocal where there
 //! is one.
 
 use std::collections::BTreeMap;
 
+use super::cycles::is_side;
 use crate::graph::number::Number;
 use crate::graph::{Graph, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn merge(program: Program, graph: &Graph) -> Program {
     let uses = program.uses();
-    let mut merging = Merging { uses, graph, before: BTreeMap::new(), program };
+    let reads = reads(&program);
+    let mut merging = Merging { uses, reads, graph, before: BTreeMap::new(), program };
     let order: Vec<ValueId> = merging
         .program
         .steps
@@ -21,6 +23,18 @@ pub(super) fn merge(program: Program, graph: &Graph) -> Program {
         merging.value(value);
     }
     merging.finish()
+}
+
+/// How often each value is read by others than checks.
+fn reads(program: &Program) -> Vec<usize> {
+    let values =
+        program.steps.iter().filter_map(|step| if let Step::Let(value) = step { program.op(*value) } else { None });
+    let operands = values.filter(|op| !matches!(op, Op::Abs(_))).flat_map(Op::operands);
+    let mut reads = vec![0; program.values.len()];
+    for value in operands.chain(program.outputs.iter().map(|(_, value)| *value)) {
+        reads[value.index()] += 1;
+    }
+    reads
 }
 
 /// `k (x (1/y))` as `x (k (1/y))`: the reciprocal is known before x, which then waits for one product less.
@@ -49,6 +63,8 @@ struct Merging<'g> {
     program: Program,
     graph: &'g Graph,
     uses: Vec<usize>,
+    /// How often each is read by other values and as a result, not counting checks and absolute values, which are for them.
+    reads: Vec<usize>,
     /// New values, with the old one before which each is computed.
     before: BTreeMap<ValueId, Vec<ValueId>>,
 }
@@ -78,8 +94,72 @@ impl Merging<'_> {
                 let Some(k) = self.constant(k) else { return };
                 self.constant_times(value, &k, x);
             }
+            // Whether a check reads it too may depend on when a side is given: bits do not.
+            Op::Div(dividend, divisor) if self.reads.get(divisor.index()) == Some(&1) => {
+                if let Some((k, rest)) = self.multiple_within(divisor)
+                    && let Some(dividend) = self.divided(value, &k, dividend)
+                {
+                    let divisor = rest.unwrap_or_else(|op| self.add(value, op));
+                    self.program.values[value.index()].definition = Definition::Computed(Op::Div(dividend, divisor));
+                }
+            }
             _ => {}
         }
+    }
+
+    /// The constant of a multiple, perhaps of either sign: beside it what is left, or the operation that leads to it.
+    fn multiple_within(&self, value: ValueId) -> Option<(Number, Result<ValueId, Op<ValueId>>)> {
+        if let Some((k, rest)) = self.scaled(value) {
+            return Some((k, Ok(rest)));
+        }
+        let within = |inner: ValueId| if self.is_read_once(inner) { self.scaled(inner) } else { None };
+        match *self.program.op(value)? {
+            Op::Neg(inner) => within(inner).map(|(k, rest)| (k, Err(Op::Neg(rest)))),
+            Op::Mul(side, inner) if is_side(&self.program, side) => {
+                within(inner).map(|(k, rest)| (k, Err(Op::Mul(side, rest))))
+            }
+            _ => None,
+        }
+    }
+
+    /// `x/k` for an x that is a constant or has a constant factor, which takes no operation more.
+    fn divided(&mut self, before: ValueId, k: &Number, x: ValueId) -> Option<ValueId> {
+        if let Some(constant) = self.constant(x) {
+            return Some(self.number(before, &constant.div(k)?));
+        }
+        if !self.is_read_once(x) {
+            return None;
+        }
+        if let Some((own, rest)) = self.scaled(x) {
+            let quotient = own.div(k)?;
+            return Some(if quotient.is_one() {
+                rest
+            } else if quotient.neg().is_one() {
+                self.another(x, Op::Neg(rest))
+            } else {
+                let factor = self.number(before, &quotient);
+                self.another(x, Op::Mul(factor, rest))
+            });
+        }
+        let op = match self.program.op(x).filter(|_| self.is_inner(x)).cloned()? {
+            Op::Neg(a) => Op::Neg(self.divided(before, k, a)?),
+            Op::Mul(a, b) => {
+                [(a, b), (b, a)].into_iter().find_map(|(a, b)| Some(Op::Mul(self.divided(before, k, a)?, b)))?
+            }
+            _ => return None,
+        };
+        Some(self.another(x, op))
+    }
+
+    /// Another value in the place of one that nothing else reads, so without its name.
+    fn another(&mut self, value: ValueId, op: Op<ValueId>) -> ValueId {
+        let own = &mut self.program.values[value.index()];
+        (own.definition, own.label) = (Definition::Computed(op), None);
+        value
+    }
+
+    fn is_read_once(&self, value: ValueId) -> bool {
+        self.uses.get(value.index()) == Some(&1)
     }
 
     /// Takes constants out of both factors.

@@ -31,6 +31,9 @@ impl Ready {
     }
 }
 
+/// How long a product takes.
+pub(super) const PRODUCT: u32 = 4;
+
 /// How long an operation takes, in cycles of a usual processor. Only the order of sums of them matters. A change of sign takes none, and so
 /// does a side that is given at run time, so that its code is that of the same side in the declaration.
 pub(super) fn cycles(program: &Program, op: &Op<ValueId>) -> u32 {
@@ -39,12 +42,12 @@ pub(super) fn cycles(program: &Program, op: &Op<ValueId>) -> u32 {
         Op::Mul(side, _) if is_side(program, *side) => 0,
         Op::Div(..) => 14,
         Op::Sqrt(_) => 18,
-        Op::Kernel { kernel: Kernel::MulAdd, .. } => 4,
+        Op::Kernel { kernel: Kernel::MulAdd, .. } => PRODUCT,
         Op::Kernel { .. } => 60,
-        _ => 4,
+        _ => PRODUCT,
     }
 }
 
-fn is_side(program: &Program, value: ValueId) -> bool {
+pub(super) fn is_side(program: &Program, value: ValueId) -> bool {
     matches!(program.value(value).definition, Definition::Input(Input::Symbol(Symbol::Side(_))))
 }

@@ -2,12 +2,13 @@
 //! after all the others, as what brings a vector to unit size is; then `k (f x) = f (k x)`. It is a product less where nothing else reads
 //! `f a` and `f b`, and a product more where something does: that is spent on the longest way to the results only.
 //!
-//! And nothing that is known last waits for a constant: `k (a x ± b y) = (k a) x ± (k b) y`, where `x` and `y` are known last and a multiple
-//! of `a` or `b` by `k` is there already, under a name.
+//! And nothing that is known last waits for a constant: `k (a x ± b y) = (k a) x ± (k b) y`, where a multiple by `k` of a factor is there
+//! already, under a name. It is a product less where there is one for both terms; on the longest way one is enough, and in the other term
+//! the factor is multiplied that is known first.
 
 use std::collections::BTreeMap;
 
-use super::cycles::{Ready, cycles};
+use super::cycles::{PRODUCT, Ready, cycles};
 use crate::graph::number::Number;
 use crate::graph::{Graph, Op};
 use crate::program::{Definition, Program, Step, ValueId};
@@ -75,6 +76,15 @@ struct Factor {
     beside: ValueId,
 }
 
+/// The factor of a product that is multiplied by a constant, what stands beside it, and the multiple if it is there, perhaps as its
+/// opposite.
+#[derive(Clone, Copy)]
+struct Scaled {
+    factor: ValueId,
+    other: ValueId,
+    there: Option<(ValueId, bool)>,
+}
+
 impl Ordering<'_> {
     fn improve(&mut self, value: ValueId) {
         match self.program.op(value).cloned() {
@@ -92,8 +102,7 @@ impl Ordering<'_> {
         let Some(Products { terms, minus }) = self.products(value) else { return };
         let Some([first, second]) = self.common_factor(terms) else { return };
         let saves = [first, second].iter().all(|factor| self.uses[factor.product.index()] == 1);
-        let is_on_the_longest_way = self.spare.get(value.index()).is_some_and(|spare| *spare < SHORT);
-        if !(saves || is_on_the_longest_way) {
+        if !(saves || self.is_on_the_longest_way(value)) {
             return;
         }
         for (term, factor) in terms.into_iter().zip([first, second]) {
@@ -103,6 +112,10 @@ impl Ordering<'_> {
         }
         let inner = self.add(Op::of_terms(terms, minus), value);
         self.define(value, Op::Mul(first.late, inner));
+    }
+
+    fn is_on_the_longest_way(&self, value: ValueId) -> bool {
+        self.spare.get(value.index()).is_some_and(|spare| *spare < SHORT)
     }
 
     /// The factor that two products have within one of their factors each, if it is known last.
@@ -151,24 +164,27 @@ impl Ordering<'_> {
         else {
             return;
         };
-        let Some(factors) = self.early_and_late(terms) else { return };
-        let there = factors.map(|[early, _]| self.multiple(&number, early));
-        if there.iter().all(Option::is_none) {
+        let scaled = terms.map(|term| self.scaled_factor(&number, term));
+        let [Some(first), Some(second)] = scaled else { return };
+        let there = [first, second].iter().filter(|factor| factor.there.is_some()).count();
+        if there == 0 || there == 1 && !self.is_on_the_longest_way(value) {
             return;
         }
         let mut negative = [false, minus];
-        for (((term, [early, late]), there), negative) in terms.into_iter().zip(factors).zip(there).zip(&mut negative) {
+        for ((term, Scaled { factor, other, there }), negative) in
+            terms.into_iter().zip([first, second]).zip(&mut negative)
+        {
             let multiple = if let Some((multiple, is_opposite)) = there {
                 *negative ^= is_opposite;
                 multiple
             } else {
                 *negative ^= number.signum() < 0;
                 let size = self.program.add_constant(self.graph, &number.abs(), term);
-                let multiple = self.add(Op::Mul(size, early), term);
+                let multiple = self.add(Op::Mul(size, factor), term);
                 self.remember(multiple);
                 multiple
             };
-            self.compute_here(term, Op::Mul(multiple, late));
+            self.compute_here(term, Op::Mul(multiple, other));
         }
         let [p, q] = terms;
         let op = match negative {
@@ -180,15 +196,18 @@ impl Ordering<'_> {
         self.define(value, op);
     }
 
-    /// The factors of both products, if in both one is known before the other.
-    fn early_and_late(&self, terms: [ValueId; 2]) -> Option<[[ValueId; 2]; 2]> {
-        let of = |term: ValueId| match self.program.op(term) {
-            Some(Op::Mul(a, b)) if self.ready(*a) < self.ready(*b) => Some([*a, *b]),
-            Some(Op::Mul(a, b)) if self.ready(*b) < self.ready(*a) => Some([*b, *a]),
-            _ => None,
-        };
-        let [first, second] = terms;
-        Some([of(first)?, of(second)?])
+    /// Which factor of a product to multiply by `k`: one of which that multiple is there by the time that it could be, or else the one that
+    /// is known first.
+    fn scaled_factor(&self, k: &Number, product: ValueId) -> Option<Scaled> {
+        let Some(Op::Mul(a, b)) = self.program.op(product) else { return None };
+        let ways = [(*a, *b), (*b, *a)];
+        let there = ways.into_iter().find_map(|(factor, other)| {
+            let (multiple, is_opposite) = self.multiple(k, factor)?;
+            let in_time = self.ready(multiple) <= self.ready(factor).max(self.ready(other)) + PRODUCT;
+            in_time.then_some(Scaled { factor, other, there: Some((multiple, is_opposite)) })
+        });
+        let [(factor, other), _] = if self.ready(*a) < self.ready(*b) { ways } else { [ways[1], ways[0]] };
+        there.or((self.ready(factor) < self.ready(other)).then_some(Scaled { factor, other, there: None }))
     }
 
     /// A value that is `k` times another, and whether it is the negative of that, if there is one.

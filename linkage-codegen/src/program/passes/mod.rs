@@ -46,7 +46,8 @@ impl Program {
     }
 
     /// What a constant is.
-    pub(crate) fn constant(&self, graph: &Graph, value: ValueId) -> Option<Number> {
+    #[must_use]
+    pub fn constant(&self, graph: &Graph, value: ValueId) -> Option<Number> {
         match self.op(value) {
             Some(Op::Constant(number)) => Some(graph.number(*number)),
             _ => None,
