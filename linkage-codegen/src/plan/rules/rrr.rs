@@ -8,9 +8,10 @@
 //! u₂ = [−(D² − r₁² + r₂²) d + K d⊥] / (2 r₂ D²)                      direction Q → B
 //! ```
 //!
-//! as `sum e ± K e⊥` of `e = d/(2D²)`, which does not wait for the root, each followed by one step `u ← u (3 − u·u)/2` towards unit size. `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near
-//! its zeros the closure knows it better than the directions do. Where the lengths are constants of the same order, the vector along the
-//! longer link is that along the shorter one and d, `r₁u₁ − r₂u₂ = d`, and the step divides by the length too.
+//! each as `±sum e + K e⊥` by `e = d/(2D²)`, which does not wait for the root, and followed by one step `u ← u (3 − u·u)/2` towards unit
+//! size. `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros the closure knows it better than the directions do.
+//! Where the lengths are constants of the same order, the vector along the longer link is that along the shorter one and d,
+//! `r₁u₁ − r₂u₂ = d`, and the step divides by the length too.
 //!
 //! Where moreover a driven angle ψ opens the outer pins, `D² = (b − a)² + 4ab sin²(ψ/2)`, all areas are divided when the linkage is
 //! compiled, so that the root is `sin μ` at once: by `2 r₁ r₂`, or at a fold so that `cos(ψ/2)` or `sin(ψ/2)` is left of the one margin and
