@@ -267,9 +267,18 @@ impl<'m> Closing<'m> {
         })
     }
 
-    /// The sum of a leg along e and K across it: with `e = d/(2D²)` the vector along the leg, with half of that over r its direction.
+    /// The sum of a leg along e and K across it: with `e = d/(2D²)` the vector along the leg, with that over r its direction.
     fn resolved(&self, sum: Expr<'m>, e: Vector<'m>) -> Vector<'m> {
         e.scaled(sum) + e.perp().scaled(self.k)
+    }
+
+    /// The same as text.
+    fn resolved_text(&self, link: &str, joint: &str) -> String {
+        let root = self.root(joint);
+        match root.strip_prefix('−') {
+            Some(root) => format!("sum_{link} e − {root} e⊥"),
+            None => format!("sum_{link} e + {root} e⊥"),
+        }
     }
 }
 
@@ -378,10 +387,13 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     let sum = of_angle.map_or_else(|| dyad.name_sum(leg, closing.sums(lengths)[short], ""), |known| known.sum);
     let scale = (half() / d2).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
     let e = d.scaled(scale).named(&format!("e_{name}"), &format!("scale_{name} d"));
-    let root = closing.root(name);
     let arm = closing.resolved(sum, e).named(
         &format!("arm_{link}"),
-        &format!("from {} to {name}: sum_{link} e + {root} e⊥", dyad.joint_name(leg.outer)),
+        &format!(
+            "from {} to {name}: {}, e = d/(2 D2_{name})",
+            dyad.joint_name(leg.outer),
+            closing.resolved_text(&link, name)
+        ),
     );
     let (sign, difference) = if short == 0 { ('−', arm - d) } else { ('+', arm + d) };
     let far_arm = difference
@@ -411,14 +423,15 @@ fn rough_directions<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 
     let sums = closing.sums([r1, r2]);
     let [first, second] = &dyad.legs;
     [(first, r1, r2, sums[0]), (second, r2, r1, sums[1])].map(|(leg, own, other, sum)| {
-        let link = dyad.link_name(leg);
+        let (link, length) = (dyad.link_name(leg), dyad.length_name(leg));
         let sum = dyad.name_sum(leg, sum, "");
         let scale = inverse / (2 * own);
-        let scale = scale.named(format!("scale_{link}"), format!("1/(2 {} D2_{name})", dyad.length_name(leg)));
+        let scale = scale.named(format!("scale_{link}"), format!("1/(2 {length} D2_{name})"));
         let e = d.scaled(scale).named(&format!("e_{link}"), &format!("scale_{link} d"));
-        let rough = closing.resolved(sum, e);
-        let rough =
-            rough.named_direction(&format!("rough_{link}"), &format!("sum_{link} e + {} e⊥", closing.root(name)));
+        let rough = closing.resolved(sum, e).named_direction(
+            &format!("rough_{link}"),
+            &format!("{}, e = d/(2 {length} D2_{name})", closing.resolved_text(&link, name)),
+        );
         normalised(rough, own, other, &link)
     })
 }

@@ -1,6 +1,6 @@
 //! Constant factors are brought together: `(k₁ x)(k₂ y) = (k₁k₂)(x y)`, `k (a x ± b y) = (ka) x ± (kb) y`, `k ((a x)/y) = ((ka) x)/y` and
-//! `(a x)/(k y) = ((a/k) x)/y`, where nothing else reads the inner values. The constants are multiplied exactly and rounded once, and go to a reciprocal where there
-//! is one.
+//! `(a x)/(k y) = ((a/k) x)/y`, where nothing else reads the inner values. The constants are multiplied exactly and rounded once, and go
+//! to a quotient of a constant where there is one.
 
 use std::collections::BTreeMap;
 
@@ -37,11 +37,11 @@ fn reads(program: &Program) -> Vec<usize> {
     reads
 }
 
-/// `k (x (1/y))` as `x (k (1/y))`: the reciprocal is known before x, which then waits for one product less.
+/// `k (x (c/y))` as `x (k (c/y))`, c a constant: the quotient is known before x, which then waits for one product less.
 pub(super) fn multiply_reciprocals(mut program: Program, graph: &Graph) -> Program {
     let uses = program.uses();
     let is_reciprocal = |program: &Program, value: ValueId| match program.op(value) {
-        Some(Op::Div(one, _)) => program.constant(graph, *one).is_some_and(|one| one.is_one()),
+        Some(Op::Div(dividend, _)) => program.constant(graph, *dividend).is_some(),
         _ => false,
     };
     for index in 0..program.steps.len() {
@@ -141,9 +141,10 @@ impl Merging<'_> {
                 self.another(x, Op::Mul(factor, rest))
             });
         }
-        let op = match self.program.op(x).filter(|_| self.is_inner(x)).cloned()? {
+        let op = match self.program.op(x).cloned()? {
             Op::Neg(a) => Op::Neg(self.divided(before, k, a)?),
-            Op::Mul(a, b) => {
+            Op::Mul(side, a) if is_side(&self.program, side) => Op::Mul(side, self.divided(before, k, a)?),
+            Op::Mul(a, b) if self.is_inner(x) => {
                 [(a, b), (b, a)].into_iter().find_map(|(a, b)| Some(Op::Mul(self.divided(before, k, a)?, b)))?
             }
             _ => return None,

@@ -196,10 +196,13 @@ impl Ordering<'_> {
         self.define(value, op);
     }
 
-    /// Which factor of a product to multiply by `k`: one of which that multiple is there by the time that it could be, or else the one that
+    /// Which factor of a product of variables to multiply by `k`: one of which that multiple is there by the time that it could be, or else the one that
     /// is known first.
     fn scaled_factor(&self, k: &Number, product: ValueId) -> Option<Scaled> {
         let Some(Op::Mul(a, b)) = self.program.op(product) else { return None };
+        if self.program.constant(self.graph, *a).is_some() {
+            return None;
+        }
         let ways = [(*a, *b), (*b, *a)];
         let there = ways.into_iter().find_map(|(factor, other)| {
             let (multiple, is_opposite) = self.multiple(k, factor)?;

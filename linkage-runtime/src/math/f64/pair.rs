@@ -1,6 +1,9 @@
 //! Sine and cosine in the two halves of a register of x86-64: the operations of [`Reduced::one_by_one`], or of the fused ones, each on its
 //! number, so the same bits, in half as many instructions. What the quadrant changes stays in the register too.
-#![allow(unsafe_code, reason = "a function that uses instructions beyond the oldest processors' is unsafe to call")]
+#![allow(
+    unsafe_code,
+    reason = "calls of functions that name their instructions, a load of two numbers, a barrier to the compiler"
+)]
 
 #[cfg(target_feature = "fma")]
 use core::arch::x86_64::_mm_fmadd_pd;
@@ -97,7 +100,7 @@ static TURNS: [Turn; 4] = [
 #[inline]
 #[target_feature(enable = "sse2")]
 fn turned(quadrant: u64, found: __m128d) -> (f64, f64) {
-    let Turn { kept, exchanged, negated } = &TURNS[(quadrant & 3) as usize];
+    let Turn { kept, exchanged, negated } = TURNS.get((quadrant & 3) as usize).unwrap_or(&TURNS[0]);
     let other = _mm_shuffle_pd::<0b01>(found, found);
     let turned = _mm_or_pd(_mm_and_pd(found, bits(kept)), _mm_and_pd(other, bits(exchanged)));
     let turned = _mm_xor_pd(turned, bits(negated));
