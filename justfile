@@ -13,7 +13,7 @@ test *arguments:
 
 # The tests that take minutes.
 long:
-    cargo test --release --workspace --exclude linkage-compile-fail --all-features --tests -- --ignored
+    cargo test --release --workspace --exclude linkage-compile-fail --all-features --tests --no-fail-fast -- --ignored
 
 # Of these the stress suite: every kind of group in every family of hard poses, with a table of the worst found.
 stress *arguments:

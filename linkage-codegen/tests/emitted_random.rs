@@ -106,7 +106,8 @@ fn module(case: &Case) -> String {
     });
     let motion: Vec<String> = motion.collect();
     let _ = writeln!(text, "let motion = sample::Motion {{ {} }};", motion.join(", "));
-    let drives: Vec<String> = arguments.drives.iter().map(|value| number(*value)).collect();
+    let mut drives: Vec<String> = arguments.drives.iter().map(|value| number(*value)).collect();
+    drives.extend(closures(case));
     let drives = drives.join(", ");
     let _ = writeln!(text, "let pose = sample::Pose::at({first}{drives});");
     for scene in scenes(linkage) {
@@ -129,6 +130,18 @@ fn module(case: &Case) -> String {
     }
     text.push_str("Ok(())\n}\n}\n");
     text
+}
+
+/// The argument that gives the sides, if some are chosen at run time.
+fn closures(Case { linkage: Linkage { model, .. }, arguments, .. }: &Case) -> Option<String> {
+    let sides = model.given_closures().map(|(id, closure)| {
+        let joint = &model.joint(closure.joint).name.text;
+        let variants = if closure.type_name() == "Side" { ["Left", "Right"] } else { ["Ahead", "Behind"] };
+        let variant = variants[usize::from(arguments.sides[id.index()] < 0.0)];
+        format!("{joint}: linkage_runtime::{}::{variant}", closure.type_name())
+    });
+    let sides: Vec<String> = sides.collect();
+    (!sides.is_empty()).then(|| format!("sample::Closures {{ {} }}", sides.join(", ")))
 }
 
 fn scenes(linkage: &Linkage) -> impl Iterator<Item = &'static str> {

@@ -159,7 +159,9 @@ fn check_far(seeds: core::ops::Range<u64>) -> [usize; 3] {
         let begin = sample.arguments.drives[0];
         for sense in [1.0, -1.0] {
             // A dense walk.
-            let (mut here, mut q) = (pose::<Double>(&linkage, &with(begin)).expect("the start"), begin);
+            let start = pose::<Double>(&linkage, &with(begin));
+            let start = start.unwrap_or_else(|fault| panic!("seed {seed}: {fault:?} at the start\n{}", sample.text));
+            let (mut here, mut q) = (start, begin);
             let mut ends = false;
             for step in 1..=400 {
                 let next = begin + sense * f64::from(step) * 0.01;
@@ -307,4 +309,26 @@ fn a_scene_that_needs_no_place_of_the_group_does_not_search() {
     assert_eq!(searches("tip"), [false, false]);
     assert_eq!(searches("plate"), [true, false]);
     assert_eq!(searches("work"), [true, false]);
+}
+
+/// A triad whose dimensions are parameters: parts of loops are turned by two components each, which rounds more than one does.
+#[test]
+fn a_triad_by_parameters_closes_to_rounding() {
+    let kind = Kind {
+        dyads: 0,
+        sliders: false,
+        joints: false,
+        unknown_anywhere: false,
+        moving: false,
+        params: true,
+        scalar: "f64",
+    };
+    let sample = sample_with_search(1340, kind);
+    let linkage = compile(&sample.text);
+    for step in -30..=30 {
+        let mut arguments = sample.arguments.clone();
+        arguments.drives[0] += 0.01 * f64::from(step);
+        let found = pose::<Double>(&linkage, &arguments);
+        assert!(found.is_ok(), "{found:?} at {}\n{}", arguments.drives[0], sample.text);
+    }
 }

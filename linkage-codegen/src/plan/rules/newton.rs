@@ -15,7 +15,7 @@ use crate::graph::{Expr, Failure, Graph, NodeId, Search, SearchId, Sought, Stage
 use crate::model::ids::{DriveId, JointId, LinkId};
 use crate::model::{End, Gear, JointKind, Model, Start};
 use crate::plan::assembly::{Assembly, ClosedEquation, PlacedTogether, Unknown};
-use crate::plan::placement::{Orientation, Placement, Way};
+use crate::plan::placement::{Orientation, Placement, Segment, Way};
 use crate::plan::starts;
 use crate::topology::{Group, Input};
 
@@ -361,7 +361,7 @@ fn closure<'m>(placement: &Placement<'m>, joint: JointId, way: &Way<'m>) -> [Equ
     let (mut known, mut parts, mut size) = (graph.zero_vector(), Vec::new(), graph.zero());
     for segment in &way.segments {
         let part = segment.along.turned_by(segment.direction);
-        size = size + segment.size;
+        size = size + rounded_size(segment);
         if part.x.stage().max(part.y.stage()) < Stage::Iterated {
             known = known + part;
             continue;
@@ -393,6 +393,13 @@ fn closure<'m>(placement: &Placement<'m>, joint: JointId, way: &Way<'m>) -> [Equ
         size: half * size,
     };
     [of(sum.x, |vector| vector.x), of(sum.y, |vector| vector.y)]
+}
+
+/// The length of a part of a way, as much of it as is rounded: more where it is turned by two components instead of one.
+fn rounded_size<'m>(segment: &Segment<'m>) -> Expr<'m> {
+    let Vector { x, y } = segment.along;
+    let half = x.graph().constant(&Number::ratio(1, 2));
+    if x.is_zero() || y.is_zero() { segment.size } else { segment.size + half * (x.abs() + y.abs()) }
 }
 
 /// The equation of a gear pair: linear in angles, which count their turns.

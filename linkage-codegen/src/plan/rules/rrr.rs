@@ -8,10 +8,10 @@
 //! u₂ = [−(D² − r₁² + r₂²) d + K d⊥] / (2 r₂ D²)                      direction Q → B
 //! ```
 //!
-//! each as `±sum e + K e⊥` by `e = d/(2D²)`, which does not wait for the root, and followed by one step `u ← u (3 − u·u)/2` towards unit
-//! size. `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros the closure knows it better than the directions do.
-//! Where the lengths are constants of the same order, the vector along the longer link is that along the shorter one and d,
-//! `r₁u₁ − r₂u₂ = d`, and the step divides by the length too.
+//! each as the vector along the link, `v = ±sum e + K e⊥` by `e = d/(2D²)`, which does not wait for the root, brought to unit size: by one
+//! step `v (3 − v·v/r²)/(2r)` where constant lengths are not too different. Where they are of the same order, the vector along the longer
+//! link is that along the shorter one and d, `r₁u₁ − r₂u₂ = d`. `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros
+//! the closure knows it better than the directions do.
 //!
 //! Where moreover a driven angle ψ opens the outer pins, `D² = (b − a)² + 4ab sin²(ψ/2)`, all areas are divided when the linkage is
 //! compiled, so that the root is `sin μ` at once: by `2 r₁ r₂`, or at a fold so that `cos(ψ/2)` or `sin(ψ/2)` is left of the one margin and
@@ -28,7 +28,7 @@ mod by_half_angle;
 
 use by_half_angle::{by_half_angle, half_angle, not_folding};
 
-use super::dyad::{Dyad, Leg, dyad, towards_unit};
+use super::dyad::{Dyad, Leg, dyad};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
@@ -267,12 +267,7 @@ impl<'m> Closing<'m> {
         })
     }
 
-    /// The sum of a leg along e and K across it: with `e = d/(2D²)` the vector along the leg, with that over r its direction.
-    fn resolved(&self, sum: Expr<'m>, e: Vector<'m>) -> Vector<'m> {
-        e.scaled(sum) + e.perp().scaled(self.k)
-    }
-
-    /// The same as text.
+    /// The vector along a leg, `sum e + K e⊥`, as text.
     fn resolved_text(&self, link: &str, joint: &str) -> String {
         let root = self.root(joint);
         match root.strip_prefix('−') {
@@ -312,9 +307,8 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     };
     let (r1, r2) = (dyad.length(first), dyad.length(second));
     let name = dyad.joint_name(dyad.inner);
-    let rough = if lead_by_arms(r1, r2) { arms(dyad, &closing) } else { rough_directions(dyad, &closing) };
     let (mut directions, mut closed) = ([closing.d; 2], Vec::new());
-    for ((found, leg), direction) in directions.iter_mut().zip(&dyad.legs).zip(rough) {
+    for ((found, leg), direction) in directions.iter_mut().zip(&dyad.legs).zip(arms(dyad, &closing)) {
         let link = dyad.link_name(leg);
         let meaning = format!("direction of {link} from {} to {name}", dyad.joint_name(leg.outer));
         let direction = direction.named_direction(&link, &meaning);
@@ -368,72 +362,63 @@ fn by_length(lengths: [Expr<'_>; 2]) -> [usize; 2] {
     if (lengths[0] - lengths[1]).sign() == Some(1) { [1, 0] } else { [0, 1] }
 }
 
-/// Whether the legs' directions come from the vectors along them.
+/// Whether the vector along the longer leg comes from that along the shorter one.
 fn lead_by_arms(r1: Expr<'_>, r2: Expr<'_>) -> bool {
     constant_lengths(r1, r2).is_some() && ratio_is_at_most(8, r1, r2)
 }
 
-/// The directions of both legs from the vectors along them, P → B and Q → B, of which the longer one is the shorter one and d.
+/// The directions of both legs from the vectors along them, P → B and Q → B.
 ///
-/// Both vectors have the rounding of the shorter link and of d, which is at most twice as long as the longer link.
+/// Of legs of the same order the longer one is the shorter one and d: both vectors have the rounding of the shorter link and of d, which is
+/// at most twice as long as the longer link. Of others each is found by itself.
 fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     let lengths = dyad.lengths();
     let Closing { d, d2, of_angle, .. } = *closing;
     let (graph, name) = (d2.graph(), dyad.joint_name(dyad.inner));
-    let half = || graph.constant(&Number::ratio(1, 2));
+    let sum = |index: usize| dyad.name_sum(&dyad.legs[index], closing.sums(lengths)[index], "");
     let [short, long] = by_length(lengths);
-    let (leg, far) = (&dyad.legs[short], &dyad.legs[long]);
-    let (link, other) = (dyad.link_name(leg), dyad.link_name(far));
-    let sum = of_angle.map_or_else(|| dyad.name_sum(leg, closing.sums(lengths)[short], ""), |known| known.sum);
-    let scale = (half() / d2).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
-    let e = d.scaled(scale).named(&format!("e_{name}"), &format!("scale_{name} d"));
-    let arm = closing.resolved(sum, e).named(
-        &format!("arm_{link}"),
-        &format!(
-            "from {} to {name}: {}, e = d/(2 D2_{name})",
-            dyad.joint_name(leg.outer),
-            closing.resolved_text(&link, name)
-        ),
-    );
-    let (sign, difference) = if short == 0 { ('−', arm - d) } else { ('+', arm + d) };
-    let far_arm = difference
-        .named(&format!("arm_{other}"), &format!("from {} to {name}: arm_{link} {sign} d", dyad.joint_name(far.outer)));
-    let mut vectors = [arm; 2];
-    vectors[long] = far_arm;
-    let unit = |index: usize| {
-        let (link, length) = (dyad.link_name(&dyad.legs[index]), dyad.length_name(&dyad.legs[index]));
-        scaled_to_unit(vectors[index], lengths[index], &link, &length)
+    let short_sum = of_angle.map_or_else(|| sum(short), |known| known.sum);
+    let scale = (graph.constant(&Number::ratio(1, 2)) / d2).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
+    let e = d.scaled(scale).named(&format!("e_{name}"), &format!("d/(2 D2_{name})"));
+    let leads = lead_by_arms(lengths[0], lengths[1]);
+    let across = e.scaled(closing.k);
+    let across =
+        if leads { across } else { across.named(&format!("across_{name}"), &format!("{} e", closing.root(name))) };
+    let resolved = |index: usize, sum: Expr<'m>| {
+        let leg = &dyad.legs[index];
+        let (link, outer) = (dyad.link_name(leg), dyad.joint_name(leg.outer));
+        let equation = format!("from {outer} to {name}: {}, e = d/(2 D2_{name})", closing.resolved_text(&link, name));
+        (e.scaled(sum) + across.perp()).named(&format!("arm_{link}"), &equation)
     };
-    [unit(0), unit(1)]
-}
-
-/// One step towards unit size of a vector that has nearly the given length: `u = v (3 − v·v/r²)/(2r)`.
-fn scaled_to_unit<'m>(arm: Vector<'m>, length: Expr<'m>, link: &str, name: &str) -> Vector<'m> {
-    let half = |n: i64| arm.graph().constant(&Number::ratio(n, 2));
-    let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
-    arm.scaled(factor.named(format!("unit_{link}"), format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}")))
-}
-
-/// The directions of both legs, each by itself: for lengths that are not known before run time, or that differ by far.
-fn rough_directions<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
-    let [r1, r2] = dyad.lengths();
-    let Closing { d, d2, .. } = *closing;
-    let name = dyad.joint_name(dyad.inner);
-    let inverse = (d2.graph().one() / d2).named(format!("inverse_D2_{name}"), "");
-    let sums = closing.sums([r1, r2]);
-    let [first, second] = &dyad.legs;
-    [(first, r1, r2, sums[0]), (second, r2, r1, sums[1])].map(|(leg, own, other, sum)| {
-        let (link, length) = (dyad.link_name(leg), dyad.length_name(leg));
-        let sum = dyad.name_sum(leg, sum, "");
-        let scale = inverse / (2 * own);
-        let scale = scale.named(format!("scale_{link}"), format!("1/(2 {length} D2_{name})"));
-        let e = d.scaled(scale).named(&format!("e_{link}"), &format!("scale_{link} d"));
-        let rough = closing.resolved(sum, e).named_direction(
-            &format!("rough_{link}"),
-            &format!("{}, e = d/(2 {length} D2_{name})", closing.resolved_text(&link, name)),
-        );
-        normalised(rough, own, other, &link)
+    let mut vectors = [d; 2];
+    vectors[short] = resolved(short, short_sum);
+    vectors[long] = if leads {
+        let (link, outer) = (dyad.link_name(&dyad.legs[long]), dyad.joint_name(dyad.legs[long].outer));
+        let lead = dyad.link_name(&dyad.legs[short]);
+        let (sign, arm) = if short == 0 { ('−', vectors[short] - d) } else { ('+', vectors[short] + d) };
+        arm.named(&format!("arm_{link}"), &format!("from {outer} to {name}: arm_{lead} {sign} d"))
+    } else {
+        resolved(long, sum(long))
+    };
+    [0, 1].map(|index| {
+        let (link, length) = (dyad.link_name(&dyad.legs[index]), dyad.length_name(&dyad.legs[index]));
+        let [own, other] = [lengths[index], lengths[1 - index]];
+        to_unit(vectors[index], [own, other], &link, &length)
     })
+}
+
+/// A vector of nearly the given length brought to unit size: by one step, `u = v (3 − v·v/r²)/(2r)`, which squares the error; where legs are
+/// so different that this does not suffice, or not known before run time, by root and division.
+fn to_unit<'m>(arm: Vector<'m>, [length, other]: [Expr<'m>; 2], link: &str, name: &str) -> Vector<'m> {
+    let graph = arm.graph();
+    let half = |n: i64| graph.constant(&Number::ratio(n, 2));
+    let (factor, equation) = if lengths_are_alike(graph.scalar(), length, other) {
+        let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
+        (factor, format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}"))
+    } else {
+        (graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}"))
+    };
+    arm.scaled(factor.named(format!("unit_{link}"), equation))
 }
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {
@@ -593,17 +578,6 @@ fn reach<'m>(way: &Way<'m>) -> (Option<Expr<'m>>, Option<Expr<'m>>) {
     let least = longest.mul(&Number::integer(2)).sub(&sum);
     let least = if least.signum() < 0 { Number::zero() } else { least };
     (Some(graph.constant(&least)), Some(graph.constant(&sum)))
-}
-
-/// One step towards unit size, which squares the error; for legs so different that this does not suffice, by root and division.
-fn normalised<'m>(rough: Vector<'m>, own: Expr<'m>, other: Expr<'m>, link: &str) -> Vector<'m> {
-    let graph = rough.graph();
-    if lengths_are_alike(graph.scalar(), own, other) {
-        towards_unit(rough, link)
-    } else {
-        let factor = graph.one() / rough.squared().sqrt();
-        rough.scaled(factor.named(format!("unit_{link}"), format!("1/|u|, u = rough_{link}")))
-    }
 }
 
 /// Whether the ratio of two lengths is at most `0.8/√ε`, as far as constants tell.
