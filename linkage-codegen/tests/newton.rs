@@ -181,7 +181,10 @@ fn check_far(seeds: core::ops::Range<u64>) -> [usize; 3] {
                         assert!(apart < 1e-9, "seed {seed}: another branch at {q}, {apart:e} off\n{}", sample.text);
                         reached += 1;
                     }
-                    Err(_) => timid += 1,
+                    Err(fault) => {
+                        println!("seed {seed}: {fault:?} on the way to {q}");
+                        timid += 1;
+                    }
                 }
             }
             if ends {
@@ -331,4 +334,11 @@ fn a_triad_by_parameters_closes_to_rounding() {
         let found = pose::<Double>(&linkage, &arguments);
         assert!(found.is_ok(), "{found:?} at {}\n{}", arguments.drives[0], sample.text);
     }
+}
+
+/// Far from the start its determinant may have the other sign, which says nothing of the way that begins there.
+#[test]
+fn the_sense_of_a_way_is_that_of_its_start() {
+    let [reached, ended, timid] = check_far(1661..1662);
+    assert_eq!([reached, ended, timid], [8, 0, 0]);
 }

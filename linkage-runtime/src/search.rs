@@ -123,7 +123,13 @@ macro_rules! search {
             pub fn way(&mut self) -> Option<Way<K>> {
                 match self.mode {
                     Mode::Begins => self.mode = if self.length > 0.0 { Mode::Walks } else { Mode::Closes },
-                    Mode::Walks if !self.arrived => self.stride *= 0.5,
+                    Mode::Walks if !self.arrived => {
+                        self.stride *= 0.5;
+                        // A sense that was seen too far from the start need not be that of the start.
+                        if self.behind <= 0.0 {
+                            self.sense = $scalar::NAN;
+                        }
+                    }
                     Mode::Walks if self.ahead < 1.0 => {
                         (self.closed, self.behind) = (self.best, self.ahead);
                         if self.second <= 0.0625 * self.first {

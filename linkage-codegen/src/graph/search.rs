@@ -477,7 +477,13 @@ impl<T: Real> Newton<T> {
         let one = power::<T>(0);
         match self.mode {
             Mode::Begins => self.mode = if self.length.above(&T::zero()) { Mode::Walks } else { Mode::Closes },
-            Mode::Walks if !self.arrived => self.stride = self.stride.mul(&power(-1)),
+            Mode::Walks if !self.arrived => {
+                self.stride = self.stride.mul(&power(-1));
+                // A sense that was seen too far from the start need not be that of the start.
+                if T::zero().at_least(&self.behind) {
+                    self.sense = None;
+                }
+            }
             Mode::Walks if one.above(&self.ahead) => {
                 (self.closed, self.behind) = (self.best.clone(), self.ahead.clone());
                 let easy =
