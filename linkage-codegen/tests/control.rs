@@ -10,7 +10,7 @@ use linkage_codegen::graph::real::Real;
 use linkage_codegen::model::UnknownKind;
 use support::linkages::{Kind, sample, sample_with_search};
 use support::numbers::{Double, Extended};
-use support::{Arguments, Number, compile, from_pose, pose, scene};
+use support::{Arguments, Number, compile, from_pose, index_of, pose, scene};
 
 fn kind(seed: u64) -> Kind {
     let dyads = usize::try_from(seed % 4).expect("small");
@@ -171,7 +171,7 @@ fn check(seed: u64) -> Option<Checked> {
     let rates: Vec<f64> = arguments.motion.iter().map(|[rate, _]| *rate).collect();
     check_mass(&text, &linkage, &results, &rates);
     // From a pose the same as straight from the drives.
-    let index = linkage.model.scenes.iter().position(|scene| scene.name.text == "control").expect("the scene");
+    let index = index_of(&linkage, "control");
     let kept = pose::<Double>(&linkage, &arguments).expect("a pose");
     let own = from_pose::<Double>(&linkage, &linkage.functions.scenes[index].from_pose, &kept, &arguments);
     let straight = scene::<Double>(&linkage, "control", &arguments).expect("an equation of motion");
@@ -259,7 +259,7 @@ const FIVE_BAR: &str = "mod five_bar; ground { O1: (0, 0), O2: (0.5m, 0) } link 
 
 /// Additions, multiplications and divisions of a scene, from a pose.
 fn cost(linkage: &Linkage, name: &str) -> usize {
-    let index = linkage.model.scenes.iter().position(|scene| scene.name.text == name).expect("a scene");
+    let index = index_of(&linkage, name);
     let counts = linkage.functions.scenes[index].from_pose.counts();
     counts.add + counts.mul + counts.div
 }

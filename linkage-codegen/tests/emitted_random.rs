@@ -15,7 +15,7 @@ use linkage_codegen::program::{Fault, Program};
 use support::linkages::{Kind, sample};
 use support::measures::values_from_kept;
 use support::numbers::{Double, Single};
-use support::{Arguments, Number, direct, pose};
+use support::{Arguments, Number, direct, index_of, pose};
 
 const SCENES: [&str; 8] = ["all", "parts", "work", "whole", "speeds", "accelerations", "gains", "control"];
 /// Of linkages that have mass.
@@ -146,10 +146,6 @@ fn closures(Case { linkage: Linkage { model, .. }, arguments, .. }: &Case) -> Op
 
 fn scenes(linkage: &Linkage) -> impl Iterator<Item = &'static str> {
     SCENES.into_iter().filter(|scene| linkage.model.scenes.iter().any(|own| own.name.text == *scene))
-}
-
-fn index_of(linkage: &Linkage, scene: &str) -> usize {
-    linkage.model.scenes.iter().position(|s| s.name.text == scene).expect("a scene of this name")
 }
 
 /// A crate of its own workspace, with the versions of this one.

@@ -9,7 +9,7 @@ use support::bounds::{LOOSEST, median, ratios, ratios_of, with_bounds};
 use support::families::{boom, four_bar, length, oscillating_block, scotch_yoke, slider_crank, tangent_mechanism};
 use support::linkages::{Class, Kind, Random, sample, sample_with_forces, sample_with_search};
 use support::numbers::{Double, Single};
-use support::{Arguments, Number, from_pose, pose, scene};
+use support::{Arguments, Number, from_pose, index_of, pose, scene};
 
 /// The ratios of a scene from the drives and from a pose.
 fn check<T: Number>(linkage: &Linkage, arguments: &Arguments, context: &str) -> Vec<f64> {
@@ -19,7 +19,7 @@ fn check<T: Number>(linkage: &Linkage, arguments: &Arguments, context: &str) -> 
         Err(Fault::NotFinite) => panic!("not finite\n{context}"),
     };
     let mut all = ratios(linkage, arguments, &found, context);
-    let index = linkage.model.scenes.iter().position(|scene| scene.name.text == "bounded").expect("the scene");
+    let index = index_of(linkage, "bounded");
     let program = &linkage.functions.scenes[index].from_pose;
     let pose = pose::<T>(linkage, arguments).expect("a pose");
     let values = from_pose(linkage, program, &pose, arguments).expect("from the pose as from the drives");

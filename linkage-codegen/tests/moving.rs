@@ -14,7 +14,7 @@ use linkage_codegen::program::{Input, Run};
 use support::general::{equations, open_motion, solve_extended, solve_nalgebra};
 use support::linkages::{Kind, Sample, sample, sample_with_search};
 use support::numbers::{Double, Extended};
-use support::{Arguments, Number, compile, pose, prepared, scene};
+use support::{Arguments, Number, compile, index_of, pose, prepared, scene};
 
 /// A step in time: its square is far below what is compared, and rounding over its square is too.
 const STEP: f64 = 1e-18;
@@ -222,7 +222,7 @@ fn near(found: &Extended, expected: &Extended, tolerance: f64, what: &str, text:
 
 /// Velocities and accelerations of every joint, point and link are those of the places.
 fn check_differences(sample: &Sample, linkage: &Linkage, passing: &Passing<'_>) {
-    let whole = linkage.model.scenes.iter().position(|scene| scene.name.text == "whole").expect("places");
+    let whole = index_of(linkage, "whole");
     let places = linkage.plan.scenes[whole].leaves();
     let speeds = scene::<Extended>(linkage, "speeds", &sample.arguments).expect("velocities");
     let accelerations = scene::<Extended>(linkage, "accelerations", &sample.arguments).expect("accelerations");

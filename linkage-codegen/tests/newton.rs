@@ -11,7 +11,7 @@ use linkage_codegen::program::Fault;
 use support::general::{Coordinates, residuals_at};
 use support::linkages::{Kind, Random, sample_with_search};
 use support::numbers::{Double, Extended, Single};
-use support::{Arguments, Number, compile, moved, pose};
+use support::{Arguments, Number, compile, index_of, moved, pose};
 
 /// The bars, in epsilons of the scalar: closure over the longest link, and the size of directions.
 const CLOSURE: f64 = 4.0;
@@ -299,7 +299,7 @@ fn a_scene_that_needs_no_place_of_the_group_does_not_search() {
         .replace("scene all: equilibrium;", "scene tip: position -> (crank.A); scene plate: position -> (t.G);");
     let linkage = compile(&text);
     let searches = |name: &str| {
-        let index = linkage.model.scenes.iter().position(|scene| scene.name.text == name).expect("a scene");
+        let index = index_of(&linkage, name);
         let functions = &linkage.functions.scenes[index];
         [&functions.direct, &functions.from_pose].map(|program| {
             let ops = (0..program.values.len()).filter_map(|i| match &program.values[i].definition {

@@ -5,17 +5,17 @@ mod support;
 use std::collections::{BTreeMap, HashMap};
 
 use linkage_codegen::Linkage;
-use linkage_codegen::graph::Failure;
 use linkage_codegen::graph::real::Real;
+use linkage_codegen::graph::{Failure, NodeId};
 use linkage_codegen::model::UnknownKind;
 use linkage_codegen::model::ids::LinkId;
 use linkage_codegen::plan::rules::RULES;
-use linkage_codegen::program::Fault;
+use linkage_codegen::program::{Extract, Fault, Form, passes};
 use linkage_codegen::topology::Group;
 use support::general::{equations, residuals, solve_extended, solve_nalgebra};
 use support::linkages::{Kind, Sample, sample, sample_with_search};
 use support::numbers::{Double, Extended};
-use support::{Arguments, Number, compile, scene};
+use support::{Arguments, Number, compile, direct, index_of, scene};
 
 /// How far two solutions may differ in 220 bits, over the largest force times the worst amplification seen.
 const EXTENDED: f64 = 1e-40;
@@ -61,6 +61,17 @@ fn solved<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Solved<T> {
 fn efforts<T: Number>(linkage: &Linkage, work: &HashMap<String, T>) -> HashMap<String, T> {
     let names = linkage.model.unknowns.iter().map(|unknown| unknown.name.clone());
     names.map(|name| (name.clone(), work[&name].clone())).collect()
+}
+
+/// The efforts by virtual work alone, straight from the drives, as a scene finds them that asks for nothing else.
+fn efforts_alone<T: Number>(linkage: &Linkage, arguments: &Arguments) -> HashMap<String, T> {
+    let graph = &linkage.model.graph;
+    let mut results = linkage.plan.scenes[index_of(linkage, "work")].leaves();
+    results.retain(|(path, _)| linkage.model.unknowns.iter().any(|unknown| unknown.name == *path));
+    let finite: Vec<NodeId> = results.iter().map(|(_, node)| *node).collect();
+    let program = passes::optimised(Extract { graph, form: Form::Direct }.program(&results, &finite), graph);
+    let values = direct(linkage, &program, arguments).expect("efforts");
+    program.outputs.iter().map(|(path, _)| path.clone()).zip(values).collect()
 }
 
 /// Why a sample may be refused whose unknown acts anywhere: it can hold nothing.
@@ -199,6 +210,8 @@ fn check_exactly(sample: &Sample, linkage: &Linkage) {
     assert!(difference(&totals(linkage, &exact.parts), &exact.all) < EXTENDED, "superposition\n{context}");
     let work = efforts(linkage, &exact.work);
     assert!(difference(&work, &exact.all) < EXTENDED, "virtual work\n{context}");
+    let alone = efforts_alone(linkage, &sample.arguments);
+    assert!(difference(&alone, &work) < EXTENDED, "virtual work alone\n{context}");
     // The terms of the loads make up each effort; of several unknowns every one has terms of its own.
     let unknowns = &linkage.model.unknowns;
     for unknown in unknowns {
@@ -222,8 +235,10 @@ fn check_in_doubles(sample: &Sample, linkage: &Linkage) -> f64 {
     assert!(error < allowed, "equilibrium {error:e}, allowed {allowed:e}\n{context}");
     let error = difference(&totals(linkage, &solution.parts), &solution.all);
     assert!(error < allowed, "superposition {error:e}, allowed {allowed:e}\n{context}");
-    let error = difference(&efforts(linkage, &solution.work), &solution.all);
-    assert!(error < allowed, "virtual work {error:e}, allowed {allowed:e}\n{context}");
+    for work in [efforts(linkage, &solution.work), efforts_alone(linkage, &sample.arguments)] {
+        let error = difference(&work, &solution.all);
+        assert!(error < allowed, "virtual work {error:e}, allowed {allowed:e}\n{context}");
+    }
     let places = scene::<Double>(linkage, "whole", &sample.arguments).expect("places");
     for (joint, [x, y]) in &sample.places {
         for (path, drawn) in [(format!("{joint}.x"), x), (format!("{joint}.y"), y)] {

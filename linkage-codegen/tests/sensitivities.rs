@@ -14,7 +14,7 @@ use linkage_codegen::plan::rules::RULES;
 use linkage_codegen::program::{Fault, Input, Program, Run};
 use support::linkages::{Kind, Random, Sample, sample, sample_with_search};
 use support::numbers::{Double, Extended};
-use support::{Arguments, Number, compile};
+use support::{Arguments, Number, compile, index_of};
 
 /// Its square is far below what is compared, and rounding over it is too.
 const STEP: f64 = 1e-18;
@@ -69,10 +69,6 @@ impl At<'_> {
 
 fn paths(program: &Program) -> impl Iterator<Item = String> {
     program.outputs.iter().map(|(path, _)| path.clone())
-}
-
-fn index_of(linkage: &Linkage, scene: &str) -> usize {
-    linkage.model.scenes.iter().position(|other| other.name.text == scene).expect("a scene of this name")
 }
 
 /// Something to differentiate by: as it is written, the path of its record, and its symbol.

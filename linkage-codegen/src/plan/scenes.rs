@@ -352,7 +352,14 @@ impl<'m> Forces<'_, 'm> {
 
     /// The effort that does as much work as the loads, with the opposite sign.
     pub(super) fn effort_by_work(&self, motion: &Motion<'m, '_>, loads: &Balance<'m, '_>) -> Expr<'m> {
-        -self.model.moving_links().fold(self.model.graph.zero(), |sum, link| sum + motion.power_of(loads, link))
+        let zero = self.model.graph.zero();
+        -self.groups.iter().fold(zero, |sum, group| {
+            let [forces, moments] = group.links.iter().fold([zero; 2], |[forces, moments], link| {
+                let [force, moment] = motion.power_of(loads, *link);
+                [forces + force, moments + moment]
+            });
+            sum + forces + moments
+        })
     }
 
     /// D'Alembert's force and couple of a link, and the acceleration that makes them.

@@ -519,12 +519,12 @@ impl<'m, 'p> Motion<'m, 'p> {
         sum
     }
 
-    /// The power of all that acts on a link: `ΣF · v + ΣM ω`, with the moments about the place whose velocity is v.
+    /// The power of all that acts on a link: `ΣF · v` and `ΣM ω`, with the moments about the place whose velocity is v.
     #[must_use]
-    pub fn power_of(&self, loads: &Balance<'m, '_>, link: LinkId) -> Expr<'m> {
+    pub fn power_of(&self, loads: &Balance<'m, '_>, link: LinkId) -> [Expr<'m>; 2] {
         let Twist { rate, at, velocity } = self.twists[link.index()];
         let force = loads.total(link).along(velocity.axes);
-        velocity.components.dot(force) + rate * loads.moment(link, at, self.graph().one())
+        [velocity.components.dot(force), rate * loads.moment(link, at, self.graph().one())]
     }
 
     /// The power of an action: `F · v` or `M ω`.

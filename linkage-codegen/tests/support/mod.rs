@@ -146,10 +146,14 @@ pub fn from_pose<T: Number>(
     })
 }
 
+/// The place of a scene among the others.
+pub fn index_of(linkage: &Linkage, scene: &str) -> usize {
+    linkage.model.scenes.iter().position(|other| other.name.text == scene).expect("a scene of this name")
+}
+
 /// The results of a scene straight from the drives, by their paths.
 pub fn scene<T: Number>(linkage: &Linkage, name: &str, arguments: &Arguments) -> Result<HashMap<String, T>, Fault> {
-    let index = linkage.model.scenes.iter().position(|scene| scene.name.text == name).expect("a scene of this name");
-    let program = &linkage.functions.scenes[index].direct;
+    let program = &linkage.functions.scenes[index_of(linkage, name)].direct;
     let values = direct(linkage, program, arguments)?;
     Ok(program.outputs.iter().map(|(path, _)| path.clone()).zip(values).collect())
 }

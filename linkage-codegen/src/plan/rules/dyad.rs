@@ -63,8 +63,8 @@ struct Cut<'m> {
     across: Expr<'m>,
     /// The loads on the outer side.
     outer: Framed<'m>,
-    /// The loads on the inner side, along the leg.
-    along: Expr<'m>,
+    /// The loads on the inner side.
+    inner: Framed<'m>,
     /// The moment of the loads on the link's own side about its pin.
     moment: Expr<'m>,
 }
@@ -460,10 +460,9 @@ impl<'a> Dyad<'a> {
             format!("the moments over |{} {}|", self.joint_name(leg.outer), self.joint_name(self.inner)),
         );
         let [outer, inner] = [outer, inner].map(|links| total_on(balance, &links));
-        let inner = inner.along(self.direction(balance.placement, leg));
         let moment = moments[usize::from(from != leg.link())];
-        let cut = Cut { from, towards, across, outer, along: inner.x, moment };
-        Share { inner: across + inner.y, cut: Some(cut) }
+        let cut = Cut { from, towards, across, outer, inner, moment };
+        Share { inner: across + inner.along(self.direction(balance.placement, leg)).y, cut: Some(cut) }
     }
 
     /// A joint's place on a link of a leg: the inner joint's where it is one.
@@ -530,15 +529,16 @@ impl<'a> Dyad<'a> {
             return Ok(());
         }
         // Along and across the leg the forces are known each to its own size. In ground axes the rounding of the larger would be in both.
-        let along = force.along(self.direction(balance.placement, leg)).x;
-        let own = |along, across| self.in_own_axes(balance.placement, leg, Vector::new(along, across));
-        let (pin, tip) = (own(along, -share.inner), balance.placement.point(leg.tip));
+        let direction = self.direction(balance.placement, leg);
+        let along = force.along(direction).x;
+        let by_pin = Vector::new(along, -share.inner);
+        let (pin, tip) = (self.in_own_axes(balance.placement, leg, by_pin), balance.placement.point(leg.tip));
         let Some(cut) = share.cut else {
             balance.push(leg.tip.end.link, tip, pin);
             return self.balance_rest(balance, leg);
         };
         let (link, moment) = (cut.from, cut.moment);
-        let passed = own(along + cut.along, -cut.across);
+        let passed = self.passed_on(balance.placement, leg, by_pin, &cut);
         if link != first {
             let held = Held { link, pin: tip, reaction: pin, passed, moment };
             self.balance_towards(balance, leg, cut.towards, Some(held))?;
@@ -550,6 +550,24 @@ impl<'a> Dyad<'a> {
         balance.push(leg.tip.end.link, tip, pin);
         let held = Held { link, pin: near, reaction, passed: passed.opposite(), moment };
         self.balance_towards(balance, leg, cut.towards, Some(held))
+    }
+
+    /// What a joint within a leg passes on of the force of the inner pin, along and across the leg, and of the loads on that side.
+    ///
+    /// Along what the first link carries both are added up as they are: to resolve the loads along the leg and back would leave them the
+    /// rounding of its direction twice.
+    fn passed_on(&self, placement: &Placement<'a>, leg: &Leg, by_pin: Vector<'a>, cut: &Cut<'a>) -> Framed<'a> {
+        let loads = cut.inner.along(self.direction(placement, leg)).x;
+        let resolved = Vector::new(by_pin.x + loads, -cut.across);
+        if leg.is_constant(self.model) {
+            return self.in_own_axes(placement, leg, resolved);
+        }
+        let Arm { axis, along, size } = self.arm(leg);
+        let lean = Vector::new(along.x / size, along.y / size);
+        let loads = cut.inner.along(placement.turned(leg.link(), axis)).x;
+        let passed = Vector::new(by_pin.turned_by(lean).x + loads, resolved.turned_by(lean).y);
+        let components = passed.turned_by(placement.carried(leg.link(), axis));
+        Framed { components, axes: placement.direction(leg.link()) }
     }
 
     /// A force along and across a leg, along and across the direction of its first link.

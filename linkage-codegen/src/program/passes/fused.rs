@@ -40,18 +40,23 @@ fn operands(
     (ready, steps): (&Ready, &mut Vec<Step>),
 ) -> Option<[ValueId; 3]> {
     let ([a, b], minus) = program.op(sum)?.terms()?;
-    let product = |value: ValueId| match program.op(value) {
-        Some(Op::Mul(x, y)) if program.value(value).label.is_none() => Some((*x, *y)),
+    let unnamed = |value: ValueId| program.op(value).filter(|_| program.value(value).label.is_none());
+    let product = |value: ValueId| match unnamed(value)? {
+        Op::Mul(x, y) => Some((*x, *y, false)),
+        Op::Neg(product) => match unnamed(*product)? {
+            Op::Mul(x, y) => Some((*x, *y, true)),
+            _ => None,
+        },
         _ => None,
     };
     let second = product(b).filter(|_| product(a).is_none() || ready.of(b) > ready.of(a));
-    Some(match (product(a), second, minus) {
-        (_, Some((x, y)), false) => [x, y, a],
-        (_, Some((x, y)), true) => [negative(program, graph, x, steps), y, a],
-        (Some((x, y)), None, false) => [x, y, b],
-        (Some((x, y)), None, true) => [x, y, negative(program, graph, b, steps)],
-        (None, None, _) => return None,
-    })
+    let ((x, y, is_negative), rest, subtracted) = match (product(a), second) {
+        (_, Some((x, y, is_negative))) => ((x, y, is_negative != minus), a, false),
+        (Some(product), None) => (product, b, minus),
+        (None, None) => return None,
+    };
+    let x = if is_negative { negative(program, graph, x, steps) } else { x };
+    Some([x, y, if subtracted { negative(program, graph, rest, steps) } else { rest }])
 }
 
 /// The negative of a value, which is exact.

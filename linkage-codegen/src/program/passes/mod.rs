@@ -1,6 +1,7 @@
 //! What is improved in a program after it is taken out of the graph. Each pass keeps the results up to rounding; tests run every
 //! program before and after each of them.
 
+mod common;
 mod constants;
 mod cycles;
 mod finite;
@@ -19,7 +20,7 @@ use crate::graph::{Graph, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 10] = [
+pub const PASSES: [(&str, Pass); 11] = [
     ("pivots", pivots::compare_directly),
     ("reciprocals", reciprocals::share),
     ("constants", constants::merge),
@@ -27,6 +28,7 @@ pub const PASSES: [(&str, Pass); 10] = [
     ("signs", signs::absorb),
     ("constants at reciprocals", constants::multiply_reciprocals),
     ("late", late::multiply_last),
+    ("common factors", common::factor),
     ("signs", signs::absorb),
     ("finite", finite::check_once),
     ("fused", fused::contract),

@@ -1,5 +1,5 @@
 //! A change of sign that an operand can take on costs nothing: `−(a − b) = b − a`, `−(k x) = (−k) x`, `−(k x / y) = (−k) x / y`,
-//! `a − (−k) = a + k`, `a − (−b − c) = a + (b + c)`.
+//! `a − (−b) = a + b`, `a − (−b − c) = a + (b + c)`.
 //!
 //! That of a sum goes to one of its terms, `−(a + b) = −a − b`: nothing then waits for it, and the formula ends as that of the other
 //! component of a vector does, so that a compiler can work at both at once.
@@ -32,7 +32,7 @@ pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
             }
         }
         if let Step::Let(value) = step {
-            take_negative_sum(&mut program, value, &uses);
+            take_negative(&mut program, value, &uses);
         }
         steps.push(step);
     }
@@ -40,9 +40,15 @@ pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
     super::unused::remove(without_negative_constants(program, graph), graph)
 }
 
-/// `a ± (−b − c)` as `a ∓ (b + c)`.
-fn take_negative_sum(program: &mut Program, value: ValueId, uses: &[usize]) {
+/// `a ± (−b)` as `a ∓ b`, `a ± (−b − c)` as `a ∓ (b + c)`.
+fn take_negative(program: &mut Program, value: ValueId, uses: &[usize]) {
     let Some(([first, second], minus)) = program.op(value).and_then(Op::terms) else { return };
+    if let Some(Op::Neg(b)) = program.op(second).cloned()
+        && program.is_inner(second, uses)
+    {
+        program.values[value.index()].definition = Definition::Computed(Op::of_terms([first, b], !minus));
+        return;
+    }
     let ([b, c], sum, a) = match [first, second].map(|term| program.negative_terms(term, uses)) {
         [_, Some(terms)] => (terms, second, first),
         [Some(terms), None] if !minus => (terms, first, second),
