@@ -115,8 +115,6 @@ pub struct Dyad<'a> {
 /// The direction of a body between its joints, in the frame of its first link.
 #[derive(Clone, Copy, Debug)]
 struct Arm<'m> {
-    /// The direction that the first link carries, in its own frame.
-    axis: Vector<'m>,
     /// From the outer joint to the inner one, along and across that direction.
     along: Vector<'m>,
     /// Its size.
@@ -355,8 +353,7 @@ impl<'a> Dyad<'a> {
         if leg.is_constant(self.model) {
             return placement.turned(leg.link(), self.axis(leg));
         }
-        let Arm { axis, along, size } = self.arm(leg);
-        Vector::new(along.x / size, along.y / size).turned_by(placement.turned(leg.link(), axis))
+        self.lean(leg).turned_by(placement.turned(leg.link(), self.arm_axis(leg)))
     }
 
     /// Places the links of a leg whose direction from the outer joint to the inner one is known. Gives that direction as it is kept.
@@ -371,20 +368,20 @@ impl<'a> Dyad<'a> {
             self.place_rest(assembly, leg, leg.link())?;
             return Ok(self.direction(&assembly.placement, leg));
         }
-        let arm = self.arm(leg);
-        let unit = Vector::new(arm.along.x / arm.size, arm.along.y / arm.size);
+        let lean = self.lean(leg);
+        assembly.leans.push(lean);
         let first = &self.model.link(leg.link()).name;
         let meaning = format!("direction of {first}, from that of {}", self.link_name(leg));
-        let turned = unit.conjugate().turned_by(direction);
+        let turned = lean.conjugate().turned_by(direction);
         // Off the line, the direction is not only turned round.
-        let turned = if unit.y.is_zero() {
+        let turned = if lean.y.is_zero() {
             turned
         } else {
             let rough = turned.named_direction(&format!("rough_{first}"), "turned back by the arm's direction");
             towards_unit(rough, &first.text)
         };
         let carried = turned.named_direction(&first.text, &meaning);
-        assembly.placement.orient(leg.link(), Orientation { direction: carried, axis: arm.axis });
+        assembly.placement.orient(leg.link(), Orientation { direction: carried, axis: self.arm_axis(leg) });
         self.place_rest(assembly, leg, leg.link())?;
         Ok(self.direction(&assembly.placement, leg))
     }
@@ -562,8 +559,7 @@ impl<'a> Dyad<'a> {
         if leg.is_constant(self.model) {
             return self.in_own_axes(placement, leg, resolved);
         }
-        let Arm { axis, along, size } = self.arm(leg);
-        let lean = Vector::new(along.x / size, along.y / size);
+        let (axis, lean) = (self.arm_axis(leg), self.lean(leg));
         let loads = cut.inner.along(placement.turned(leg.link(), axis)).x;
         let passed = Vector::new(by_pin.turned_by(lean).x + loads, resolved.turned_by(lean).y);
         let components = passed.turned_by(placement.carried(leg.link(), axis));
@@ -575,8 +571,7 @@ impl<'a> Dyad<'a> {
         let lean = if leg.is_constant(self.model) {
             placement.carried(leg.link(), self.axis(leg))
         } else {
-            let Arm { axis, along, size } = self.arm(leg);
-            Vector::new(along.x / size, along.y / size).turned_by(placement.carried(leg.link(), axis))
+            self.lean(leg).turned_by(placement.carried(leg.link(), self.arm_axis(leg)))
         };
         Framed { components: force.turned_by(lean), axes: placement.direction(leg.link()) }
     }
@@ -694,8 +689,7 @@ impl<'a> Dyad<'a> {
     /// The vector between a leg's joints, worked out with its first link lying along the x axis.
     fn arm(&self, leg: &Leg) -> Arm<'a> {
         let graph = &self.model.graph;
-        let axis = self.arm_axis(leg);
-        let way = self.way_within(leg, leg.link(), axis);
+        let way = self.way_within(leg, leg.link(), self.arm_axis(leg));
         let name = self.link_name(leg);
         let (from, to) = (self.joint_name(leg.outer), self.joint_name(self.inner));
         let meaning =
@@ -707,7 +701,20 @@ impl<'a> Dyad<'a> {
         let (group, joint) = (self.model.link_names(&leg.links), self.joint_name(self.inner).into());
         let failure = Failure::CoincidentPivots { group, joint };
         let size = size.require_above(size, graph.epsilons(4) * way.length(), failure).known_positive();
-        Arm { axis, along, size }
+        Arm { along, size }
+    }
+
+    /// The direction between a leg's joints, along and across what its first link carries, of unit size to a rounding: forces are
+    /// resolved by it, and what it lacks they would lack twice.
+    fn lean(&self, leg: &Leg) -> Vector<'a> {
+        let Arm { along, size } = self.arm(leg);
+        let lean = Vector::new(along.x / size, along.y / size);
+        if along.y.is_zero() {
+            return lean;
+        }
+        let name = format!("lean_{}", self.link_name(leg));
+        let rough = lean.named_direction(&format!("rough_{name}"), &format!("arm_{0}/length_{0}", self.link_name(leg)));
+        towards_unit(rough, &name).named_direction(&name, "the same, of unit size")
     }
 
     /// What the first link of a body carries: the direction of its driven slide or slot, so that what lies along that stays so.
