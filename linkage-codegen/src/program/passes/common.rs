@@ -1,9 +1,10 @@
 //! Factors that both terms of a sum have are multiplied once: `(f g) x ± (h f) (g y) = (f g) (x ± h y)`, where nothing else reads the
 //! products. So in virtual work the rates of rotation of a dyad's links, which share `1/sin μ` and what brings their directions to unit
-//! size. The constants of both terms are brought together and rounded once; one goes to a quotient of a constant among the factors.
+//! size. The constants of each term are brought together and rounded once; where that takes a product less, the first term's goes to the
+//! common factors, to a quotient of a constant above all, and the second's is divided by it.
 //!
-//! It is a product less for each of them, and only done where the sum is not known later for it. What is left of a product that had a name
-//! is named as its factor.
+//! It is only done where the sum is not known later for it, and where it saves as many products as names go, at least one: each name is
+//! a line of the derivation. What is left of a product that had a name is named as its factor.
 
 use super::cycles::Ready;
 use crate::graph::number::Number;
@@ -36,20 +37,21 @@ struct Factoring<'g> {
     steps: Vec<Step>,
 }
 
-/// A sum as `k common (first ± ratio second)`, the common factors as those of both terms.
+/// A sum as `±k common (k₁ first ± k₂ second)`, the common factors as those of both terms.
 struct Terms {
     common: Vec<[Factor; 2]>,
     k: Number,
-    first: Vec<Factor>,
-    minus: bool,
-    ratio: Number,
-    second: Vec<Factor>,
+    first: (Number, Vec<Factor>),
+    second: (Number, Vec<Factor>),
+    negative: [bool; 2],
 }
 
-/// A product, however it is put together.
+/// A product, however it is put together, and how many products it is now, how many of them with names.
 struct Product {
     constant: Number,
     factors: Vec<Factor>,
+    products: usize,
+    names: usize,
 }
 
 /// A factor, and the product with a name through which it is one.
@@ -60,8 +62,7 @@ struct Factor {
 }
 
 impl Factoring<'_> {
-    /// The factors of a sum's terms, if they have some in common. A single one is taken out where it is known last, which another pass
-    /// sees to.
+    /// The factors of a sum's terms, if some are common and it saves enough to take them out.
     fn terms(&self, sum: ValueId) -> Option<Terms> {
         let (terms, minus) = self.program.op(sum)?.terms()?;
         if !terms.iter().all(|term| self.is_read_once(*term)) {
@@ -69,21 +70,28 @@ impl Factoring<'_> {
         }
         let [mut first, mut second] = terms.map(|term| self.product(term));
         let common = take_common(&mut first.factors, &mut second.factors);
-        let ratio = second.constant.div(&first.constant)?;
-        let some = common.len() > 1 && !first.factors.is_empty() && !second.factors.is_empty();
-        some.then(|| Terms {
-            common,
-            k: first.constant,
-            first: first.factors,
-            minus: minus != (ratio.signum() < 0),
-            ratio: ratio.abs(),
-            second: second.factors,
-        })
+        if common.is_empty() || first.factors.is_empty() || second.factors.is_empty() {
+            return None;
+        }
+        let negative = [first.constant.signum() < 0, minus != (second.constant.signum() < 0)];
+        let [k1, k2] = [&first, &second].map(|term| term.constant.abs());
+        let ratio = k2.div(&k1)?;
+        let product = |k: &Number| usize::from(!k.is_one());
+        let takes_constant = common.iter().any(|[factor, _]| self.quotient(factor.value, 2).is_some());
+        let [inside, outside] =
+            [product(&k1) + product(&k2), if takes_constant { 0 } else { product(&k1) } + product(&ratio)];
+        let products = common.len() + first.factors.len() + second.factors.len() - 2 + inside.min(outside);
+        let (before, names) = (first.products + second.products, first.names + second.names);
+        if before < products + names.max(1) {
+            return None;
+        }
+        let (k, k1, k2) = if outside < inside { (k1, Number::one(), ratio) } else { (Number::one(), k1, k2) };
+        Some(Terms { common, k, first: (k1, first.factors), second: (k2, second.factors), negative })
     }
 
     /// A value as a product, through products that nothing else reads.
     fn product(&self, value: ValueId) -> Product {
-        let mut product = Product { constant: Number::one(), factors: Vec::new() };
+        let mut product = Product { constant: Number::one(), factors: Vec::new(), products: 0, names: 0 };
         let mut open = vec![Factor { value, of: None }];
         while let Some(Factor { value, of }) = open.pop() {
             let inner = |value: &ValueId| {
@@ -92,9 +100,14 @@ impl Factoring<'_> {
             };
             match self.program.op(value) {
                 Some(Op::Constant(number)) => product.constant = product.constant.mul(&self.graph.number(*number)),
-                Some(Op::Mul(a, b)) if self.is_read_once(value) => open.extend([inner(b), inner(a)]),
+                Some(Op::Mul(a, b)) if self.is_read_once(value) => {
+                    product.products += 1;
+                    product.names += usize::from(self.label(value).is_some());
+                    open.extend([inner(b), inner(a)]);
+                }
                 Some(Op::Neg(a)) if self.is_read_once(value) => {
                     product.constant = product.constant.neg();
+                    product.names += usize::from(self.label(value).is_some());
                     open.push(inner(a));
                 }
                 _ => product.factors.push(Factor { value, of }),
@@ -116,16 +129,17 @@ impl Factoring<'_> {
         let (values, ready) = (self.program.values.len(), self.ready.of(sum));
         self.steps.pop();
         let steps = self.steps.len();
-        let Terms { common, k, first, minus, ratio, second } = terms;
+        let Terms { common, k, first, second, negative } = terms;
         let names = names_of(common.iter().flatten());
-        let common = self.multiply(&k.abs(), common.iter().map(|[factor, _]| factor.value).collect(), sum);
+        let common = self.multiply(&k, (common.iter().map(|[factor, _]| factor.value).collect(), 2), sum);
         let mut factors = Vec::new();
-        let [x, y] =
-            [(Number::one(), first), (ratio, second)].map(|(k, rest)| self.multiply_rest(&k, &rest, sum, &mut factors));
-        let negative = k.signum() < 0;
-        let inner = self.add(if negative && minus { Op::Sub(y, x) } else { Op::of_terms([x, y], minus) }, sum);
-        let product = Op::Mul(common, inner);
-        let op = if negative && !minus { Op::Neg(self.add(product, sum)) } else { product };
+        let [x, y] = [first, second].map(|(k, rest)| self.multiply_rest(&k, &rest, sum, &mut factors));
+        let inner = match negative {
+            [true, false] => Op::Sub(y, x),
+            [first, second] => Op::of_terms([x, y], first != second),
+        };
+        let product = Op::Mul(common, self.add(inner, sum));
+        let op = if negative == [true; 2] { Op::Neg(self.add(product, sum)) } else { product };
         let before = core::mem::replace(&mut self.program.values[sum.index()].definition, Definition::Computed(op));
         self.compute(sum);
         if self.ready.of(sum) > ready {
@@ -138,26 +152,27 @@ impl Factoring<'_> {
         self.name(common, &names, &factors);
     }
 
-    /// Names what is common to products with names, and what is left of them.
+    /// Names what is common to products with names, and what is left of them, unless these have names of their own.
     fn name(&mut self, common: ValueId, products: &[ValueId], factors: &[(ValueId, ValueId)]) {
-        let labels: Vec<Label> =
-            products.iter().filter_map(|product| self.program.value(*product).label.clone()).collect();
-        let of = |value: ValueId| self.program.value(value).label.clone();
-        let names: Vec<&str> = labels.iter().map(|label| label.name.as_str()).collect();
-        let mut labels = Vec::new();
+        let names: Vec<String> = products.iter().filter_map(|product| Some(self.label(*product)?.name)).collect();
         if !names.is_empty() {
             let equation = format!("common factor of {}", names.join(" and "));
-            labels.push((common, Label { name: "common".to_owned(), equation }));
+            self.name_value(common, Label { name: "common".to_owned(), equation });
         }
         for (value, product) in factors {
-            if let (None, Some(Label { name, equation })) = (of(*value), of(*product)) {
-                let equation = format!("factor of {name}, {equation}");
-                labels.push((*value, Label { name: format!("{name}_factor"), equation }));
+            if let Some(Label { name, equation }) = self.label(*product) {
+                let of = if equation.is_empty() { name.clone() } else { format!("{name}, {equation}") };
+                self.name_value(*value, Label { name: format!("{name}_factor"), equation: format!("factor of {of}") });
             }
         }
-        for (value, label) in labels {
-            self.program.values[value.index()].label = Some(label);
-        }
+    }
+
+    fn label(&self, value: ValueId) -> Option<Label> {
+        self.program.value(value).label.clone()
+    }
+
+    fn name_value(&mut self, value: ValueId, label: Label) {
+        self.program.values[value.index()].label.get_or_insert(label);
     }
 
     /// What is left of a term; of a product with a name, that by itself, which is added to `named` with the product.
@@ -173,18 +188,18 @@ impl Factoring<'_> {
         };
         let mut factors: Vec<ValueId> = of(None);
         for product in names_of(rest) {
-            let left = self.multiply(&Number::one(), of(Some(product)), product);
+            let left = self.multiply(&Number::one(), (of(Some(product)), 1), product);
             named.push((left, product));
             factors.push(left);
         }
-        self.multiply(k, factors, beside)
+        self.multiply(k, (factors, 1), beside)
     }
 
-    /// The product of a constant and some factors: those first that are known first.
-    fn multiply(&mut self, constant: &Number, mut factors: Vec<ValueId>, beside: ValueId) -> ValueId {
+    /// The product of a constant and some factors, each of which is read that often here: those first that are known first.
+    fn multiply(&mut self, constant: &Number, (mut factors, reads): (Vec<ValueId>, usize), beside: ValueId) -> ValueId {
         self.sort(&mut factors);
         if !constant.is_one() {
-            self.scale(constant, &mut factors, beside);
+            self.scale(constant, (&mut factors, reads), beside);
         }
         while let [first, second, ..] = factors[..] {
             factors.drain(..2);
@@ -194,21 +209,29 @@ impl Factoring<'_> {
         factors[0]
     }
 
-    /// Multiplies a quotient of a constant among the factors by another one, or else what is known first.
-    fn scale(&mut self, constant: &Number, factors: &mut [ValueId], beside: ValueId) {
-        let quotient = |factor: &ValueId| match self.program.op(*factor) {
-            Some(Op::Div(dividend, divisor)) => Some((self.program.constant(self.graph, *dividend)?, *divisor)),
-            _ => None,
+    /// Multiplies a quotient of a constant that nothing else reads by another one, or else what is known first.
+    fn scale(&mut self, constant: &Number, (factors, reads): (&mut Vec<ValueId>, usize), beside: ValueId) {
+        let quotient = |factor: &ValueId| {
+            let (dividend, divisor) = self.quotient(*factor, reads)?;
+            Some((dividend.mul(constant), divisor))
         };
         let found = factors.iter().enumerate().find_map(|(place, factor)| Some((place, quotient(factor)?)));
-        let number =
-            |factoring: &mut Self, number: &Number| factoring.program.add_constant(factoring.graph, number, beside);
         if let Some((place, (dividend, divisor))) = found {
-            let dividend = number(self, &dividend.mul(constant));
+            let dividend = self.program.add_constant(self.graph, &dividend, beside);
             factors[place] = self.add(Op::Div(dividend, divisor), beside);
         } else {
-            let constant = number(self, constant);
+            let constant = self.program.add_constant(self.graph, constant, beside);
             factors[0] = self.add(Op::Mul(constant, factors[0]), beside);
+        }
+    }
+
+    /// The constant and the divisor of a quotient of a constant that is read that often.
+    fn quotient(&self, value: ValueId, reads: usize) -> Option<(Number, ValueId)> {
+        match self.program.op(value) {
+            Some(Op::Div(dividend, divisor)) if self.uses.get(value.index()) == Some(&reads) => {
+                Some((self.program.constant(self.graph, *dividend)?, *divisor))
+            }
+            _ => None,
         }
     }
 
