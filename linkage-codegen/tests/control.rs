@@ -259,7 +259,7 @@ const FIVE_BAR: &str = "mod five_bar; ground { O1: (0, 0), O2: (0.5m, 0) } link 
 
 /// Additions, multiplications and divisions of a scene, from a pose.
 fn cost(linkage: &Linkage, name: &str) -> usize {
-    let index = index_of(&linkage, name);
+    let index = index_of(linkage, name);
     let counts = linkage.functions.scenes[index].from_pose.counts();
     counts.add + counts.mul + counts.div
 }

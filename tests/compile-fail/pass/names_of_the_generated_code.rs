@@ -34,8 +34,10 @@ fn main() -> Result<(), Error> {
     let linkage = math::Linkage::new(&math::Params::default())?;
     let loads = math::Loads { pose: polar(50.0, 4.0), sin_cos: 2.0 };
     let pose = math::Pose::at(&linkage, 1.0)?;
-    assert_eq!(pose.u8(&loads)?.theta, math::u8_at(&linkage, 1.0, &loads)?.theta);
-    assert_eq!(pose.parts(&loads)?.total()?.B, math::parts_at(&linkage, 1.0, &loads)?.total()?.B);
+    let [from_pose, at] = [pose.u8(&loads)?.theta, math::u8_at(&linkage, 1.0, &loads)?.theta];
+    assert!((from_pose - at).abs() <= 1e-12 * at.abs());
+    let [from_pose, at] = [pose.parts(&loads)?.total()?.B, math::parts_at(&linkage, 1.0, &loads)?.total()?.B];
+    assert!((from_pose - at).norm() <= 1e-12 * at.norm());
     assert!(pose.total(&loads)?.pose.work.is_finite());
     assert_eq!(pose.self_(), 1.0);
     Ok(())
