@@ -221,7 +221,7 @@ pub struct Assembly<'m> {
     pub pivots: Pivots<'m>,
     /// The dyads' pivots.
     pub dyads: Vec<DyadPivot<'m>>,
-    /// The directions of bodies whose length drives give, in that which their first link carries.
+    /// The directions of bodies whose length drives give, along and across what their first link carries.
     pub leans: Vec<Vector<'m>>,
     /// How groups were closed, in their order.
     pub closed: Vec<Closed<'m>>,

@@ -444,7 +444,7 @@ fn work_terms(pose: &Coordinates<'_, Extended>, velocities: &DVector<f64>) -> f6
                 (velocities[first] - turning * (s * px + c * py), velocities[first + 1] + turning * (c * px - s * py));
             vx.hypot(vy) + turning.abs() * (x - px).hypot(y - py)
         };
-        let group = pose.linkage.topology.motion.iter().find(|group| group.links.contains(&at.link));
+        let group = pose.linkage.topology.forces.iter().find(|group| group.links.contains(&at.link));
         let hangs = |joint: &JointId| group.is_some_and(|group| group.outer.contains(joint));
         let (outer, inner): (Vec<JointId>, Vec<JointId>) =
             model.joint_ids().filter(|joint| model.joint(*joint).end_on(at.link).is_some()).partition(hangs);

@@ -369,7 +369,9 @@ impl<'a> Dyad<'a> {
             return Ok(self.direction(&assembly.placement, leg));
         }
         let lean = self.lean(leg);
-        assembly.leans.push(lean);
+        if !lean.y.is_zero() {
+            assembly.leans.push(lean);
+        }
         let first = &self.model.link(leg.link()).name;
         let meaning = format!("direction of {first}, from that of {}", self.link_name(leg));
         let turned = lean.conjugate().turned_by(direction);

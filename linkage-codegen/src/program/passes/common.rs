@@ -1,12 +1,14 @@
 //! Factors that both terms of a sum have are multiplied once: `(f g) x ± (h f) (g y) = (f g) (x ± h y)`, where nothing else reads the
-//! products. So in virtual work the rates of rotation of a dyad's links, which share `1/sin μ` and what brings their directions to unit
+//! products. So in virtual work the works on a dyad's links, which have `1/sin μ` in common and what brings the links' directions to unit
 //! size. The constants of each term are brought together and rounded once; where that takes a product less, the first term's goes to the
 //! common factors, to a quotient of a constant above all, and the second's is divided by it.
 //!
 //! It is only done where the sum is not known later for it, and where it saves as many products as names go, at least one: each name is
 //! a line of the derivation. What is left of a product that had a name is named as its factor.
 
-use super::cycles::Ready;
+use std::collections::BTreeSet;
+
+use super::cycles::{Ready, is_side};
 use crate::graph::number::Number;
 use crate::graph::{Graph, Label, Op};
 use crate::program::{Definition, Program, Step, ValueId};
@@ -37,7 +39,7 @@ struct Factoring<'g> {
     steps: Vec<Step>,
 }
 
-/// A sum as `±k common (k₁ first ± k₂ second)`, the common factors as those of both terms.
+/// A sum as `k common (±k₁ first ± k₂ second)`, the common factors as those of both terms.
 struct Terms {
     common: Vec<[Factor; 2]>,
     k: Number,
@@ -68,8 +70,19 @@ impl Factoring<'_> {
         if !terms.iter().all(|term| self.is_read_once(*term)) {
             return None;
         }
-        let [mut first, mut second] = terms.map(|term| self.product(term));
-        let common = take_common(&mut first.factors, &mut second.factors);
+        let mut kept = BTreeSet::new();
+        let ([first, second], common) = loop {
+            let [mut first, mut second] = terms.map(|term| self.product(term, &kept));
+            let common = take_common(&mut first.factors, &mut second.factors);
+            // A product with a name stays one that has nothing in common.
+            let whole = |name: &ValueId| !names_of(common.iter().flatten()).contains(name);
+            let names = names_of(first.factors.iter().chain(&second.factors));
+            let more: Vec<ValueId> = names.into_iter().filter(whole).collect();
+            if more.is_empty() {
+                break ([first, second], common);
+            }
+            kept.extend(more);
+        };
         if common.is_empty() || first.factors.is_empty() || second.factors.is_empty() {
             return None;
         }
@@ -89,35 +102,32 @@ impl Factoring<'_> {
         Some(Terms { common, k, first: (k1, first.factors), second: (k2, second.factors), negative })
     }
 
-    /// A value as a product, through products that nothing else reads.
-    fn product(&self, value: ValueId) -> Product {
+    /// A value as a product, through products that nothing else reads, but for those that are kept.
+    ///
+    /// With a side that is given at run time a value is one factor, as with its sign in the declaration.
+    fn product(&self, value: ValueId, kept: &BTreeSet<ValueId>) -> Product {
         let mut product = Product { constant: Number::one(), factors: Vec::new(), products: 0, names: 0 };
         let mut open = vec![Factor { value, of: None }];
         while let Some(Factor { value, of }) = open.pop() {
-            let inner = |value: &ValueId| {
-                let named = self.program.value(*value).label.is_some() && self.is_product(*value);
-                Factor { value: *value, of: if named { Some(*value) } else { of } }
-            };
+            let is_inner = self.is_read_once(value) && !kept.contains(&value);
+            let is_named = self.label(value).is_some();
+            let inner = |inner: &ValueId| Factor { value: *inner, of: if is_named { Some(value) } else { of } };
             match self.program.op(value) {
                 Some(Op::Constant(number)) => product.constant = product.constant.mul(&self.graph.number(*number)),
-                Some(Op::Mul(a, b)) if self.is_read_once(value) => {
+                Some(Op::Mul(a, b)) if is_inner && ![a, b].into_iter().any(|side| is_side(&self.program, *side)) => {
                     product.products += 1;
-                    product.names += usize::from(self.label(value).is_some());
+                    product.names += usize::from(is_named);
                     open.extend([inner(b), inner(a)]);
                 }
-                Some(Op::Neg(a)) if self.is_read_once(value) => {
+                Some(Op::Neg(a)) if is_inner => {
                     product.constant = product.constant.neg();
-                    product.names += usize::from(self.label(value).is_some());
+                    product.names += usize::from(is_named);
                     open.push(inner(a));
                 }
                 _ => product.factors.push(Factor { value, of }),
             }
         }
         product
-    }
-
-    fn is_product(&self, value: ValueId) -> bool {
-        self.is_read_once(value) && matches!(self.program.op(value), Some(Op::Mul(..) | Op::Neg(_)))
     }
 
     fn is_read_once(&self, value: ValueId) -> bool {
@@ -130,10 +140,10 @@ impl Factoring<'_> {
         self.steps.pop();
         let steps = self.steps.len();
         let Terms { common, k, first, second, negative } = terms;
-        let names = names_of(common.iter().flatten());
-        let common = self.multiply(&k, (common.iter().map(|[factor, _]| factor.value).collect(), 2), sum);
+        let is_named = common.iter().flatten().any(|factor| factor.of.is_some());
         let mut factors = Vec::new();
         let [x, y] = [first, second].map(|(k, rest)| self.multiply_rest(&k, &rest, sum, &mut factors));
+        let common = self.multiply(&k, (common.iter().map(|[factor, _]| factor.value).collect(), 2), sum);
         let inner = match negative {
             [true, false] => Op::Sub(y, x),
             [first, second] => Op::of_terms([x, y], first != second),
@@ -149,20 +159,14 @@ impl Factoring<'_> {
             self.compute(sum);
             return;
         }
-        self.name(common, &names, &factors);
-    }
-
-    /// Names what is common to products with names, and what is left of them, unless these have names of their own.
-    fn name(&mut self, common: ValueId, products: &[ValueId], factors: &[(ValueId, ValueId)]) {
-        let names: Vec<String> = products.iter().filter_map(|product| Some(self.label(*product)?.name)).collect();
-        if !names.is_empty() {
-            let equation = format!("common factor of {}", names.join(" and "));
-            self.name_value(common, Label { name: "common".to_owned(), equation });
+        if is_named {
+            let equation = "what both terms of the next sum have in common".to_owned();
+            self.name(common, values, Label { name: "common".to_owned(), equation });
         }
         for (value, product) in factors {
-            if let Some(Label { name, equation }) = self.label(*product) {
+            if let Some(Label { name, equation }) = self.label(product) {
                 let of = if equation.is_empty() { name.clone() } else { format!("{name}, {equation}") };
-                self.name_value(*value, Label { name: format!("{name}_factor"), equation: format!("factor of {of}") });
+                self.name(value, values, Label { name: format!("{name}_factor"), equation: format!("factor of {of}") });
             }
         }
     }
@@ -171,8 +175,12 @@ impl Factoring<'_> {
         self.program.value(value).label.clone()
     }
 
-    fn name_value(&mut self, value: ValueId, label: Label) {
-        self.program.values[value.index()].label.get_or_insert(label);
+    /// Names a value that is new, or that is a step which nothing else reads.
+    fn name(&mut self, value: ValueId, values: usize, label: Label) {
+        let is_step = matches!(self.program.op(value), Some(Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..)));
+        if value.index() >= values || is_step && self.is_read_once(value) {
+            self.program.values[value.index()].label.get_or_insert(label);
+        }
     }
 
     /// What is left of a term; of a product with a name, that by itself, which is added to `named` with the product.
@@ -200,6 +208,7 @@ impl Factoring<'_> {
         self.sort(&mut factors);
         if !constant.is_one() {
             self.scale(constant, (&mut factors, reads), beside);
+            self.sort(&mut factors);
         }
         while let [first, second, ..] = factors[..] {
             factors.drain(..2);

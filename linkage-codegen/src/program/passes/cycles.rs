@@ -4,7 +4,7 @@ use crate::graph::{Kernel, Op, Symbol};
 use crate::program::{Definition, Input, Program, Step, ValueId};
 
 /// When each value is known: an input at once, what is computed after its operands.
-#[derive(Clone, Default)]
+#[derive(Default)]
 pub(super) struct Ready(Vec<u32>);
 
 impl Ready {

@@ -1,7 +1,7 @@
 //! With `arithmetic fused;` a product that a sum reads is added without being rounded: `a·b + c` is one operation. What has a name of its own
 //! is a line of the derivation and stays a number of its own, rounded as such.
 //!
-//! Of two products the one that is known last is added to the other, which has been rounded by then.
+//! Of two products the one that is known last is added to the other, which has been rounded by then; a change of sign goes to a factor.
 
 use super::cycles::Ready;
 use crate::graph::{Graph, Kernel, Op};

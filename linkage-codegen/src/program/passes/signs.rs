@@ -42,12 +42,12 @@ pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
 
 /// `a ± (−b)` as `a ∓ b`, `a ± (−b − c)` as `a ∓ (b + c)`.
 fn take_negative(program: &mut Program, value: ValueId, uses: &[usize]) {
-    let Some(([first, second], minus)) = program.op(value).and_then(Op::terms) else { return };
+    let Some(([first, mut second], mut minus)) = program.op(value).and_then(Op::terms) else { return };
     if let Some(Op::Neg(b)) = program.op(second).cloned()
         && program.is_inner(second, uses)
     {
-        program.values[value.index()].definition = Definition::Computed(Op::of_terms([first, b], !minus));
-        return;
+        (second, minus) = (b, !minus);
+        program.values[value.index()].definition = Definition::Computed(Op::of_terms([first, second], minus));
     }
     let ([b, c], sum, a) = match [first, second].map(|term| program.negative_terms(term, uses)) {
         [_, Some(terms)] => (terms, second, first),
