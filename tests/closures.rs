@@ -41,6 +41,7 @@ macro_rules! machines {
             load M: moment(lever) = 2N*m;
             load N: force(shoe.V) = (1N, 1N);
             scene statics: equilibrium;
+            scene torque: virtual_work -> (effort_q);
             scene places: position;
         }
     )*};
@@ -61,11 +62,17 @@ macro_rules! same {
             let loads = Vector2::new(5.0, -7.0);
             let chosen = chosen::Pose::at(q, $closures).and_then(|pose| {
                 let (loads, at) = (chosen::Loads { F: loads }, chosen::places_at(q, $closures)?);
-                Ok(format!("{:?} {:?} {at:?}", pose.statics(&loads)?, chosen::statics_at(q, $closures, &loads)?))
+                let statics = (pose.statics(&loads)?, chosen::statics_at(q, $closures, &loads)?);
+                Ok(format!(
+                    "{statics:?} {:?} {:?} {at:?}",
+                    pose.torque(&loads)?,
+                    chosen::torque_at(q, $closures, &loads)?
+                ))
             });
             let fixed = $other::Pose::at(q).and_then(|pose| {
                 let (loads, at) = ($other::Loads { F: loads }, $other::places_at(q)?);
-                Ok(format!("{:?} {:?} {at:?}", pose.statics(&loads)?, $other::statics_at(q, &loads)?))
+                let statics = (pose.statics(&loads)?, $other::statics_at(q, &loads)?);
+                Ok(format!("{statics:?} {:?} {:?} {at:?}", pose.torque(&loads)?, $other::torque_at(q, &loads)?))
             });
             assert_eq!(chosen, fixed);
             assert!(chosen.is_ok(), "{chosen:?}");
