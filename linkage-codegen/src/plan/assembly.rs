@@ -221,8 +221,6 @@ pub struct Assembly<'m> {
     pub pivots: Pivots<'m>,
     /// The dyads' pivots.
     pub dyads: Vec<DyadPivot<'m>>,
-    /// The directions of bodies whose length drives give, along and across what their first link carries.
-    pub leans: Vec<Vector<'m>>,
     /// How groups were closed, in their order.
     pub closed: Vec<Closed<'m>>,
     /// The groups of motion.
@@ -240,7 +238,6 @@ impl<'m> Assembly<'m> {
             placement: Placement::of_ground(model),
             pivots: Pivots::default(),
             dyads: Vec::new(),
-            leans: Vec::new(),
             closed: Vec::new(),
             topology,
             started: BTreeSet::new(),

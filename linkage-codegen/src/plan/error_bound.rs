@@ -45,7 +45,6 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept])
             rounding.is_direction(Vector::new(graph.expr(x), graph.expr(y)));
         }
     }
-    assembly.leans.iter().for_each(|lean| rounding.is_direction(*lean));
     // Forces from group to group.
     let between = assembly.topology.forces.iter().flat_map(|group| &group.outer).filter(|joint| {
         let ends = model.joint(**joint).ends();

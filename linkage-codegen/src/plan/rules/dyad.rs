@@ -63,8 +63,8 @@ struct Cut<'m> {
     across: Expr<'m>,
     /// The loads on the outer side.
     outer: Framed<'m>,
-    /// The loads on the inner side.
-    inner: Framed<'m>,
+    /// The loads on the inner side, along the leg.
+    along: Expr<'m>,
     /// The moment of the loads on the link's own side about its pin.
     moment: Expr<'m>,
 }
@@ -115,6 +115,8 @@ pub struct Dyad<'a> {
 /// The direction of a body between its joints, in the frame of its first link.
 #[derive(Clone, Copy, Debug)]
 struct Arm<'m> {
+    /// The direction that the first link carries, in its own frame.
+    axis: Vector<'m>,
     /// From the outer joint to the inner one, along and across that direction.
     along: Vector<'m>,
     /// Its size.
@@ -353,7 +355,8 @@ impl<'a> Dyad<'a> {
         if leg.is_constant(self.model) {
             return placement.turned(leg.link(), self.axis(leg));
         }
-        self.lean(leg).turned_by(placement.turned(leg.link(), self.arm_axis(leg)))
+        let Arm { axis, along, size } = self.arm(leg);
+        Vector::new(along.x / size, along.y / size).turned_by(placement.turned(leg.link(), axis))
     }
 
     /// Places the links of a leg whose direction from the outer joint to the inner one is known. Gives that direction as it is kept.
@@ -368,22 +371,20 @@ impl<'a> Dyad<'a> {
             self.place_rest(assembly, leg, leg.link())?;
             return Ok(self.direction(&assembly.placement, leg));
         }
-        let lean = self.lean(leg);
-        if !lean.y.is_zero() {
-            assembly.leans.push(lean);
-        }
+        let arm = self.arm(leg);
+        let unit = Vector::new(arm.along.x / arm.size, arm.along.y / arm.size);
         let first = &self.model.link(leg.link()).name;
         let meaning = format!("direction of {first}, from that of {}", self.link_name(leg));
-        let turned = lean.conjugate().turned_by(direction);
+        let turned = unit.conjugate().turned_by(direction);
         // Off the line, the direction is not only turned round.
-        let turned = if lean.y.is_zero() {
+        let turned = if unit.y.is_zero() {
             turned
         } else {
             let rough = turned.named_direction(&format!("rough_{first}"), "turned back by the arm's direction");
             towards_unit(rough, &first.text)
         };
         let carried = turned.named_direction(&first.text, &meaning);
-        assembly.placement.orient(leg.link(), Orientation { direction: carried, axis: self.arm_axis(leg) });
+        assembly.placement.orient(leg.link(), Orientation { direction: carried, axis: arm.axis });
         self.place_rest(assembly, leg, leg.link())?;
         Ok(self.direction(&assembly.placement, leg))
     }
@@ -459,9 +460,10 @@ impl<'a> Dyad<'a> {
             format!("the moments over |{} {}|", self.joint_name(leg.outer), self.joint_name(self.inner)),
         );
         let [outer, inner] = [outer, inner].map(|links| total_on(balance, &links));
+        let inner = inner.along(self.direction(balance.placement, leg));
         let moment = moments[usize::from(from != leg.link())];
-        let cut = Cut { from, towards, across, outer, inner, moment };
-        Share { inner: across + inner.along(self.direction(balance.placement, leg)).y, cut: Some(cut) }
+        let cut = Cut { from, towards, across, outer, along: inner.x, moment };
+        Share { inner: across + inner.y, cut: Some(cut) }
     }
 
     /// A joint's place on a link of a leg: the inner joint's where it is one.
@@ -528,16 +530,15 @@ impl<'a> Dyad<'a> {
             return Ok(());
         }
         // Along and across the leg the forces are known each to its own size. In ground axes the rounding of the larger would be in both.
-        let direction = self.direction(balance.placement, leg);
-        let along = force.along(direction).x;
-        let by_pin = Vector::new(along, -share.inner);
-        let (pin, tip) = (self.in_own_axes(balance.placement, leg, by_pin), balance.placement.point(leg.tip));
+        let along = force.along(self.direction(balance.placement, leg)).x;
+        let own = |along, across| self.in_own_axes(balance.placement, leg, Vector::new(along, across));
+        let (pin, tip) = (own(along, -share.inner), balance.placement.point(leg.tip));
         let Some(cut) = share.cut else {
             balance.push(leg.tip.end.link, tip, pin);
             return self.balance_rest(balance, leg);
         };
         let (link, moment) = (cut.from, cut.moment);
-        let passed = self.passed_on(balance.placement, leg, by_pin, &cut);
+        let passed = own(along + cut.along, -cut.across);
         if link != first {
             let held = Held { link, pin: tip, reaction: pin, passed, moment };
             self.balance_towards(balance, leg, cut.towards, Some(held))?;
@@ -551,29 +552,13 @@ impl<'a> Dyad<'a> {
         self.balance_towards(balance, leg, cut.towards, Some(held))
     }
 
-    /// What a joint within a leg passes on of the force of the inner pin, along and across the leg, and of the loads on that side.
-    ///
-    /// Along what the first link carries both are added up as they are: to resolve the loads along the leg and back would leave them the
-    /// rounding of its direction twice.
-    fn passed_on(&self, placement: &Placement<'a>, leg: &Leg, by_pin: Vector<'a>, cut: &Cut<'a>) -> Framed<'a> {
-        let loads = cut.inner.along(self.direction(placement, leg)).x;
-        let resolved = Vector::new(by_pin.x + loads, -cut.across);
-        if leg.is_constant(self.model) {
-            return self.in_own_axes(placement, leg, resolved);
-        }
-        let (axis, lean) = (self.arm_axis(leg), self.lean(leg));
-        let loads = cut.inner.along(placement.turned(leg.link(), axis)).x;
-        let passed = Vector::new(by_pin.turned_by(lean).x + loads, resolved.turned_by(lean).y);
-        let components = passed.turned_by(placement.carried(leg.link(), axis));
-        Framed { components, axes: placement.direction(leg.link()) }
-    }
-
     /// A force along and across a leg, along and across the direction of its first link.
     fn in_own_axes(&self, placement: &Placement<'a>, leg: &Leg, force: Vector<'a>) -> Framed<'a> {
         let lean = if leg.is_constant(self.model) {
             placement.carried(leg.link(), self.axis(leg))
         } else {
-            self.lean(leg).turned_by(placement.carried(leg.link(), self.arm_axis(leg)))
+            let Arm { axis, along, size } = self.arm(leg);
+            Vector::new(along.x / size, along.y / size).turned_by(placement.carried(leg.link(), axis))
         };
         Framed { components: force.turned_by(lean), axes: placement.direction(leg.link()) }
     }
@@ -691,7 +676,8 @@ impl<'a> Dyad<'a> {
     /// The vector between a leg's joints, worked out with its first link lying along the x axis.
     fn arm(&self, leg: &Leg) -> Arm<'a> {
         let graph = &self.model.graph;
-        let way = self.way_within(leg, leg.link(), self.arm_axis(leg));
+        let axis = self.arm_axis(leg);
+        let way = self.way_within(leg, leg.link(), axis);
         let name = self.link_name(leg);
         let (from, to) = (self.joint_name(leg.outer), self.joint_name(self.inner));
         let meaning =
@@ -703,20 +689,7 @@ impl<'a> Dyad<'a> {
         let (group, joint) = (self.model.link_names(&leg.links), self.joint_name(self.inner).into());
         let failure = Failure::CoincidentPivots { group, joint };
         let size = size.require_above(size, graph.epsilons(4) * way.length(), failure).known_positive();
-        Arm { along, size }
-    }
-
-    /// The direction between a leg's joints, along and across what its first link carries, of unit size to a rounding: forces are
-    /// resolved by it, and what it lacks they would lack twice.
-    fn lean(&self, leg: &Leg) -> Vector<'a> {
-        let Arm { along, size } = self.arm(leg);
-        let lean = Vector::new(along.x / size, along.y / size);
-        if along.y.is_zero() {
-            return lean;
-        }
-        let name = format!("lean_{}", self.link_name(leg));
-        let rough = lean.named_direction(&format!("rough_{name}"), &format!("arm_{0}/length_{0}", self.link_name(leg)));
-        towards_unit(rough, &name).named_direction(&name, "the same, of unit size")
+        Arm { axis, along, size }
     }
 
     /// What the first link of a body carries: the direction of its driven slide or slot, so that what lies along that stays so.
