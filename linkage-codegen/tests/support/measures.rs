@@ -427,8 +427,7 @@ fn passed_power(
 }
 
 /// The terms of the loads' power, `Σ|F|(|v| + |ω||r|)`: the velocity of a load's point is that of a joint of its link and what turning adds
-/// to it, of which little can be left. The joint is that by which the link's group hangs on what moves before it: about it moments are
-/// taken, by either method. Of a link without one, or with several, it is that with the smallest terms.
+/// to it, of which little can be left. The joint is that of each link with the smallest terms.
 fn work_terms(pose: &Coordinates<'_, Extended>, velocities: &DVector<f64>) -> f64 {
     let model = &pose.linkage.model;
     let terms = |index: usize, force: &[f64; 2]| {
@@ -444,13 +443,8 @@ fn work_terms(pose: &Coordinates<'_, Extended>, velocities: &DVector<f64>) -> f6
                 (velocities[first] - turning * (s * px + c * py), velocities[first + 1] + turning * (c * px - s * py));
             vx.hypot(vy) + turning.abs() * (x - px).hypot(y - py)
         };
-        let group = pose.linkage.topology.forces.iter().find(|group| group.links.contains(&at.link));
-        let hangs = |joint: &JointId| group.is_some_and(|group| group.outer.contains(joint));
-        let (outer, inner): (Vec<JointId>, Vec<JointId>) =
-            model.joint_ids().filter(|joint| model.joint(*joint).end_on(at.link).is_some()).partition(hangs);
-        let joints = if outer.is_empty() { inner } else { outer };
-        let ends = joints.into_iter().filter_map(|joint| model.joint(joint).end_on(at.link));
-        force[0].hypot(force[1]) * ends.map(by_way_of).fold(f64::INFINITY, f64::min)
+        let joints = model.joint_ids().filter_map(|joint| model.joint(joint).end_on(at.link));
+        force[0].hypot(force[1]) * joints.map(by_way_of).fold(f64::INFINITY, f64::min)
     };
     pose.arguments.loads.iter().enumerate().map(|(index, force)| terms(index, force)).sum()
 }
