@@ -70,19 +70,7 @@ impl Factoring<'_> {
         if !terms.iter().all(|term| self.is_read_once(*term)) {
             return None;
         }
-        let mut kept = BTreeSet::new();
-        let ([first, second], common) = loop {
-            let [mut first, mut second] = terms.map(|term| self.product(term, &kept));
-            let common = take_common(&mut first.factors, &mut second.factors);
-            // A product with a name stays one that has nothing in common.
-            let whole = |name: &ValueId| !names_of(common.iter().flatten()).contains(name);
-            let names = names_of(first.factors.iter().chain(&second.factors));
-            let more: Vec<ValueId> = names.into_iter().filter(whole).collect();
-            if more.is_empty() {
-                break ([first, second], common);
-            }
-            kept.extend(more);
-        };
+        let ([first, second], common) = self.common_factors(terms);
         if common.is_empty() || first.factors.is_empty() || second.factors.is_empty() {
             return None;
         }
@@ -100,6 +88,22 @@ impl Factoring<'_> {
         }
         let (k, k1, k2) = if outside < inside { (k1, Number::one(), ratio) } else { (Number::one(), k1, k2) };
         Some(Terms { common, k, first: (k1, first.factors), second: (k2, second.factors), negative })
+    }
+
+    /// Two terms as products without the factors that are common, and these. A product with a name that has none of them stays one factor.
+    fn common_factors(&self, terms: [ValueId; 2]) -> ([Product; 2], Vec<[Factor; 2]>) {
+        let mut kept = BTreeSet::new();
+        loop {
+            let [mut first, mut second] = terms.map(|term| self.product(term, &kept));
+            let common = take_common(&mut first.factors, &mut second.factors);
+            let through = names_of(common.iter().flatten());
+            let names = names_of(first.factors.iter().chain(&second.factors));
+            let whole: Vec<ValueId> = names.into_iter().filter(|name| !through.contains(name)).collect();
+            if whole.is_empty() {
+                return ([first, second], common);
+            }
+            kept.extend(whole);
+        }
     }
 
     /// A value as a product, through products that nothing else reads, but for those that are kept.
@@ -163,11 +167,16 @@ impl Factoring<'_> {
             let equation = "what both terms of the next sum have in common".to_owned();
             self.name(common, values, Label { name: "common".to_owned(), equation });
         }
-        for (value, product) in factors {
-            if let Some(Label { name, equation }) = self.label(product) {
-                let of = if equation.is_empty() { name.clone() } else { format!("{name}, {equation}") };
-                self.name(value, values, Label { name: format!("{name}_factor"), equation: format!("factor of {of}") });
-            }
+        for (factor, product) in factors {
+            self.name_factor(factor, values, product);
+        }
+    }
+
+    /// Names what is left of a product with a name.
+    fn name_factor(&mut self, factor: ValueId, values: usize, product: ValueId) {
+        if let Some(Label { name, equation }) = self.label(product) {
+            let of = if equation.is_empty() { name.clone() } else { format!("{name}, {equation}") };
+            self.name(factor, values, Label { name: format!("{name}_factor"), equation: format!("factor of {of}") });
         }
     }
 
