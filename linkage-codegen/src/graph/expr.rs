@@ -98,6 +98,13 @@ impl<'g> Expr<'g> {
         self
     }
 
+    /// The quotient as one that is divided, not multiplied by a reciprocal that it shares with others: it is rounded once.
+    #[must_use]
+    pub fn divided(self) -> Self {
+        self.graph.arena.borrow_mut().divided.insert(self.id);
+        self
+    }
+
     /// The value as one that a pose keeps: nothing is folded through it, so that what reads it reads no further.
     #[must_use]
     pub fn held(self) -> Self {

@@ -243,6 +243,12 @@ impl Graph {
         self.intern(Op::Checked { value: value.id(), guard })
     }
 
+    /// Whether the value is a quotient that is to be divided.
+    #[must_use]
+    pub fn is_divided(&self, a: Expr<'_>) -> bool {
+        self.arena.borrow().divided.contains(&a.id())
+    }
+
     /// Whether the value is positive by its form, or was stated to be.
     #[must_use]
     pub fn is_positive(&self, a: Expr<'_>) -> bool {

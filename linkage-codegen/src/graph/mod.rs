@@ -489,6 +489,8 @@ struct Arena {
     /// What another scene calls a value that an earlier one has named, and under which heading.
     labels_of_scenes: BTreeMap<(usize, NodeId), (Label, SectionId)>,
     positive: BTreeSet<NodeId>,
+    /// Quotients that are divided, whatever others have the same divisor.
+    divided: BTreeSet<NodeId>,
     /// What was found not to be negative by its form, which is asked for often.
     non_negative: BTreeSet<NodeId>,
     sections: Vec<String>,

@@ -144,7 +144,7 @@ impl Building<'_> {
         let id = ValueId::new(self.program.values.len());
         let (label, section) = graph.label_in(self.scene, node);
         let section = section.unwrap_or_else(|| graph.section(node));
-        self.program.values.push(Value { definition, label, section });
+        self.program.values.push(Value { definition, label, section, divided: graph.is_divided(graph.expr(node)) });
         self.placed.insert(node, id);
         id
     }

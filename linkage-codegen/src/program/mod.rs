@@ -67,6 +67,8 @@ pub struct Value {
     pub label: Option<Label>,
     /// The heading under which it stands.
     pub section: String,
+    /// Whether it is a quotient that is divided, whatever others have the same divisor.
+    pub divided: bool,
 }
 
 /// A step of a program.

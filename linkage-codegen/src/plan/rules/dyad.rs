@@ -121,6 +121,8 @@ struct Arm<'m> {
     along: Vector<'m>,
     /// Its size.
     size: Expr<'m>,
+    /// Its direction: its components over its size.
+    lean: Vector<'m>,
 }
 
 /// A group as a dyad, if it is one.
@@ -355,8 +357,8 @@ impl<'a> Dyad<'a> {
         if leg.is_constant(self.model) {
             return placement.turned(leg.link(), self.axis(leg));
         }
-        let Arm { axis, along, size } = self.arm(leg);
-        Vector::new(along.x / size, along.y / size).turned_by(placement.turned(leg.link(), axis))
+        let Arm { axis, lean, .. } = self.arm(leg);
+        lean.turned_by(placement.turned(leg.link(), axis))
     }
 
     /// Places the links of a leg whose direction from the outer joint to the inner one is known. Gives that direction as it is kept.
@@ -372,12 +374,11 @@ impl<'a> Dyad<'a> {
             return Ok(self.direction(&assembly.placement, leg));
         }
         let arm = self.arm(leg);
-        let unit = Vector::new(arm.along.x / arm.size, arm.along.y / arm.size);
         let first = &self.model.link(leg.link()).name;
         let meaning = format!("direction of {first}, from that of {}", self.link_name(leg));
-        let turned = unit.conjugate().turned_by(direction);
+        let turned = arm.lean.conjugate().turned_by(direction);
         // Off the line, the direction is not only turned round.
-        let turned = if unit.y.is_zero() {
+        let turned = if arm.lean.y.is_zero() {
             turned
         } else {
             let rough = turned.named_direction(&format!("rough_{first}"), "turned back by the arm's direction");
@@ -557,8 +558,8 @@ impl<'a> Dyad<'a> {
         let lean = if leg.is_constant(self.model) {
             placement.carried(leg.link(), self.axis(leg))
         } else {
-            let Arm { axis, along, size } = self.arm(leg);
-            Vector::new(along.x / size, along.y / size).turned_by(placement.carried(leg.link(), axis))
+            let Arm { axis, lean, .. } = self.arm(leg);
+            lean.turned_by(placement.carried(leg.link(), axis))
         };
         Framed { components: force.turned_by(lean), axes: placement.direction(leg.link()) }
     }
@@ -689,7 +690,9 @@ impl<'a> Dyad<'a> {
         let (group, joint) = (self.model.link_names(&leg.links), self.joint_name(self.inner).into());
         let failure = Failure::CoincidentPivots { group, joint };
         let size = size.require_above(size, graph.epsilons(4) * way.length(), failure).known_positive();
-        Arm { axis, along, size }
+        // What is resolved along the body and back has the square of this direction's size: it must not be far from one.
+        let lean = Vector::new((along.x / size).divided(), (along.y / size).divided());
+        Arm { axis, along, size, lean }
     }
 
     /// What the first link of a body carries: the direction of its driven slide or slot, so that what lies along that stays so.

@@ -38,7 +38,7 @@ impl Program {
     /// A new value without a name, under the heading of another one.
     fn add(&mut self, op: Op<ValueId>, beside: ValueId) -> ValueId {
         let section = self.value(beside).section.clone();
-        self.values.push(Value { definition: Definition::Computed(op), label: None, section });
+        self.values.push(Value { definition: Definition::Computed(op), label: None, section, divided: false });
         ValueId::new(self.values.len() - 1)
     }
 

@@ -1,4 +1,4 @@
-//! Several quotients by one divisor become products with its reciprocal.
+//! Several quotients by one divisor become products with its reciprocal, but for those that are to be divided.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,6 +11,7 @@ pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
     for step in &program.steps {
         if let Step::Let(value) = step
             && let Some(Op::Div(_, divisor)) = program.op(*value)
+            && !program.value(*value).divided
         {
             *divisors.entry(*divisor).or_default() += 1;
         }
@@ -34,6 +35,7 @@ pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
         if let Step::Let(value) = step
             && let Some(Op::Div(dividend, divisor)) = program.op(value).cloned()
             && shared.contains(&divisor)
+            && !program.value(value).divided
         {
             if let Some(reciprocal) = own.get(&divisor).copied() {
                 if reciprocals.insert(divisor, reciprocal).is_none() {
