@@ -10,7 +10,8 @@ use linkage_codegen::graph::{Graph, Kernel, NodeId, Op, Symbol};
 use linkage_codegen::plan::Output;
 use linkage_codegen::program::passes::PASSES;
 use linkage_codegen::program::{Definition, Extract, Form, Input, Program, Run, Step, Value, ValueId};
-use support::linkages::{Kind, sample, sample_with_search};
+use support::families::boom;
+use support::linkages::{Kind, Random, sample, sample_with_search};
 use support::numbers::{Double, Extended};
 use support::{Arguments, Number, compile, pose};
 
@@ -120,6 +121,31 @@ fn nothing_waits_longer_for_what_is_multiplied_last() {
     }
     assert!(shorter > 40, "only {shorter} ways became shorter");
     assert!(100 * products[1] <= 102 * products[0], "{products:?} products");
+}
+
+/// The direction of a leg of driven length is divided, whatever else is: what is resolved along the leg and back has the square of its size.
+#[test]
+fn the_direction_of_a_driven_leg_is_divided() {
+    let mut random = Random(5);
+    for side in ["f64", "f32"] {
+        let text = boom([1.5, 1.75, 0.25], &mut random).replacen(';', &format!("; scalar {side};"), 1);
+        let linkage = compile(&text);
+        let graph = &linkage.model.graph;
+        for output in &linkage.plan.scenes[..1] {
+            for form in [Form::Direct, Form::FromPose] {
+                let mut program = unoptimised(output, graph, form);
+                for (_, pass) in PASSES {
+                    program = pass(program, graph);
+                }
+                let divided = |step: &&Step| matches!(step, Step::Let(value) if program.value(*value).divided);
+                let quotients: Vec<_> = program.steps.iter().filter(divided).collect();
+                assert_eq!(quotients.len(), 2, "{text}");
+                let is_quotient =
+                    |step: &&Step| matches!(step, Step::Let(value) if matches!(program.op(*value), Some(Op::Div(..))));
+                assert!(quotients.iter().all(is_quotient), "{text}");
+            }
+        }
+    }
 }
 
 /// Common factors of the terms of a sum are a product less each, and make no way to the results longer.

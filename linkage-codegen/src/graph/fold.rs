@@ -21,7 +21,10 @@ impl Graph {
         match (a.op(), b.op()) {
             (_, Op::Neg(y)) => a - self.expr(y),
             (Op::Neg(x), _) => b - self.expr(x),
-            _ => self.intern(Op::Add(a.id(), b.id())),
+            _ => {
+                let merged = self.like_terms(a, b, false).or_else(|| self.like_terms(b, a, false));
+                merged.unwrap_or_else(|| self.intern(Op::Add(a.id(), b.id())))
+            }
         }
     }
 
@@ -49,10 +52,48 @@ impl Graph {
         match (a.op(), b.op()) {
             (_, Op::Neg(y)) => a + self.expr(y),
             (Op::Neg(x), _) => -(self.expr(x) + b),
-            _ => match self.find(&Op::Sub(b.id(), a.id())) {
-                Some(opposite) => self.intern(Op::Neg(opposite.id())),
-                None => self.intern(Op::Sub(a.id(), b.id())),
-            },
+            _ => {
+                let merged = self.like_terms(a, b, true).or_else(|| self.like_terms(b, a, true).map(|merged| -merged));
+                merged.unwrap_or_else(|| match self.find(&Op::Sub(b.id(), a.id())) {
+                    Some(opposite) => self.intern(Op::Neg(opposite.id())),
+                    None => self.intern(Op::Sub(a.id(), b.id())),
+                })
+            }
+        }
+    }
+
+    /// `a ± b`, if b is a constant times what a, or a term of a, is a constant times of: one product of both constants' sum. A term that
+    /// is the rounding of the other stays by itself: in the sum of the constants it would be lost.
+    fn like_terms<'g>(&'g self, a: Expr<'g>, b: Expr<'g>, negative: bool) -> Option<Expr<'g>> {
+        let (k, x) = self.coefficient(b);
+        let k = if negative { k.neg() } else { k };
+        let least = 4.0 * self.scalar.epsilon().to_f64();
+        let merged = |term: Expr<'g>| {
+            let (own, factor) = self.coefficient(term);
+            let [small, large] = [own.to_f64().abs(), k.to_f64().abs()];
+            let alike = small.min(large) > least * small.max(large);
+            (factor == x && alike).then(|| self.constant(&own.add(&k)) * x)
+        };
+        if let Some(product) = merged(a) {
+            return Some(product);
+        }
+        let (first, second) = match a.op() {
+            Op::Add(y, z) => (self.expr(y), self.expr(z)),
+            Op::Sub(y, z) => (self.expr(y), -self.expr(z)),
+            _ => return None,
+        };
+        merged(first).map(|product| product + second).or_else(|| merged(second).map(|product| first + product))
+    }
+
+    /// A value as a constant and what it multiplies.
+    fn coefficient<'g>(&'g self, a: Expr<'g>) -> (Number, Expr<'g>) {
+        match a.op() {
+            Op::Neg(x) => {
+                let (k, x) = self.coefficient(self.expr(x));
+                (k.neg(), x)
+            }
+            Op::Mul(k, x) => self.constant_value(k).map_or((Number::one(), a), |k| (k, self.expr(x))),
+            _ => (Number::one(), a),
         }
     }
 
@@ -297,4 +338,41 @@ impl Graph {
 
 fn compare(a: Expr<'_>, b: Expr<'_>) -> Option<Ordering> {
     Some(a.value()?.compare(&b.value()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::graph::{Graph, Scalar, Symbol};
+    use crate::model::ids::DriveId;
+
+    #[test]
+    fn like_terms_become_one() {
+        let graph = Graph::new(Scalar::F64);
+        let [x, y] = [0, 1].map(|index| graph.symbol(Symbol::Drive(DriveId::new(index))));
+        assert_eq!(3 * x + 2 * x, 5 * x);
+        assert_eq!(3 * x - 2 * x, x);
+        assert_eq!(2 * x - 3 * x, -x);
+        assert_eq!(x + x, 2 * x);
+        assert_eq!(x - 3 * x, -(2 * x));
+        assert!((3 * x - 3 * x).is_zero());
+        assert_eq!((y + 3 * x) - x, y + 2 * x);
+        assert_eq!((3 * x + y) - 3 * x, y);
+        assert_eq!((y - 3 * x) + 5 * x, y + 2 * x);
+        assert_eq!((y - 3 * x) - x, y - 4 * x);
+        assert_eq!((3 * x - y) + x, 4 * x - y);
+        assert_eq!((3 * x - y) - 3 * x, -y);
+        let rounding = graph.epsilons(1) * x;
+        assert_ne!(x + rounding, x);
+        assert_eq!((x + rounding) + rounding, x + 2 * rounding);
+    }
+
+    /// What reads a value by its name reads no further.
+    #[test]
+    fn terms_of_a_named_sum_stay() {
+        let graph = Graph::new(Scalar::F64);
+        let [x, y] = [0, 1].map(|index| graph.symbol(Symbol::Drive(DriveId::new(index))));
+        let sum = (y + 3 * x).named("sum", "");
+        assert_ne!(sum - 3 * x, y);
+        assert_eq!(2 * sum + sum, 3 * sum);
+    }
 }

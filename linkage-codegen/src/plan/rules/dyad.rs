@@ -387,7 +387,10 @@ impl<'a> Dyad<'a> {
         let carried = turned.named_direction(&first.text, &meaning);
         assembly.placement.orient(leg.link(), Orientation { direction: carried, axis: arm.axis });
         self.place_rest(assembly, leg, leg.link())?;
-        Ok(self.direction(&assembly.placement, leg))
+        let direction = self.direction(&assembly.placement, leg);
+        let slide = assembly.placement.turned(leg.link(), arm.axis);
+        assembly.pivots.state(slide, direction, Some(arm.lean.y), Some(arm.lean.x));
+        Ok(direction)
     }
 
     /// The other links of a leg as groups of their own, in the order in which they are placed from one of its links.
