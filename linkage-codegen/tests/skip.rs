@@ -245,6 +245,33 @@ fn a_way_between_two_points_is_through_the_pin_at_one_of_them() {
     }
 }
 
+/// The power of what acts at a pin, or nearer to it than to the one where the link's motion is found, is that at the pin's velocity: then
+/// nothing asks how the link turns, or what turning adds is small.
+#[test]
+fn power_is_found_at_the_nearest_pin() {
+    let torque = |place: &str, loads: &str| {
+        let text = FOUR_BAR
+            .replace("C: left(A -> B, 70mm, 80mm)", &format!("C: {place}"))
+            .replace("virtual_work(F13, F14)", &format!("virtual_work({loads})"));
+        let linkage = compile(&text);
+        let program = program(&linkage, "torque");
+        let rates = ["rate_coupler", "rate_rocker"].map(|rate| {
+            program.values.iter().filter_map(|value| value.label.as_ref()).any(|label| label.name.starts_with(rate))
+        });
+        let Counts { add, mul, .. } = program.counts();
+        (rates, add + mul)
+    };
+    let (rates, at_the_far_pin) = torque("(100mm, 0)", "F13");
+    assert_eq!(rates, [false, true]);
+    let (rates, off_the_pins) = torque("(30mm, 20mm)", "F13");
+    assert_eq!(rates, [true, false]);
+    assert!(at_the_far_pin < off_the_pins, "{at_the_far_pin} and {off_the_pins} operations");
+    // With a load on the rocker its rate is known anyway.
+    let [(near, of_near), (far, of_far)] = ["(30mm, 20mm)", "(70mm, 20mm)"].map(|place| torque(place, "F13, F14"));
+    assert_eq!([near, far], [[true, true]; 2]);
+    assert!(of_far <= of_near, "{of_far} and {of_near} operations");
+}
+
 /// Every value of every program is read by a later step, or is a result.
 #[test]
 fn no_program_computes_what_nothing_reads() {

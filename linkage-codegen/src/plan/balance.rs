@@ -41,7 +41,7 @@ pub struct Reaction<'m> {
 }
 
 /// The equilibrium of a load case.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Balance<'m, 'p> {
     /// Where the links are.
     pub placement: &'p Placement<'m>,
@@ -132,11 +132,35 @@ impl<'m, 'p> Balance<'m, 'p> {
         self.wrenches[link.index()] = Wrench { forces: vec![Acting { at, force, is_load: false }], couple };
     }
 
+    /// Lets all forces on a link act on the other link of one of its pins, and leaves their moments about it.
+    pub fn carry_over(&mut self, pin: JointId, link: LinkId) {
+        let Some(far) = self.model().joint(pin).end_off(link) else { return };
+        let about = self.placement.slide_point(pin, link);
+        let (force, couple) = (self.total(link), self.moment(link, about, self.graph().one()));
+        self.wrenches[link.index()] = Wrench { forces: Vec::new(), couple };
+        let at = self.placement.slide_point(pin, far.link);
+        self.act(far.link, Acting { at, force, is_load: true });
+    }
+
     /// Whether a force on a link is known to act nearer to one of its places than another place is.
     #[must_use]
     pub fn acts_nearer(&self, link: LinkId, to: Vector<'m>, than: Vector<'m>) -> bool {
-        let nearer = |acting: &Acting<'m>| ((acting.at - to).squared() - (than - to).squared()).sign() == Some(-1);
-        self.wrenches[link.index()].forces.iter().any(nearer)
+        let far = than - to;
+        self.wrenches[link.index()].forces.iter().any(|acting| is_shorter(acting.at - to, far))
+    }
+
+    /// Whether all forces on a link are known to act nearer to one of its places than to another one.
+    #[must_use]
+    pub fn all_act_nearer(&self, link: LinkId, to: Vector<'m>, than: Vector<'m>) -> bool {
+        let forces = &self.wrenches[link.index()].forces;
+        !forces.is_empty() && forces.iter().all(|acting| is_shorter(acting.at - to, acting.at - than))
+    }
+
+    /// Whether there are forces on a link and nothing else, all at one of its places.
+    #[must_use]
+    pub fn acts_only_at(&self, link: LinkId, place: Vector<'m>) -> bool {
+        let wrench = &self.wrenches[link.index()];
+        wrench.couple.is_zero() && wrench.forces.iter().all(|acting| acting.at == place)
     }
 
     /// The sum of the forces on a link.
@@ -322,4 +346,9 @@ impl<'m, 'p> Balance<'m, 'p> {
         let joint = self.model().joint(joint);
         joint.end_on(link).unwrap_or(joint.from)
     }
+}
+
+/// Whether a vector is known to be shorter than another one.
+fn is_shorter(vector: Vector<'_>, than: Vector<'_>) -> bool {
+    (vector.squared() - than.squared()).sign() == Some(-1)
 }

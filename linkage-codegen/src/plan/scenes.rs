@@ -354,9 +354,12 @@ impl<'m> Forces<'_, 'm> {
     /// the rates of rotation of its links have factors in common.
     pub(super) fn effort_by_work(&self, motion: &Motion<'m, '_>, loads: &Balance<'m, '_>) -> Expr<'m> {
         let zero = self.model.graph.zero();
+        let pins = self.model.moving_links().filter_map(|link| Some((motion.pin_for_power(loads, link)?, link)));
+        let mut carried = loads.clone();
+        pins.for_each(|(pin, link)| carried.carry_over(pin, link));
         -self.groups.iter().fold(zero, |sum, group| {
             let [forces, moments] = group.links.iter().fold([zero; 2], |[forces, moments], link| {
-                let [force, moment] = motion.power_of(loads, *link);
+                let [force, moment] = motion.power_of(&carried, *link);
                 [forces + force, moments + moment]
             });
             sum + forces + moments

@@ -519,6 +519,30 @@ impl<'m, 'p> Motion<'m, 'p> {
         sum
     }
 
+    /// The pin of a link at which the power of its loads is found best, if that is not where the link's own motion is.
+    ///
+    /// What turning adds to the velocity of a far place may take most of it away again, and leave its rounding. So forces that all act nearer
+    /// to another pin have the power that they have there, on the link on its other side, and their moments about that pin the rest. Only
+    /// where loads on that link ask for its motion anyway, or where in exchange nothing asks how this one turns.
+    #[must_use]
+    pub fn pin_for_power(&self, loads: &Balance<'m, '_>, link: LinkId) -> Option<JointId> {
+        let (model, own) = (self.model(), self.twists[link.index()]);
+        if own.velocity.components.is_zero() {
+            return None;
+        }
+        let pins = model.joint_ids().filter(|joint| {
+            let data = model.joint(*joint);
+            matches!(data.kind, JointKind::Revolute) && data.end_on(link).is_some()
+        });
+        let nearest = pins.fold((own.at, None), |nearest, joint| {
+            let (at, there) = (self.placement.slide_point(joint, link), self.passed_on(joint, link).components);
+            let simple = there.x.is_zero() || there.y.is_zero();
+            let known = !loads.is_free(self.other(joint, link)) || simple && loads.acts_only_at(link, at);
+            if known && loads.all_act_nearer(link, at, nearest.0) { (at, Some(joint)) } else { nearest }
+        });
+        nearest.1
+    }
+
     /// The power of all that acts on a link: `ΣF · v` and `ΣM ω`, with the moments about the place whose velocity is v.
     #[must_use]
     pub fn power_of(&self, loads: &Balance<'m, '_>, link: LinkId) -> [Expr<'m>; 2] {
