@@ -7,9 +7,9 @@ use linkage_codegen::graph::real::Real;
 use linkage_codegen::program::Fault;
 use support::families::{BARS, Family, SCENES, boom, check, length, loads, slider_crank, tangent_mechanism, worst};
 use support::linkages::Random;
-use support::measures::Measures;
+use support::measures::{Measures, from_kept};
 use support::numbers::{Double, Extended};
-use support::{Arguments, Number, compile, scene};
+use support::{Arguments, Number, compile, pose, scene};
 
 /// Angles of the crank at which a four-bar has `sin μ = ±distance`, near its stretched and its folded position.
 fn near_toggle([g, a, b, c]: [f64; 4], distance: f64) -> Vec<f64> {
@@ -35,6 +35,35 @@ fn toggles_inner_and_outer() {
         Family { text, longest: lengths.into_iter().fold(0.0, f64::max), drives, loads: loads(&mut random) }
     });
     assert!(check(families, "toggles") > 50);
+}
+
+/// A load on the coupler next to a pin that hardly moves has little power: by way of the crank's pin, whose velocity the coupler's turning takes
+/// away again, six times the rounding would be left.
+#[test]
+fn loads_next_to_a_pin_that_hardly_moves() {
+    let linkage = compile(&format!(
+        "pub mod sample; ground {{ A0: (0, 0), B0: 1.5m @ 135deg }} link crank {{ A0 -> A: 0.125m }}
+         link coupler {{ A -> B: 1m, C: (0.9375m, -0.015625m) }} link rocker {{ B0 -> B: 1.875m, D: (0, 0.9375m) }}
+         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+         drive theta: A0; unknown T: torque(ground -> crank); assemble B: right(A -> B0);
+         load F: force(coupler.C); load H: force(rocker.D); {SCENES}"
+    ));
+    let mut random = Random(29);
+    let mut worst = 0.0f64;
+    for _ in 0..2000 {
+        // Crank and coupler are in line at −2.54 rad.
+        let drives = vec![random.range(-2.6, -2.5)];
+        let arguments = Arguments { drives, loads: loads(&mut random), ..Arguments::default() };
+        let kept = pose::<Double>(&linkage, &arguments).expect("a pose");
+        let exactly = kept.iter().map(|(node, value)| (*node, Extended::exactly(value.0))).collect();
+        let rounded = from_kept(&linkage, "work", &kept, &arguments).expect("a torque")["T"].0;
+        let exact = from_kept::<Extended>(&linkage, "work", &exactly, &arguments).expect("a torque")["T"].clone();
+        let forces: f64 = arguments.loads.iter().map(|[x, y]| x.hypot(*y)).sum();
+        let error = Extended::exactly(rounded).sub(&exact).to_f64().abs();
+        worst = worst.max(error / (forces * 0.125 * f64::EPSILON));
+    }
+    println!("{worst:.3} ε of the loads at the crank's length");
+    assert!(worst < 0.4, "{worst:.3} ε");
 }
 
 /// A four-bar with its ground line along x.

@@ -127,8 +127,8 @@ fn nothing_waits_longer_for_what_is_multiplied_last() {
 #[test]
 fn the_direction_of_a_driven_leg_is_divided() {
     let mut random = Random(5);
-    for side in ["f64", "f32"] {
-        let text = boom([1.5, 1.75, 0.25], &mut random).replacen(';', &format!("; scalar {side};"), 1);
+    for (scalar, offset) in [("f64", 0.25), ("f32", 0.25), ("f64", 1.0)] {
+        let text = boom([1.5, 1.75, offset], &mut random).replacen(';', &format!("; scalar {scalar};"), 1);
         let linkage = compile(&text);
         let graph = &linkage.model.graph;
         for output in &linkage.plan.scenes[..1] {

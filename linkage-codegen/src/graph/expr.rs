@@ -101,7 +101,9 @@ impl<'g> Expr<'g> {
     /// The quotient as one that is divided, not multiplied by a reciprocal that it shares with others: it is rounded once.
     #[must_use]
     pub fn divided(self) -> Self {
-        self.graph.arena.borrow_mut().divided.insert(self.id);
+        if let Op::Div(..) = self.op() {
+            self.graph.arena.borrow_mut().divided.insert(self.id);
+        }
         self
     }
 

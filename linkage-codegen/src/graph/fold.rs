@@ -1,6 +1,6 @@
 //! Folding: what is simplified while an expression is written.
 //!
-//! Every rule keeps the value up to rounding, and none adds an operation. Signs are pulled outwards (they are exact), constants
+//! Every rule keeps the value up to the rounding of its terms, and none adds an operation to what is read only here. Signs are pulled outwards (they are exact), constants
 //! are merged exactly, and a divisor that is known earlier than its dividend becomes a factor that is prepared once.
 
 use core::cmp::Ordering;
@@ -62,19 +62,21 @@ impl Graph {
         }
     }
 
-    /// `a ± b`, if b is a constant times what a, or a term of a, is a constant times of: one product of both constants' sum. A term that
-    /// is the rounding of the other stays by itself: in the sum of the constants it would be lost.
+    /// `a ± b`, if b and a, or b and a term of a, are multiples of one value: one product of both constants' sum.
+    ///
+    /// A multiple that is the rounding of the other one stays by itself: in the sum of the constants it would be lost. And so does a small one
+    /// beside a term of a sum of which little may be left, unless it takes from that term.
     fn like_terms<'g>(&'g self, a: Expr<'g>, b: Expr<'g>, negative: bool) -> Option<Expr<'g>> {
         let (k, x) = self.coefficient(b);
         let k = if negative { k.neg() } else { k };
-        let least = 4.0 * self.scalar.epsilon().to_f64();
-        let merged = |term: Expr<'g>| {
+        let merged = |term: Expr<'g>, least: f64| {
             let (own, factor) = self.coefficient(term);
-            let [small, large] = [own.to_f64().abs(), k.to_f64().abs()];
-            let alike = small.min(large) > least * small.max(large);
+            let sizes = [own.to_f64().abs(), k.to_f64().abs()];
+            let alike = sizes[0].min(sizes[1]) > least * sizes[0].max(sizes[1]);
             (factor == x && alike).then(|| self.constant(&own.add(&k)) * x)
         };
-        if let Some(product) = merged(a) {
+        let rounding = 4.0 * self.scalar.epsilon().to_f64();
+        if let Some(product) = merged(a, rounding) {
             return Some(product);
         }
         let (first, second) = match a.op() {
@@ -82,7 +84,11 @@ impl Graph {
             Op::Sub(y, z) => (self.expr(y), -self.expr(z)),
             _ => return None,
         };
-        merged(first).map(|product| product + second).or_else(|| merged(second).map(|product| first + product))
+        let of_sum = |term: Expr<'g>| {
+            let takes = self.coefficient(term).0.signum() != k.signum();
+            merged(term, if takes { rounding } else { 1.0 / 16.0 })
+        };
+        of_sum(first).map(|product| product + second).or_else(|| of_sum(second).map(|product| first + product))
     }
 
     /// A value as a constant and what it multiplies.
@@ -342,6 +348,7 @@ fn compare(a: Expr<'_>, b: Expr<'_>) -> Option<Ordering> {
 
 #[cfg(test)]
 mod tests {
+    use crate::graph::number::Number;
     use crate::graph::{Graph, Scalar, Symbol};
     use crate::model::ids::DriveId;
 
@@ -361,6 +368,11 @@ mod tests {
         assert_eq!((y - 3 * x) - x, y - 4 * x);
         assert_eq!((3 * x - y) + x, 4 * x - y);
         assert_eq!((3 * x - y) - 3 * x, -y);
+        let tenth = graph.constant(&Number::ratio(1, 10));
+        let hundredth = tenth * tenth;
+        assert_eq!((x - y) + tenth * x, (graph.one() + tenth) * x - y);
+        assert_ne!((x - y) + hundredth * x, (graph.one() + hundredth) * x - y);
+        assert_eq!((x - y) - hundredth * x, (graph.one() - hundredth) * x - y);
         let rounding = graph.epsilons(1) * x;
         assert_ne!(x + rounding, x);
         assert_eq!((x + rounding) + rounding, x + 2 * rounding);

@@ -132,7 +132,8 @@ impl<'m, 'p> Balance<'m, 'p> {
         self.wrenches[link.index()] = Wrench { forces: vec![Acting { at, force, is_load: false }], couple };
     }
 
-    /// Lets all forces on a link act on the other link of one of its pins, and leaves their moments about it.
+    /// Lets the loads on a link act at one of its pins on the other link there, and leaves their moment about it. At a pin on the ground they
+    /// have no power.
     pub fn carry_over(&mut self, pin: JointId, link: LinkId) {
         let Some(far) = self.model().joint(pin).end_off(link) else { return };
         let about = self.placement.slide_point(pin, link);
@@ -156,7 +157,7 @@ impl<'m, 'p> Balance<'m, 'p> {
         !forces.is_empty() && forces.iter().all(|acting| is_shorter(acting.at - to, acting.at - than))
     }
 
-    /// Whether there are forces on a link and nothing else, all at one of its places.
+    /// Whether nothing acts on a link but forces at this place.
     #[must_use]
     pub fn acts_only_at(&self, link: LinkId, place: Vector<'m>) -> bool {
         let wrench = &self.wrenches[link.index()];

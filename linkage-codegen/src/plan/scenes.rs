@@ -354,9 +354,13 @@ impl<'m> Forces<'_, 'm> {
     /// the rates of rotation of its links have factors in common.
     pub(super) fn effort_by_work(&self, motion: &Motion<'m, '_>, loads: &Balance<'m, '_>) -> Expr<'m> {
         let zero = self.model.graph.zero();
-        let pins = self.model.moving_links().filter_map(|link| Some((motion.pin_for_power(loads, link)?, link)));
-        let mut carried = loads.clone();
-        pins.for_each(|(pin, link)| carried.carry_over(pin, link));
+        let (mut carried, mut given) = (loads.clone(), Vec::new());
+        for link in self.model.moving_links() {
+            if let Some(pin) = motion.pin_for_power(&carried, link, &given) {
+                carried.carry_over(pin, link);
+                given.push(link);
+            }
+        }
         -self.groups.iter().fold(zero, |sum, group| {
             let [forces, moments] = group.links.iter().fold([zero; 2], |[forces, moments], link| {
                 let [force, moment] = motion.power_of(&carried, *link);

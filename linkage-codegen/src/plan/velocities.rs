@@ -521,18 +521,20 @@ impl<'m, 'p> Motion<'m, 'p> {
 
     /// The pin of a link at which the power of its loads is found best, if that is not where the link's own motion is.
     ///
-    /// What turning adds to the velocity of a far place may take most of it away again, and leave its rounding. So forces that all act nearer
-    /// to another pin have the power that they have there, on the link on its other side, and their moments about that pin the rest. Only
-    /// where loads on that link ask for its motion anyway, or where in exchange nothing asks how this one turns.
+    /// What turning adds to the velocity of a far place may take most of it away again, and leave its rounding. So if all forces act nearer to
+    /// another pin, they are carried there, to the link on its other side, and leave their moment about the pin. That link's motion
+    /// has to be known for loads of its own; or the forces act at the pin itself, which moves in a simple way, and no load asks how
+    /// this link turns. A link that has given its loads away, one of `given`, gets none back.
     #[must_use]
-    pub fn pin_for_power(&self, loads: &Balance<'m, '_>, link: LinkId) -> Option<JointId> {
+    pub fn pin_for_power(&self, loads: &Balance<'m, '_>, link: LinkId, given: &[LinkId]) -> Option<JointId> {
         let (model, own) = (self.model(), self.twists[link.index()]);
         if own.velocity.components.is_zero() {
             return None;
         }
         let pins = model.joint_ids().filter(|joint| {
             let data = model.joint(*joint);
-            matches!(data.kind, JointKind::Revolute) && data.end_on(link).is_some()
+            let gets = data.end_off(link).is_some_and(|far| !given.contains(&far.link));
+            matches!(data.kind, JointKind::Revolute) && data.end_on(link).is_some() && gets
         });
         let nearest = pins.fold((own.at, None), |nearest, joint| {
             let (at, there) = (self.placement.slide_point(joint, link), self.passed_on(joint, link).components);

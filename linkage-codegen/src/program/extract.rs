@@ -181,6 +181,8 @@ impl Building<'_> {
                         let op = op.map(|operand| self.value(operand));
                         if let Some(same) = self.computed.get(&op) {
                             self.placed.insert(node, *same);
+                            let graph = self.extract.graph;
+                            self.program.values[same.index()].divided |= graph.is_divided(graph.expr(node));
                             return *same;
                         }
                         let value = self.add(node, Definition::Computed(op.clone()));

@@ -388,8 +388,9 @@ impl<'a> Dyad<'a> {
         assembly.placement.orient(leg.link(), Orientation { direction: carried, axis: arm.axis });
         self.place_rest(assembly, leg, leg.link())?;
         let direction = self.direction(&assembly.placement, leg);
-        let slide = assembly.placement.turned(leg.link(), arm.axis);
-        assembly.pivots.state(slide, direction, Some(arm.lean.y), Some(arm.lean.x));
+        // Multiplied out, the first link's own direction would come in twice. No divisor: a leg may lie across its first link.
+        let carried = assembly.placement.turned(leg.link(), arm.axis);
+        assembly.pivots.state(carried, direction, Some(arm.lean.y), Some(arm.lean.x));
         Ok(direction)
     }
 

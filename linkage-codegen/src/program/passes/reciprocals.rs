@@ -35,7 +35,7 @@ pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
         if let Step::Let(value) = step
             && let Some(Op::Div(dividend, divisor)) = program.op(value).cloned()
             && shared.contains(&divisor)
-            && !program.value(value).divided
+            && (!program.value(value).divided || own.get(&divisor) == Some(&value))
         {
             if let Some(reciprocal) = own.get(&divisor).copied() {
                 if reciprocals.insert(divisor, reciprocal).is_none() {
