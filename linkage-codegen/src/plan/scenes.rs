@@ -350,8 +350,8 @@ impl<'m> Forces<'_, 'm> {
         Balance::new(&self.assembly.placement, &self.assembly.pivots, String::new(), &self.actions(loads))
     }
 
-    /// The effort that does as much work as the loads, with the opposite sign. The works of a group's moments stand beside each other, since
-    /// the rates of rotation of its links have factors in common.
+    /// The effort that does as much work as the loads, with the opposite sign: loads near a link's other pin are carried there first. The works
+    /// of a group's moments stand beside each other, since the rates of rotation of its links have factors in common.
     pub(super) fn effort_by_work(&self, motion: &Motion<'m, '_>, loads: &Balance<'m, '_>) -> Expr<'m> {
         let zero = self.model.graph.zero();
         let (mut carried, mut given) = (loads.clone(), Vec::new());
