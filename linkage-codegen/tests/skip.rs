@@ -272,6 +272,23 @@ fn power_is_found_at_the_nearest_pin() {
     assert!(of_far <= of_near, "{of_far} and {of_near} operations");
 }
 
+/// What only slides has one velocity, and what is nearest to a pin of a link that turns about a moving pin stays where it is.
+#[test]
+fn power_is_not_found_by_way_of_what_turns() {
+    let operations = |place: &str| {
+        let linkage = compile(&format!(
+            "pub mod press; units {{ mm, N }} ground {{ O: (0, 0), S: (0, 0) }} link crank {{ O -> A: 42mm }}
+             link rod {{ A -> B: 142mm, G: (42mm, 10mm) }} link ram {{ B: (0, 0), S: (0, 50mm), D: {place} }}
+             revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> ram;
+             prismatic S: ground -> ram along 90deg of ground;
+             drive theta: O; unknown T: torque(ground -> crank); assemble B: ahead(A);
+             load F: force(rod.G); load H: force(ram.D); scene torque: virtual_work -> (T);"
+        ));
+        program(&linkage, "torque").counts()
+    };
+    assert_eq!(operations("(1mm, 0)"), operations("(0, 49mm)"));
+}
+
 /// Every value of every program is read by a later step, or is a result.
 #[test]
 fn no_program_computes_what_nothing_reads() {

@@ -522,13 +522,13 @@ impl<'m, 'p> Motion<'m, 'p> {
     /// The pin of a link at which the power of its loads is found best, if that is not where the link's own motion is.
     ///
     /// What turning adds to the velocity of a far place may take most of it away again, and leave its rounding. So if all forces act nearer to
-    /// another pin, they are carried there, to the link on its other side, and leave their moment about the pin. That link's motion
-    /// has to be known for loads of its own; or the forces act at the pin itself, which moves in a simple way, and no load asks how
-    /// this link turns. A link that has given its loads away, one of `given`, gets none back.
+    /// another pin that moves in a simple way, as one of a link on the ground, they are carried there, to the link on its other side, and leave
+    /// their moment about the pin. That link's motion has to be known for loads of its own; or the forces act at the pin itself, and no load
+    /// asks how this link turns. A link that has given its loads away, one of `given`, gets none back.
     #[must_use]
     pub fn pin_for_power(&self, loads: &Balance<'m, '_>, link: LinkId, given: &[LinkId]) -> Option<JointId> {
         let (model, own) = (self.model(), self.twists[link.index()]);
-        if own.velocity.components.is_zero() {
+        if own.rate.is_zero() || own.velocity.components.is_zero() {
             return None;
         }
         let pins = model.joint_ids().filter(|joint| {
@@ -539,8 +539,8 @@ impl<'m, 'p> Motion<'m, 'p> {
         let nearest = pins.fold((own.at, None), |nearest, joint| {
             let (at, there) = (self.placement.slide_point(joint, link), self.passed_on(joint, link).components);
             let simple = there.x.is_zero() || there.y.is_zero();
-            let known = !loads.is_free(self.other(joint, link)) || simple && loads.acts_only_at(link, at);
-            if known && loads.all_act_nearer(link, at, nearest.0) { (at, Some(joint)) } else { nearest }
+            let known = !loads.is_free(self.other(joint, link)) || loads.acts_only_at(link, at);
+            if simple && known && loads.all_act_nearer(link, at, nearest.0) { (at, Some(joint)) } else { nearest }
         });
         nearest.1
     }
