@@ -1,7 +1,8 @@
 //! Folding: what is simplified while an expression is written.
 //!
-//! Every rule keeps the value up to the rounding of its terms, and none adds an operation to what is read only here. Signs are pulled outwards (they are exact), constants
-//! are merged exactly, and a divisor that is known earlier than its dividend becomes a factor that is prepared once.
+//! Every rule keeps the value up to the rounding of its terms, and none adds an operation to what is read only here. Signs are pulled
+//! outwards (they are exact), constants are merged exactly, and a divisor that is known earlier than its dividend becomes a factor that is
+//! prepared once.
 
 use core::cmp::Ordering;
 
@@ -69,13 +70,14 @@ impl Graph {
     fn like_terms<'g>(&'g self, a: Expr<'g>, b: Expr<'g>, negative: bool) -> Option<Expr<'g>> {
         let (k, x) = self.coefficient(b);
         let k = if negative { k.neg() } else { k };
-        let merged = |term: Expr<'g>, least: f64| {
+        let rounding = 4.0 * self.scalar.epsilon().to_f64();
+        let merged = |term: Expr<'g>, least_added: f64| {
             let (own, factor) = self.coefficient(term);
+            let least = if own.signum() == k.signum() { least_added } else { rounding };
             let sizes = [own.to_f64().abs(), k.to_f64().abs()];
             let alike = sizes[0].min(sizes[1]) > least * sizes[0].max(sizes[1]);
             (factor == x && alike).then(|| self.constant(&own.add(&k)) * x)
         };
-        let rounding = 4.0 * self.scalar.epsilon().to_f64();
         if let Some(product) = merged(a, rounding) {
             return Some(product);
         }
@@ -84,10 +86,7 @@ impl Graph {
             Op::Sub(y, z) => (self.expr(y), -self.expr(z)),
             _ => return None,
         };
-        let of_sum = |term: Expr<'g>| {
-            let takes = self.coefficient(term).0.signum() != k.signum();
-            merged(term, if takes { rounding } else { 1.0 / 16.0 })
-        };
+        let of_sum = |term| merged(term, 1.0 / 16.0);
         of_sum(first).map(|product| product + second).or_else(|| of_sum(second).map(|product| first + product))
     }
 
@@ -288,12 +287,6 @@ impl Graph {
         }
         let guard = self.intern_guard(guard.clone());
         self.intern(Op::Checked { value: value.id(), guard })
-    }
-
-    /// Whether the value is a quotient that is to be divided.
-    #[must_use]
-    pub fn is_divided(&self, a: Expr<'_>) -> bool {
-        self.arena.borrow().divided.contains(&a.id())
     }
 
     /// Whether the value is positive by its form, or was stated to be.

@@ -642,6 +642,12 @@ impl Graph {
         arena.sections[arena.sections_of[id.index()].0 as usize].clone()
     }
 
+    /// Whether a node is a quotient that is to be divided.
+    #[must_use]
+    pub fn is_divided(&self, id: NodeId) -> bool {
+        self.arena.borrow().divided.contains(&id)
+    }
+
     /// From here on, new nodes stand under this heading.
     pub fn begin_section(&self, heading: impl Into<String>) {
         self.arena.borrow_mut().sections.push(heading.into());

@@ -354,13 +354,7 @@ impl<'m> Forces<'_, 'm> {
     /// of a group's moments stand beside each other, since the rates of rotation of its links have factors in common.
     pub(super) fn effort_by_work(&self, motion: &Motion<'m, '_>, loads: &Balance<'m, '_>) -> Expr<'m> {
         let zero = self.model.graph.zero();
-        let (mut carried, mut given) = (loads.clone(), Vec::new());
-        for link in self.model.moving_links() {
-            if let Some(pin) = motion.pin_for_power(&carried, link, &given) {
-                carried.carry_over(pin, link);
-                given.push(link);
-            }
-        }
+        let carried = motion.at_nearest_pins(loads);
         -self.groups.iter().fold(zero, |sum, group| {
             let [forces, moments] = group.links.iter().fold([zero; 2], |[forces, moments], link| {
                 let [force, moment] = motion.power_of(&carried, *link);

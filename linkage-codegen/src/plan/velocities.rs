@@ -519,14 +519,26 @@ impl<'m, 'p> Motion<'m, 'p> {
         sum
     }
 
+    /// The loads where their power is found best: those near another pin of a link are carried to it.
+    #[must_use]
+    pub fn at_nearest_pins<'l>(&self, loads: &Balance<'m, 'l>) -> Balance<'m, 'l> {
+        let (mut carried, mut given) = (loads.clone(), Vec::new());
+        for link in self.model().moving_links() {
+            if let Some(pin) = self.pin_for_power(&carried, link, &given) {
+                carried.carry_over(pin, link);
+                given.push(link);
+            }
+        }
+        carried
+    }
+
     /// The pin of a link at which the power of its loads is found best, if that is not where the link's own motion is.
     ///
     /// What turning adds to the velocity of a far place may take most of it away again, and leave its rounding. So if all forces act nearer to
     /// another pin that moves in a simple way, as one of a link on the ground, they are carried there, to the link on its other side, and leave
     /// their moment about the pin. That link's motion has to be known for loads of its own; or the forces act at the pin itself, and no load
     /// asks how this link turns. A link that has given its loads away, one of `given`, gets none back.
-    #[must_use]
-    pub fn pin_for_power(&self, loads: &Balance<'m, '_>, link: LinkId, given: &[LinkId]) -> Option<JointId> {
+    fn pin_for_power(&self, loads: &Balance<'m, '_>, link: LinkId, given: &[LinkId]) -> Option<JointId> {
         let (model, own) = (self.model(), self.twists[link.index()]);
         if own.rate.is_zero() || own.velocity.components.is_zero() {
             return None;

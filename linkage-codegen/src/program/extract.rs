@@ -144,7 +144,7 @@ impl Building<'_> {
         let id = ValueId::new(self.program.values.len());
         let (label, section) = graph.label_in(self.scene, node);
         let section = section.unwrap_or_else(|| graph.section(node));
-        self.program.values.push(Value { definition, label, section, divided: graph.is_divided(graph.expr(node)) });
+        self.program.values.push(Value { definition, label, section, divided: graph.is_divided(node) });
         self.placed.insert(node, id);
         id
     }
@@ -181,8 +181,7 @@ impl Building<'_> {
                         let op = op.map(|operand| self.value(operand));
                         if let Some(same) = self.computed.get(&op) {
                             self.placed.insert(node, *same);
-                            let graph = self.extract.graph;
-                            self.program.values[same.index()].divided |= graph.is_divided(graph.expr(node));
+                            self.program.values[same.index()].divided |= self.extract.graph.is_divided(node);
                             return *same;
                         }
                         let value = self.add(node, Definition::Computed(op.clone()));

@@ -354,11 +354,16 @@ impl<'a> Dyad<'a> {
 
     /// The direction of a leg of a placed dyad from the outer joint to the inner one, in ground axes.
     pub(super) fn direction(&self, placement: &Placement<'a>, leg: &Leg) -> Vector<'a> {
+        self.along_first(placement, leg).turned_by(placement.direction(leg.link()))
+    }
+
+    /// The same along and across the direction that its first link carries.
+    fn along_first(&self, placement: &Placement<'a>, leg: &Leg) -> Vector<'a> {
         if leg.is_constant(self.model) {
-            return placement.turned(leg.link(), self.axis(leg));
+            return placement.carried(leg.link(), self.axis(leg));
         }
         let Arm { axis, lean, .. } = self.arm(leg);
-        lean.turned_by(placement.turned(leg.link(), axis))
+        lean.turned_by(placement.carried(leg.link(), axis))
     }
 
     /// Places the links of a leg whose direction from the outer joint to the inner one is known. Gives that direction as it is kept.
@@ -559,13 +564,8 @@ impl<'a> Dyad<'a> {
 
     /// A force along and across a leg, along and across the direction of its first link.
     fn in_own_axes(&self, placement: &Placement<'a>, leg: &Leg, force: Vector<'a>) -> Framed<'a> {
-        let lean = if leg.is_constant(self.model) {
-            placement.carried(leg.link(), self.axis(leg))
-        } else {
-            let Arm { axis, lean, .. } = self.arm(leg);
-            lean.turned_by(placement.carried(leg.link(), axis))
-        };
-        Framed { components: force.turned_by(lean), axes: placement.direction(leg.link()) }
+        let components = force.turned_by(self.along_first(placement, leg));
+        Framed { components, axes: placement.direction(leg.link()) }
     }
 
     /// The efforts and welds within a leg, from its ends towards one of its links; for one of the others what it passes on may be known.
