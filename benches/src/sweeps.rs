@@ -95,12 +95,19 @@ macro_rules! sweeps {
             }
 
             impl Given {
-                /// Away from the fold at half a turn.
+                /// A turn from the line of the ground link on, without what lies next to the fold at half a turn, where the expert has no digits left
+                /// in single precision.
                 fn new(count: usize) -> Self {
+                    const BESIDE: $scalar = 0.05;
+                    const HALF: $scalar = core::$scalar::consts::PI;
                     let part = |index: usize| index as $scalar / count as $scalar;
+                    let theta = |index: usize| {
+                        let turned = 2.0 * (HALF - BESIDE) * part(index);
+                        if turned < HALF - BESIDE { turned } else { turned + 2.0 * BESIDE }
+                    };
                     let load = |angle: $scalar| Vector2::new(50.0 * angle.cos(), 50.0 * angle.sin());
                     Self {
-                        theta: (0..count).map(|index| 0.5 + 2.0 * part(index)).collect(),
+                        theta: (0..count).map(theta).collect(),
                         loads: (0..count).map(|index| load(6.0 * part(index))).collect(),
                     }
                 }
