@@ -29,7 +29,7 @@ pub(super) fn share(mut program: Program, graph: &Graph) -> Program {
             own.entry(*divisor).or_insert(*value);
         }
     }
-    // It stays what it is, also if it is to be divided, and is placed once.
+    // Those that have their step. One that was there stays a quotient, also if it is to be divided.
     let mut reciprocals: BTreeMap<ValueId, ValueId> = BTreeMap::new();
     let mut steps = Vec::new();
     for step in core::mem::take(&mut program.steps) {
