@@ -16,9 +16,25 @@ use crate::model::{LoadKind, Method, Model, type_name};
 use crate::plan::{Comparison, Output};
 use crate::program::{Input, Program, ValueId};
 
-/// Names that a function's own values cannot have.
-const TAKEN: [&str; 9] =
-    ["motion", "loads", "linkage", "params", "closures", "EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"];
+/// Names that a function's own values cannot have, those of patterns that Rust knows already and of what a sweep runs over among them.
+const TAKEN: [&str; 16] = [
+    "motion",
+    "loads",
+    "linkage",
+    "params",
+    "closures",
+    "EQUATIONS",
+    "LIMITS",
+    "OPERATIONS",
+    "SOURCE",
+    "Ok",
+    "Err",
+    "Some",
+    "None",
+    "lane",
+    "block",
+    "holds",
+];
 
 /// The name of an input.
 pub(super) fn input_name(linkage: &Linkage, input: Input) -> String {

@@ -630,9 +630,9 @@ impl Graph {
     }
 
     /// Names a value that a pose keeps.
-    pub fn name_kept(&self, value: Expr<'_>, name: &str) {
+    pub fn name_kept(&self, value: NodeId, name: &str) {
         let label = Label { name: name.to_owned(), equation: String::new() };
-        self.arena.borrow_mut().labels.entry(value.id()).or_insert(label);
+        self.arena.borrow_mut().labels.entry(value).or_insert(label);
     }
 
     /// The heading under which a node was made, empty for none.

@@ -226,11 +226,18 @@ impl Graph {
     pub fn found(&self, id: SearchId) -> Vec<Expr<'_>> {
         let search = self.search(id);
         let number = |number: usize| u8::try_from(number).unwrap_or(u8::MAX);
-        let count = search.numbers() + search.drives.len();
-        let start = (0..count).map(|index| self.symbol(Symbol::Start(id, number(index))));
+        let start = (0..search.numbers()).map(|index| self.symbol(Symbol::Start(id, number(index))));
+        // All searches leave from the same pose: a drive's place there has one symbol, of the first search that reads it.
+        let all = self.searches();
+        let from = search.drives.iter().filter_map(|drive| {
+            all.iter().find_map(|(first, other)| {
+                let index = other.drives.iter().position(|own| own == drive)?;
+                Some(self.symbol(Symbol::Start(*first, number(other.numbers() + index))))
+            })
+        });
         let to = search.drives.iter().map(|drive| self.symbol(Symbol::Drive(*drive)));
         let others = search.reach.iter().chain(&search.given).chain(&search.known).map(|node| self.expr(*node));
-        let args: Vec<Expr<'_>> = start.chain(to).chain(others).collect();
+        let args: Vec<Expr<'_>> = start.chain(from).chain(to).chain(others).collect();
         self.search_from(id, &args)
     }
 

@@ -812,6 +812,12 @@ fn check_values(model: &Model, sink: &Sink) {
     for constant in ["EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"] {
         values.insert(constant.into(), "is a constant of the module".into());
     }
+    for pattern in ["Ok", "Err", "Some", "None"] {
+        values.insert(pattern.into(), "is Rust's own".into());
+    }
+    for name in ["lane", "block", "holds"].into_iter().filter(|_| !model.sweeps.is_empty()) {
+        values.insert(name.into(), "is what sweeps compute by".into());
+    }
     for inverse in model.inverses.iter().filter(|_| !model.params.is_empty()) {
         values.insert(inverse.prepared_name(), format!("is what is prepared for `{}`", inverse.name));
     }

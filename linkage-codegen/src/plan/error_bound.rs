@@ -97,7 +97,7 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept])
             None if shared(held) => (name, format!("bound of the rounding error of {what} beside its shares")),
             None => (name, format!("bound of the rounding error of {what}")),
         };
-        graph.name_kept(held.bound, &name);
+        graph.name_kept(held.bound.id(), &name);
         Kept { name, meaning, node: held.bound.id(), is_bound: true }
     };
     rounding.held.iter().map(keep).collect()

@@ -38,11 +38,11 @@ pub use velocities::Motion;
 
 use posed::Posed;
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::equations::System;
-use crate::graph::{Coordinate, Expr, Graph, NodeId, Op, Order, Symbol};
+use crate::graph::{Coordinate, Expr, Graph, NodeId, Op, Order, Sought, Symbol};
 use crate::model::ids::{DriveId, JointId, LinkId, ParamId};
 use crate::model::units::Kind;
 use crate::model::{Along, Closure, End, Model, Pair, Scene, Wanted};
@@ -326,8 +326,7 @@ fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
     let model = assembly.model();
     let mut all: Vec<Kept> = Vec::new();
     let mut keep = |name: String, meaning: String, value: Expr<'_>| {
-        if matches!(value.op(), Op::Held(_)) && all.iter().all(|kept| kept.node != value.id()) {
-            model.graph.name_kept(value, &name);
+        if matches!(value.op(), Op::Held(_)) {
             all.push(Kept { name, meaning, node: value.id(), is_bound: false });
         }
     };
@@ -361,7 +360,26 @@ fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
             keep(cosine.name.clone(), cosine.what.clone(), cosine.value);
         }
     }
+    let all = each_once(all, &model.graph);
+    for kept in &all {
+        model.graph.name_kept(kept.node, &kept.name);
+    }
     all
+}
+
+/// What links that are held at one angle share goes by the name by which a search seeks it, otherwise by the first.
+fn each_once(all: Vec<Kept>, graph: &Graph) -> Vec<Kept> {
+    let searches = graph.searches();
+    let sought: BTreeSet<String> =
+        searches.iter().flat_map(|(_, search)| search.sought.iter().flat_map(Sought::names)).collect();
+    let mut names: BTreeMap<NodeId, String> = BTreeMap::new();
+    for kept in &all {
+        let name = names.entry(kept.node).or_insert_with(|| kept.name.clone());
+        if sought.contains(&kept.name) {
+            name.clone_from(&kept.name);
+        }
+    }
+    all.into_iter().filter(|kept| names.get(&kept.node) == Some(&kept.name)).collect()
 }
 
 /// Places, directions and transmission angles.
