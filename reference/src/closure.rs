@@ -51,12 +51,16 @@ pub(crate) fn close(file: &File, declaration: &Declaration) -> Result<Closed, Re
                     continue;
                 }
                 for message in &messages {
-                    closures.extend(guess.choose(message, refusal.model.as_deref()));
-                    closures.extend(guess.starts(message));
+                    let chosen = guess.choose(message, refusal.model.as_deref());
+                    for item in chosen.into_iter().chain(guess.starts(message)) {
+                        // What several groups need, a drive's start, is said once.
+                        if !closures.contains(&item) {
+                            closures.push(item);
+                        }
+                    }
                 }
                 // What stands already and did not help is no way out.
-                let repeated = (before..closures.len()).any(|new| closures[..new].contains(&closures[new]));
-                if closures.len() == before || repeated {
+                if closures.len() == before {
                     return Err(Refused::Declined(messages));
                 }
             }

@@ -13,6 +13,7 @@ use linkage_codegen::topology::Topology;
 use linkage_codegen::{model, syntax};
 
 use crate::file::{Answers, Body, Coordinate, Effort, End, File, Given, Joint, JointKind, LoadKind, Place};
+use crate::gears;
 use crate::number::{Mode, Number, Raw};
 
 /// The point at the origin of each link's frame: answers say where that is.
@@ -311,8 +312,14 @@ impl<'a> Writer<'a> {
                 if joint.internal {
                     text.push_str(", internal");
                 }
-                if joint.phase.is_some() {
-                    text.push_str(&format!(", phase {}", length(joint.phase.as_ref(), "phase")?));
+                let phase = joint.phase.as_ref().map(|phase| self.quantity(phase, "m")).transpose()?;
+                let turns = gears::turns(self.file, joint).filter(|turns| *turns != 0).map(|turns| {
+                    let sign = if joint.internal { '-' } else { '+' };
+                    format!("{}*pi*({} {sign} {})", 2 * turns, radii[0], radii[1])
+                });
+                let phase: Vec<String> = phase.into_iter().chain(turns).collect();
+                if !phase.is_empty() {
+                    text.push_str(&format!(", phase {}", phase.join(" + ")));
                 }
                 if let Some(angle) = &joint.pressure_angle {
                     text.push_str(&format!(", pressure_angle {}", self.quantity(angle, "rad")?));

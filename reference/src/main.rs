@@ -13,6 +13,7 @@ mod declaration;
 mod driver;
 mod exact;
 mod file;
+mod gears;
 mod number;
 mod printed;
 mod verdict;
