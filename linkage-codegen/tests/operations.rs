@@ -116,38 +116,57 @@ fn force(found: &mut Found, paths: &[[&'static str; 2]], [x, y]: Vector) {
 
 // --- the four-bar -----------------------------------------------------------------------------------------------------------------
 
-/// From A0 to A, A to B, B0 to B, mm; K is twice AB × B0B.
+/// Units of length, mm: in that of twice the crank's length the pose has a product less.
+const MM: f64 = 1.0;
+const TWO_CRANKS: f64 = 160.0;
+
+/// From A0 to A, A to B, B0 to B, in a unit of length.
 struct Pose {
     crank: Vector,
     coupler: Vector,
     rocker: Vector,
-    k: N,
+    /// The coupler's parts along d, from A to B0, and across it, over the length of d.
+    along: N,
+    across: N,
+    /// AB × B0B over `area(unit)`.
+    kappa: N,
 }
 
-/// The pose without the crank; d from A to B0 with it.
-fn dyad(theta: f64) -> (Pose, Vector) {
+/// AB × B0B = b √(2a) |cos θ/2| √(2a sin² θ/2 + 80/7).
+fn area(unit: f64) -> f64 {
+    140.0 / unit * (160.0 / unit).sqrt()
+}
+
+/// The pose without the crank; 2a sin² θ/2 with it.
+fn dyad(theta: f64, unit: f64) -> (Pose, N) {
     let (s, c) = (0.5 * N(theta)).sin_cos();
-    let (s2, sc) = (s * s, s * c);
-    let (dx, dy) = (160.0 * s2 + 60.0, -160.0 * sc);
-    let spread = 44800.0 * s2;
-    let (d2, q) = (spread + 3600.0, spread + 3200.0);
-    let k = 44800.0_f64.sqrt() * N(c.0.abs()) * q.sqrt();
-    let half = 0.5 / d2;
-    let (along, across) = ((spread - 800.0) * half, k * half);
-    let coupler = [along * dx - across * dy, along * dy + across * dx];
-    let d = [dx, dy];
-    (Pose { crank: [N(0.0), -dy], coupler, rocker: sub(coupler, d), k }, d)
+    let u = if unit == TWO_CRANKS { s } else { 160.0 / unit * s };
+    let (w, y) = (u * s, u * c);
+    let d = [w + 60.0 / unit, -y];
+    let kappa = N(c.0.abs()) * (w + 80.0 / 7.0 / unit).sqrt();
+    let root = (160.0 / unit).sqrt();
+    let half = 0.5 * root / (w + 90.0 / 7.0 / unit);
+    let (along, across) = (0.5 - 110.0 / 7.0 / unit / root * half, kappa * half);
+    let coupler = [along * d[0] - across * d[1], along * d[1] + across * d[0]];
+    (Pose { crank: [N(0.0), y], coupler, rocker: sub(coupler, d), along, across, kappa }, w)
 }
 
-fn four_bar_pose(theta: f64) -> Pose {
-    let (mut pose, [dx, _]) = dyad(theta);
-    pose.crank[0] = 140.0 - dx;
+fn four_bar_pose(theta: f64, unit: f64) -> Pose {
+    let (mut pose, w) = dyad(theta, unit);
+    pose.crank[0] = 80.0 / unit - w;
     pose
 }
 
-/// C in the frame of the coupler, over its length: (70² + 100² − 80²)/(2·100²), and what is left of 70.
-fn place_of_c() -> (f64, f64) {
-    (0.425, (0.49_f64 - 0.425 * 0.425).sqrt())
+/// C in the frame of the coupler, over its length: (70² + 100² − 80²)/(2·100²), and what is left of 70, over the former.
+const ALONG: f64 = 0.425;
+fn slope() -> f64 {
+    (0.49_f64 - ALONG * ALONG).sqrt() / ALONG
+}
+
+/// From A to C, over `ALONG`.
+fn to_c(pose: &Pose) -> Vector {
+    let [x, y] = pose.coupler;
+    [x - slope() * y, y + slope() * x]
 }
 
 /// 100 N at 200°.
@@ -156,10 +175,9 @@ fn f14() -> [f64; 2] {
     [100.0 * angle.cos(), 100.0 * angle.sin()]
 }
 
-/// Moment of F13 about A.
-fn m3(pose: &Pose, f13: Vector) -> N {
-    let (along, across) = place_of_c();
-    along * cross(pose.coupler, f13) - across * dot(pose.coupler, f13)
+/// Moments of F13 about A and of F14 about B0, each over `ALONG`.
+fn moments(pose: &Pose, f13: Vector) -> (N, N) {
+    (cross(to_c(pose), f13), m4(pose, 1.0 / ALONG))
 }
 
 /// `factor` times the moment of F14 about B0; D is three quarters of the way from B0 to B.
@@ -171,10 +189,10 @@ fn m4(pose: &Pose, factor: f64) -> N {
 const T12: &str = "T12";
 
 fn statics_at(theta: f64, f13: Vector) -> Found {
-    let pose = four_bar_pose(theta);
-    let inverse = 2.0 / pose.k;
-    let (p, q) = (m3(&pose, f13) * inverse, m4(&pose, 1.0) * inverse);
-    let b = add(times(p, pose.rocker), times(q, pose.coupler));
+    let pose = four_bar_pose(theta, MM);
+    let inverse = ALONG / area(MM) / pose.kappa;
+    let (m3, m4) = moments(&pose, f13);
+    let b = add(times(m3 * inverse, pose.rocker), times(m4 * inverse, pose.coupler));
     let a = sub(b, f13);
     let [x, y] = f14();
     let mut found = vec![(T12, cross(pose.crank, a))];
@@ -185,15 +203,16 @@ fn statics_at(theta: f64, f13: Vector) -> Found {
 }
 
 fn parts_at(theta: f64, f13: Vector) -> Found {
-    let pose = four_bar_pose(theta);
-    let inverse = 2.0 / pose.k;
-    let b = times(m3(&pose, f13) * inverse, pose.rocker);
+    let pose = four_bar_pose(theta, MM);
+    let inverse = ALONG / area(MM) / pose.kappa;
+    let (m3, m4) = moments(&pose, f13);
+    let b = times(m3 * inverse, pose.rocker);
     let a = sub(b, f13);
     let mut found = vec![("F13.T12", cross(pose.crank, a))];
     force(&mut found, &[["F13.A.x", "F13.A.y"], ["F13.A0.x", "F13.A0.y"]], a);
     force(&mut found, &[["F13.B.x", "F13.B.y"]], b);
     force(&mut found, &[["F13.B0.x", "F13.B0.y"]], [-b[0], -b[1]]);
-    let b = times(m4(&pose, 1.0) * inverse, pose.coupler);
+    let b = times(m4 * inverse, pose.coupler);
     let [x, y] = f14();
     found.push(("F14.T12", cross(pose.crank, b)));
     force(&mut found, &[["F14.A.x", "F14.A.y"], ["F14.A0.x", "F14.A0.y"], ["F14.B.x", "F14.B.y"]], b);
@@ -201,39 +220,39 @@ fn parts_at(theta: f64, f13: Vector) -> Found {
     found
 }
 
-/// By the force in A, which has fewer products than the virtual velocities.
+/// A0A × AB over b, mm; A0A × B0B over b is more than that by the y of A.
+fn swept(pose: &Pose) -> N {
+    pose.across * (pose.crank[0] - 80.0 * 80.0 / 140.0) - pose.along * pose.crank[1]
+}
+
+/// By virtual work.
 fn torque_at(theta: f64, f13: Vector) -> Found {
-    let pose = four_bar_pose(theta);
-    let inverse = 2.0 / pose.k;
-    let (p, q) = (m3(&pose, f13) * inverse, m4(&pose, 1.0) * inverse);
-    let a = sub(add(times(p, pose.rocker), times(q, pose.coupler)), f13);
-    vec![(T12, cross(pose.crank, a))]
+    let pose = four_bar_pose(theta, MM);
+    let inverse = 140.0 * ALONG / area(MM) / pose.kappa;
+    let (m3, m4) = moments(&pose, f13);
+    let work = swept(&pose) * (m3 + m4) + pose.crank[1] * m3;
+    vec![(T12, inverse * work - cross(pose.crank, f13))]
 }
 
 fn bearing_at(theta: f64) -> Found {
-    let (pose, _) = dyad(theta);
+    let (pose, _) = dyad(theta, TWO_CRANKS);
     let mut found = Vec::new();
-    force(&mut found, &[["B.x", "B.y"]], times(m4(&pose, 2.0) / pose.k, pose.coupler));
+    force(&mut found, &[["B.x", "B.y"]], times(m4(&pose, 1.0 / area(TWO_CRANKS)) / pose.kappa, pose.coupler));
     found
 }
 
 /// Virtual velocities along the loads, and their work, for unit rate of the crank.
 fn terms_at(theta: f64, f13: Vector) -> Found {
-    let pose = four_bar_pose(theta);
-    let inverse = 2.0 / pose.k;
-    let of_coupler = cross(pose.rocker, pose.crank) * inverse;
-    let of_rocker = cross(pose.coupler, pose.crank) * inverse;
-    let (along, across) = place_of_c();
-    let [x, y] = pose.coupler;
-    let c = [along * x - across * y, along * y + across * x];
-    let v = [-(pose.crank[1] + of_coupler * c[1]), pose.crank[0] + of_coupler * c[0]];
+    let pose = four_bar_pose(theta, MM);
+    // The rates over what the links sweep, times `ALONG`: `to_c` and the moment of F14 are over it.
+    let inverse = -140.0 * ALONG / area(MM) / pose.kappa;
+    let swept = swept(&pose);
+    let c = times((swept + pose.crank[1]) * inverse, to_c(&pose));
+    let v = [-(pose.crank[1] + c[1]), pose.crank[0] + c[0]];
     count(6);
     let size = f13[0].0.hypot(f13[1].0);
     let unit = f13.map(|part| N(part.0 / size));
-    let part = 0.75 * of_rocker;
-    let v14 = [-(part * pose.rocker[1]), part * pose.rocker[0]];
-    let (sin, cos) = 200_f64.to_radians().sin_cos();
-    let velocity = v14[0] * cos + v14[1] * sin;
+    let velocity = swept * inverse * m4(&pose, 0.01 / ALONG);
     vec![
         ("F13.velocity", dot(v, unit)),
         ("F13.work", dot(v, f13)),
@@ -243,19 +262,19 @@ fn terms_at(theta: f64, f13: Vector) -> Found {
 }
 
 fn places_at(theta: f64) -> Found {
-    let pose = four_bar_pose(theta);
-    let (along, across) = place_of_c();
+    let pose = four_bar_pose(theta, MM);
     let [x, y] = pose.coupler;
-    let c = add(pose.crank, [along * x - across * y, along * y + across * x]);
-    let d = [0.75 * pose.rocker[0] + 140.0, 0.75 * pose.rocker[1]];
+    let across = ALONG * slope();
+    let c = add(pose.crank, [ALONG * x - across * y, ALONG * y + across * x]);
+    let [x, y] = pose.rocker;
     let mut found = vec![
         ("coupler_angle", pose.coupler[1].atan2(pose.coupler[0])),
         ("rocker_angle", pose.rocker[1].atan2(pose.rocker[0])),
     ];
     force(&mut found, &[["A.x", "A.y"]], pose.crank);
-    force(&mut found, &[["B.x", "B.y"]], add(pose.crank, pose.coupler));
+    force(&mut found, &[["B.x", "B.y"]], [x + 140.0, y]);
     force(&mut found, &[["coupler_C.x", "coupler_C.y"]], c);
-    force(&mut found, &[["rocker_D.x", "rocker_D.y"]], d);
+    force(&mut found, &[["rocker_D.x", "rocker_D.y"]], [0.75 * x + 140.0, 0.75 * y]);
     found
 }
 
@@ -267,23 +286,22 @@ const WEIGHTS: [f64; 3] = [3.2 * G, 0.62 * G, 0.48 * G];
 const OF_ROD: f64 = 45.0 / 142.0;
 const OF_CRANK: f64 = 9.0 / 42.0;
 
-/// sin θ, the x of A, and the rod's vector (−g, h).
+/// In units of the crank's length: sin θ and cos θ, which are the place of A, and of the rod's vector (−g, h) g and h.
 fn slider_crank_pose(theta: f64) -> (N, N, N, N) {
     let (sin, cos) = N(theta).sin_cos();
-    let a = 42.0 * cos;
-    let g = a - 1.0;
-    (sin, a, g, ((142.0 - g) * (142.0 + g)).sqrt())
+    let g = cos - 1.0 / 42.0;
+    (sin, cos, g, ((142.0 / 42.0) * (142.0 / 42.0) - g * g).sqrt())
 }
 
 fn hold_at(theta: f64, gas: Vector) -> Found {
-    let (sin, a, g, h) = slider_crank_pose(theta);
+    let (sin, cos, g, h) = slider_crank_pose(theta);
     let [of_crank, of_rod, of_piston] = WEIGHTS;
     let across = g * (gas[1] - (of_piston + OF_ROD * of_rod)) / h;
     let b = of_piston - gas[1];
     let at_a = b + of_rod;
     let normal = gas[0] + across;
     let mut found = vec![
-        ("T", a * (at_a + OF_CRANK * of_crank) - 42.0 * sin * across),
+        ("T", 42.0 * (cos * (at_a + OF_CRANK * of_crank) - sin * across)),
         ("G.normal", normal),
         ("G.couple", 30.0 * gas[0]),
         ("G.force.x", -normal),
@@ -295,23 +313,21 @@ fn hold_at(theta: f64, gas: Vector) -> Found {
 }
 
 fn weights_at(theta: f64) -> Found {
-    let (sin, cos) = N(theta).sin_cos();
-    let a = 42.0 * cos;
-    let g = a - 1.0;
-    let lever = sin * (g / ((142.0 - g) * (142.0 + g)).sqrt());
-    let [of_crank, of_rod, of_piston] = WEIGHTS;
+    let (sin, cos, g, h) = slider_crank_pose(theta);
+    let lever = sin * (g / h);
+    let [of_crank, of_rod, of_piston] = WEIGHTS.map(|weight| 42.0 * weight);
     vec![
-        ("W.crank.T", 42.0 * OF_CRANK * of_crank * cos),
-        ("W.rod.T", of_rod * a + 42.0 * OF_ROD * of_rod * lever),
-        ("W.piston.T", of_piston * a + 42.0 * of_piston * lever),
+        ("W.crank.T", OF_CRANK * of_crank * cos),
+        ("W.rod.T", of_rod * cos + OF_ROD * of_rod * lever),
+        ("W.piston.T", of_piston * (cos + lever)),
     ]
 }
 
 fn slider_crank_torque_at(theta: f64, gas: Vector) -> Found {
-    let (sin, a, g, h) = slider_crank_pose(theta);
+    let (sin, cos, g, h) = slider_crank_pose(theta);
     let [of_crank, of_rod, of_piston] = WEIGHTS;
     let across = g * (gas[1] - (of_piston + OF_ROD * of_rod)) / h;
-    vec![("T", a * ((of_piston + of_rod + OF_CRANK * of_crank) - gas[1]) - 42.0 * sin * across)]
+    vec![("T", 42.0 * (cos * ((of_piston + of_rod + OF_CRANK * of_crank) - gas[1]) - sin * across))]
 }
 
 // --- the page ---------------------------------------------------------------------------------------------------------------------
@@ -354,7 +370,8 @@ fn hold(
     let index = linkage.model.scenes.iter().position(|own| own.name.text == scene).expect("a scene");
     let program = &linkage.functions.scenes[index].direct;
     let [least, most] = page.remove(&format!("{scene}_at")).unwrap_or_else(|| panic!("the page leaves out {scene}"));
-    for (theta, load) in [(1.0, [-31.0, 38.0]), (-2.5, [0.5, 700.0]), (0.25, [12.0, -3.0])] {
+    // The last is next to the four-bar's fold.
+    for (theta, load) in [(1.0, [-31.0, 38.0]), (-2.5, [0.5, 700.0]), (0.25, [12.0, -3.0]), (3.1413, [9.0, 40.0])] {
         TALLY.set([0; 7]);
         let found = formulas(theta, load.map(N));
         assert_eq!(TALLY.get(), least, "{scene}: what the formulas count is not what the page says");
@@ -389,7 +406,7 @@ fn four_bar() {
     let mut page = page("Four-bar");
     let [least, most] = page.remove("Pose::at").expect("the pose");
     TALLY.set([0; 7]);
-    let _ = four_bar_pose(1.0);
+    let _ = four_bar_pose(1.0, TWO_CRANKS);
     assert_eq!(TALLY.get(), least);
     let own = emitted(&linkage.functions.pose);
     assert_eq!(own, most, "the pose: what is emitted is not what the page says");
