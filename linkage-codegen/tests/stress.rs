@@ -22,7 +22,7 @@
 //! | 10 loads that cancel to 10⁻¹⁰ | here: of the effort | all |
 //! | 11 where the motion ends, one ulp and one percent beyond it; NaN and infinities | here; exact cases in `families.rs` | all |
 //! | 12 cascades of six dyads of all kinds, any of them near its dead centre | here, as a kind | |
-//! | 13 the same bits everywhere | `tests/no-std`, `tests/bits.rs` | all examples |
+//! | 13 the same bits everywhere | `tests/no-std/proofs/digests.txt` of the repository, `tests/math/bits.rs` of the run-time crate | all examples |
 //! | 15 ground lines at any angle | here: of every linkage but those of 5; folds in `families.rs` | all |
 
 mod support;
@@ -44,6 +44,46 @@ use support::linkages::{Class, Place, Random, in_single_precision, sample_with_f
 use support::measures::{Measures, is_moment, measure};
 use support::numbers::{Double, Single};
 use support::{Arguments, Number, compile_if_it_closes, pose, scene};
+
+/// A number type that linkages compute in.
+trait Scalar: Number {
+    const NAME: &'static str;
+    const EPSILON: f64;
+    /// The largest number.
+    const MAX: f64;
+    /// A power of two by which units may differ: fourth powers of such lengths are normal numbers.
+    const UNITS: i32;
+    fn next_up(&self) -> Self;
+    fn next_down(&self) -> Self;
+}
+
+impl Scalar for Double {
+    const NAME: &'static str = "f64";
+    const EPSILON: f64 = f64::EPSILON;
+    const MAX: f64 = f64::MAX;
+    const UNITS: i32 = 40;
+
+    fn next_up(&self) -> Self {
+        Self(self.0.next_up())
+    }
+    fn next_down(&self) -> Self {
+        Self(self.0.next_down())
+    }
+}
+
+impl Scalar for Single {
+    const NAME: &'static str = "f32";
+    const EPSILON: f64 = f32::EPSILON as f64;
+    const MAX: f64 = f32::MAX as f64;
+    const UNITS: i32 = 20;
+
+    fn next_up(&self) -> Self {
+        Self(self.0.next_up())
+    }
+    fn next_down(&self) -> Self {
+        Self(self.0.next_down())
+    }
+}
 
 /// How the linkages of a kind are made.
 enum Drawn {
@@ -280,6 +320,22 @@ impl Member {
 
 fn at(drive: f64, loads: &[[f64; 2]]) -> Arguments {
     Arguments { drives: vec![drive], loads: loads.to_vec(), ..Arguments::default() }
+}
+
+/// The nearest number that a scalar holds.
+fn nearest<T: Number>(x: f64) -> f64 {
+    T::exactly(x).to_f64()
+}
+
+/// The same with arguments that a scalar holds.
+fn at_nearest<T: Number>(drive: f64, loads: &[[f64; 2]]) -> Arguments {
+    let loads: Vec<_> = loads.iter().map(|load| load.map(nearest::<T>)).collect();
+    at(nearest::<T>(drive), &loads)
+}
+
+/// A declaration with its scalar.
+fn computed_in<T: Scalar>(text: &str) -> String {
+    text.replacen(';', &format!("; scalar {};", T::NAME), 1)
 }
 
 /// The equations of all free bodies, in doubles; nothing where the linkage cannot be assembled.
@@ -708,32 +764,33 @@ fn run(kind: &Kind, members: usize, random_poses: usize) {
 }
 
 /// The results of a scene by name, bit for bit.
-fn bits(linkage: &Linkage, name: &str, arguments: &Arguments) -> Result<Vec<(String, u64)>, Fault> {
-    let values = scene::<Double>(linkage, name, arguments)?;
-    let mut all: Vec<(String, u64)> = values.into_iter().map(|(path, value)| (path, value.0.to_bits())).collect();
+fn bits<T: Number>(linkage: &Linkage, name: &str, arguments: &Arguments) -> Result<Vec<(String, u64)>, Fault> {
+    let values = scene::<T>(linkage, name, arguments)?;
+    let mut all: Vec<(String, u64)> =
+        values.into_iter().map(|(path, value)| (path, value.to_f64().to_bits())).collect();
     all.sort();
     Ok(all)
 }
 
 /// 6: elsewhere the same linkage has the same directions and forces.
-fn moved(kind: &Kind, members: usize) {
+fn moved<T: Scalar>(kind: &Kind, members: usize) {
     let mut random = Random(15);
     for offset in ["1000", "123456", "100000000"] {
         for _ in 0..members {
             let member = kind.drawn(&mut random);
-            let text = shifted(&member.text, offset);
-            let [Some(near), Some(far)] = [&member.text, &text].map(|text| compile_if_it_closes(text)) else {
-                continue;
-            };
+            let text = computed_in::<T>(&member.text);
+            let text = [shifted(&text, offset), text];
+            let [Some(far), Some(near)] = text.each_ref().map(|text| compile_if_it_closes(text)) else { continue };
             for drive in member.drives(&mut random, 4) {
-                let arguments = at(drive, &member.loads);
-                assert_eq!(bits(&near, "all", &arguments), bits(&far, "all", &arguments), "{text}");
+                let arguments = at_nearest::<T>(drive, &member.loads);
+                let all = |linkage| bits::<T>(linkage, "all", &arguments);
+                assert_eq!(all(&near), all(&far), "{}", text[0]);
                 let kept = |linkage: &Linkage| {
-                    let kept = pose::<Double>(linkage, &arguments).ok()?;
-                    let bits = |node| kept[node].0.to_bits();
+                    let kept = pose::<T>(linkage, &arguments).ok()?;
+                    let bits = |node| kept[node].to_f64().to_bits();
                     Some(linkage.plan.pose.iter().map(|k| (k.name.clone(), bits(&k.node))).collect::<Vec<_>>())
                 };
-                assert_eq!(kept(&near), kept(&far), "{text}");
+                assert_eq!(kept(&near), kept(&far), "{}", text[0]);
             }
         }
     }
@@ -773,28 +830,30 @@ fn shifted(text: &str, offset: &str) -> String {
 }
 
 /// 8: in units that differ by a power of two the same linkage has the same digits.
-fn in_other_units(kind: &Kind, members: usize) {
+fn in_other_units<T: Scalar>(kind: &Kind, members: usize) {
     let mut random = Random(16);
-    for exponent in [-40, -8, 8, 40] {
+    for exponent in [-T::UNITS, -8, 8, T::UNITS] {
         let (factor, power) = (2f64.powi(exponent), 2f64.powi(exponent.abs()));
         for _ in 0..members {
             let member = kind.drawn(&mut random);
+            let text = computed_in::<T>(&member.text);
             // A unit of length that is smaller by the factor stands in the declaration exactly.
             let unit = if exponent < 0 { format!("m/{power:?}") } else { format!("m*{power:?}") };
-            let text = with_numbers(&member.text, &|number, of| (of == "m").then(|| format!("{number}*{unit}")));
-            let [plain, scaled] = [&member.text, &text].map(|text| compile_if_it_closes(text));
+            let plain = compile_if_it_closes(&text);
+            let text = with_numbers(&text, &|number, of| (of == "m").then(|| format!("{number}*{unit}")));
+            let scaled = compile_if_it_closes(&text);
             assert_eq!(plain.is_some(), scaled.is_some(), "{text}");
             let (Some(plain), Some(scaled)) = (plain, scaled) else { continue };
             for drive in member.drives(&mut random, 4) {
                 let other = if kind.slides() { drive * factor } else { drive };
-                let found = scene::<Double>(&plain, "all", &at(drive, &member.loads));
-                let others = scene::<Double>(&scaled, "all", &at(other, &member.loads));
+                let [found, others] = [(&plain, drive), (&scaled, other)]
+                    .map(|(linkage, drive)| scene::<T>(linkage, "all", &at_nearest::<T>(drive, &member.loads)));
                 assert_eq!(found.is_ok(), others.is_ok(), "with 2^{exponent} at {drive:?}\n{text}");
                 let (Ok(found), Ok(others)) = (found, others) else { continue };
                 for (path, value) in found {
-                    let expected = if is_moment(&plain, &path) { value.0 * factor } else { value.0 };
+                    let expected = value.to_f64() * if is_moment(&plain, &path) { factor } else { 1.0 };
                     assert_eq!(
-                        others[&path].0.to_bits(),
+                        others[&path].to_f64().to_bits(),
                         expected.to_bits(),
                         "{path} with 2^{exponent} at {drive:?}\n{text}"
                     );
@@ -805,36 +864,39 @@ fn in_other_units(kind: &Kind, members: usize) {
 }
 
 /// 11: at the end of a motion and beyond it, and where a determinant changes its sign: a typed error, or a number that keeps to the bars.
-fn ends(kind: &Kind, members: usize) {
+fn ends<T: Scalar>(kind: &Kind, members: usize) {
     let mut random = Random(17);
     for _ in 0..members {
         let member = kind.drawn(&mut random);
-        let text = member.text.replacen(';', "; scalar f64;", 1);
+        // Poses are found in doubles, whatever the scalar.
+        let Some(doubles) = compile_if_it_closes(&member.text) else { continue };
+        let text = computed_in::<T>(&member.text);
         let Some(linkage) = compile_if_it_closes(&text) else { continue };
-        for found in singular(&linkage, kind.widely(&member), 40) {
+        for found in singular(&doubles, kind.widely(&member), 40) {
             let sense = (found.outside - found.inside).signum();
-            let ulps = |x: f64, n: i32| (0..n).fold(x, |x, _| if sense > 0.0 { x.next_up() } else { x.next_down() });
-            let near = (0..5).map(|n| ulps(found.inside, n)).chain([1e-15, 1e-12].map(|by| found.outside + sense * by));
+            let step = |x: &T| Some(if sense > 0.0 { x.next_up() } else { x.next_down() });
+            let steps = core::iter::successors(Some(T::exactly(found.inside)), step).map(|x| x.to_f64()).take(5);
+            let near = steps.chain([5.0, 5e3].map(|by| found.outside + sense * by * T::EPSILON));
             for drive in near {
-                let arguments = at(drive, &member.loads);
+                let arguments = at_nearest::<T>(drive, &member.loads);
                 for name in ["all", "work"] {
-                    match scene::<Double>(&linkage, name, &arguments) {
-                        Ok(values) => assert!(values.values().all(|value| value.0.is_finite())),
+                    match scene::<T>(&linkage, name, &arguments) {
+                        Ok(values) => assert!(values.values().all(|value| value.to_f64().is_finite())),
                         Err(fault) => assert!(matches!(fault, Fault::Failed(_)), "{fault:?} at {drive:?}\n{text}"),
                     }
                 }
-                if at_its_dead_centre::<Double>(&linkage, &arguments) {
+                if at_its_dead_centre::<T>(&linkage, &arguments) {
                     continue;
                 }
-                if let Ok(measures) = measure::<Double>(&linkage, &arguments, member.longest, f64::EPSILON) {
+                if let Ok(measures) = measure::<T>(&linkage, &arguments, member.longest, T::EPSILON) {
                     let beyond = Measures { torque: 0.0, ..measures };
                     assert!(share(&beyond).0 <= 1.0, "{measures:?} at {drive:?}\n{text}");
                 }
             }
-            let beyond = at(found.outside + sense * 0.01, &member.loads);
-            if found.ends && equations(&linkage, &beyond).is_none() {
+            let beyond = at_nearest::<T>(found.outside + sense * 0.01, &member.loads);
+            if found.ends && equations(&doubles, &beyond).is_none() {
                 for name in ["all", "work"] {
-                    let Err(fault) = scene::<Double>(&linkage, name, &beyond) else {
+                    let Err(fault) = scene::<T>(&linkage, name, &beyond) else {
                         // Of a cascade without the dyad that cannot be assembled, if no load reaches that.
                         assert!(kind.is_cascade(), "{name}: nothing to solve\n{text}");
                         continue;
@@ -856,11 +918,11 @@ fn ends(kind: &Kind, members: usize) {
 }
 
 /// 11: NaN and infinity in every argument of every function: a typed error, never a number.
-fn not_finite<T: Number>(kind: &Kind, members: usize, scalar: &str, huge: f64) {
+fn not_finite<T: Scalar>(kind: &Kind, members: usize) {
     let mut random = Random(18);
     for _ in 0..members {
         let member = kind.drawn(&mut random);
-        let mut text = member.text.replacen(';', &format!("; scalar {scalar};"), 1);
+        let mut text = computed_in::<T>(&member.text);
         for scene in ["scene parts: superposition;", "scene whole: position;"] {
             if !text.contains(scene) {
                 text += scene;
@@ -890,6 +952,7 @@ fn not_finite<T: Number>(kind: &Kind, members: usize, scalar: &str, huge: f64) {
             }
         }
         // Loads that are finite, and results that are not.
+        let huge = nearest::<T>(T::MAX / 3.0);
         let huge = at(drive, &[[huge, huge], [-huge, huge]]);
         for name in ["all", "parts", "work"] {
             match scene::<T>(&linkage, name, &huge) {
@@ -919,12 +982,16 @@ macro_rules! kinds {
     };
 }
 
+fn each_by_itself<T: Scalar>(kind: &Kind, members: usize) {
+    moved::<T>(kind, members.div_ceil(5));
+    in_other_units::<T>(kind, members.div_ceil(5));
+    not_finite::<T>(kind, members.div_ceil(5));
+    ends::<T>(kind, members);
+}
+
 fn all(kind: &Kind, members: usize, random_poses: usize) {
-    moved(kind, members.div_ceil(5));
-    in_other_units(kind, members.div_ceil(5));
-    not_finite::<Double>(kind, members.div_ceil(5), "f64", 1e308);
-    not_finite::<Single>(kind, members.div_ceil(5), "f32", 1e38);
-    ends(kind, members);
+    each_by_itself::<Double>(kind, members);
+    each_by_itself::<Single>(kind, members);
     run(kind, members, random_poses);
 }
 
