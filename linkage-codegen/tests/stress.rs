@@ -323,7 +323,7 @@ impl Kind {
 struct Poses {
     text: String,
     longest: f64,
-    poses: Vec<Pose>,
+    each: Vec<Pose>,
 }
 
 struct Pose {
@@ -342,8 +342,8 @@ impl Member {
     /// With the pivots there.
     fn near(self, drives: Vec<(f64, f64)>) -> Poses {
         let pose = |(drive, pivot)| Pose { drive, loads: self.loads.clone(), pivot };
-        let poses = drives.into_iter().map(pose).collect();
-        Poses { text: self.text, longest: self.longest, poses }
+        let each = drives.into_iter().map(pose).collect();
+        Poses { text: self.text, longest: self.longest, each }
     }
 
     fn drives(&self, random: &mut Random, count: usize) -> Vec<f64> {
@@ -572,8 +572,8 @@ const FAMILIES: [Hard; 9] = [
                 let loads = without(&member.loads, &coefficients(member.loads.len(), &torque)?, 1e-10);
                 Some(Pose { drive, loads, pivot: 1.0 })
             });
-            let poses = poses.collect();
-            vec![Poses { text: member.text, longest: member.longest, poses }]
+            let each = poses.collect();
+            vec![Poses { text: member.text, longest: member.longest, each }]
         },
     },
     Hard { name: "9 triads", of: |kind| kind.name == "Newton: triads", make: |_, random| special_triads(random) },
@@ -599,7 +599,7 @@ fn near_dead_centres(kind: &Kind, random: &mut Random, compatible: bool) -> Vec<
         }
         let mut poses = member.near(drives);
         if compatible {
-            poses.poses.retain_mut(|pose| match compatible_loads(&linkage, pose) {
+            poses.each.retain_mut(|pose| match compatible_loads(&linkage, pose) {
                 Some(loads) => {
                     pose.loads = loads;
                     true
@@ -761,10 +761,10 @@ const ENOUGH: usize = 30;
 const TOLD: f64 = 0.03;
 
 impl Cell {
-    fn add<T: Scalar>(&mut self, Poses { text, longest, poses }: &Poses, bounded: bool) {
+    fn add<T: Scalar>(&mut self, Poses { text, longest, each }: &Poses, bounded: bool) {
         let text = computed_in::<T>(text);
         let Some(linkage) = (if bounded { with_bounds(&text) } else { compile_if_it_closes(&text) }) else { return };
-        for Pose { drive, loads, pivot } in poses {
+        for Pose { drive, loads, pivot } in each {
             let arguments = at_nearest::<T>(*drive, loads);
             if at_its_dead_centre::<T>(&linkage, &arguments) {
                 continue;
