@@ -89,7 +89,8 @@ fn loops_close_to_rounding() {
     println!("f32: closure {single_closure:.2} ε, unit {single_unit:.2} ε, {single} poses of 900");
     assert!(closure <= CLOSURE && unit <= UNIT, "f64: {closure} ε, {unit} ε");
     assert!(single_closure <= CLOSURE && single_unit <= UNIT, "f32: {single_closure} ε, {single_unit} ε");
-    assert!(count > 600 && single > 600);
+    // From 0.3 rad away 94 of 100 converge.
+    assert!(count >= 846 && single >= 846, "{count} and {single} of 900");
 }
 
 fn at(q: f64) -> Arguments {

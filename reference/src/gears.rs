@@ -20,8 +20,8 @@ pub(crate) fn turns(file: &File, gear: &Joint) -> Option<i32> {
 
 /// The link to which pins hold both centres, and where on it.
 fn arm<'f>(file: &'f File, gear: &Joint) -> Option<(&'f str, [[f64; 2]; 2])> {
-    let links = std::iter::once("ground").chain(file.links.iter().map(|(name, _)| name));
-    links.filter_map(|link| Some((link, [pinned(file, link, &gear.a)?, pinned(file, link, &gear.b)?]))).next()
+    let mut links = std::iter::once("ground").chain(file.links.iter().map(|(name, _)| name));
+    links.find_map(|link| Some((link, [pinned(file, link, &gear.a)?, pinned(file, link, &gear.b)?])))
 }
 
 /// Where on a link a pin holds a point of another one.
