@@ -143,6 +143,24 @@ fn a_load_near_the_runner() {
     );
 }
 
+/// A boom whose cylinder is pinned next to its own pin: legs of nearly one length, which must differ by the way between the pins and by
+/// nothing that rounding adds to either.
+#[test]
+fn pins_close_to_each_other() {
+    let text = format!(
+        "pub mod sample; ground {{ O: (0, 0), P: 0.00846228376030922m @ 208.03794673546273deg }}
+         link boom {{ O -> Q: 1.571088194847107m, T: (0.3m, -0.2m) }} link tube {{ P: (0, 0), D: (0.2m, 0.3m) }}
+         link rod {{ Q: (0, 0.006199629977345467m), S: (0, 0), E: (0.3m, 0.2m) }}
+         revolute O: ground -> boom; revolute P: ground -> tube; revolute Q: rod -> boom;
+         prismatic lift: tube.P -> rod.S along 0deg of tube; drive extension: lift; assemble Q: right(P -> O);
+         load F: force(boom.T); load H: force(rod.E); {SCENES}"
+    );
+    let drives = (0..40).map(|step| 1.563 + 0.000_4 * f64::from(step)).collect();
+    let loads = vec![[5.0, 39.0], [47.0, -16.0]];
+    let family = Family { text, longest: 1.571_088_194_847_107, drives, loads };
+    assert!(check(std::iter::once(family), "pins close to each other") > 30);
+}
+
 #[test]
 fn sliders_on_sliders() {
     assert!(check(tangent_mechanisms(7, (60, 20)), "tangent mechanisms") > 1000);

@@ -367,10 +367,18 @@ fn lead_by_arms(r1: Expr<'_>, r2: Expr<'_>) -> bool {
     constant_lengths(r1, r2).is_some() && ratio_is_at_most(8, r1, r2)
 }
 
+/// Whether the outer pins are so close to each other that a leg of any length is about as long as the other one, a constant.
+fn pins_are_close(d2: Expr<'_>, lengths: [Expr<'_>; 2]) -> bool {
+    let constants = lengths.into_iter().filter_map(Expr::value);
+    let Some(d2) = d2.value() else { return false };
+    constants.into_iter().any(|length| d2.mul(&Number::integer(64)).compare(&length.mul(&length)).is_le())
+}
+
 /// The directions of both legs from the vectors along them, P → B and Q → B.
 ///
 /// Of legs of the same order the longer one is the shorter one and d: both vectors have the rounding of the shorter link and of d, which is
-/// at most twice as long as the longer link. Of others each is found by itself.
+/// at most twice as long as the longer link. Of others each is found by itself. Where the pins are close, this would leave the difference of
+/// both vectors the rounding of constants, over 2D.
 fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     let lengths = dyad.lengths();
     let Closing { d, d2, of_angle, .. } = *closing;
@@ -380,7 +388,7 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     let short_sum = of_angle.map_or_else(|| sum(short), |known| known.sum);
     let scale = (graph.constant(&Number::ratio(1, 2)) / d2).named(format!("scale_{name}"), format!("1/(2 D2_{name})"));
     let e = d.scaled(scale).named(&format!("e_{name}"), &format!("d/(2 D2_{name})"));
-    let leads = lead_by_arms(lengths[0], lengths[1]);
+    let leads = lead_by_arms(lengths[0], lengths[1]) || pins_are_close(d2, lengths);
     let across = e.scaled(closing.k);
     let across =
         if leads { across } else { across.named(&format!("across_{name}"), &format!("{} e", closing.root(name))) };
