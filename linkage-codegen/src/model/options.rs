@@ -1,10 +1,12 @@
 //! Units, number type, path of the run-time crate.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::TokenStream;
 
 use super::scalar_of;
 use super::units::{Dimension, Units, unit};
-use crate::diagnostics::{Diagnostic, Sink};
+use crate::diagnostics::{Diagnostic, Place, Sink};
 use crate::graph::Scalar;
 use crate::syntax::ast::{Ast, Item, Name};
 
@@ -19,19 +21,43 @@ pub(super) struct Options {
 pub(super) fn options(ast: &Ast, sink: &Sink) -> Options {
     let mut options =
         Options { units: Units::default(), scalar: Scalar::F64, runtime: None, fused: false, emit_source: false };
+    let mut chosen = BTreeSet::new();
+    let mut once = |what: &'static str, place: Place| {
+        if !chosen.insert(what) {
+            let problem = format!("{what} is chosen already");
+            sink.report(Diagnostic::new(place, problem).help("leave one of the two out"));
+        }
+    };
     for item in &ast.items {
         match item {
-            Item::Units(names) => names.iter().for_each(|name| choose_unit(&mut options.units, name, sink)),
-            Item::Scalar(name) => match scalar_of(&name.text) {
-                Some(scalar) => options.scalar = scalar,
-                None => sink.report(Diagnostic::new(name.place(), "the scalar is `f64` or `f32`")),
-            },
-            Item::Arithmetic(name) => match name.text.as_str() {
-                "plain" => options.fused = false,
-                "fused" => options.fused = true,
-                _ => sink.report(Diagnostic::new(name.place(), "the arithmetic is `plain` or `fused`")),
-            },
-            Item::Crate(path) => options.runtime = Some(path.clone()),
+            Item::Units(names) => {
+                for name in names {
+                    if let Some(what) = choose_unit(&mut options.units, name, sink) {
+                        once(what, name.place());
+                    }
+                }
+            }
+            Item::Scalar(name) => {
+                once("the scalar", name.place());
+                match scalar_of(&name.text) {
+                    Some(scalar) => options.scalar = scalar,
+                    None => sink.report(Diagnostic::new(name.place(), "the scalar is `f64` or `f32`")),
+                }
+            }
+            Item::Arithmetic(name) => {
+                once("the arithmetic", name.place());
+                match name.text.as_str() {
+                    "plain" => options.fused = false,
+                    "fused" => options.fused = true,
+                    _ => sink.report(Diagnostic::new(name.place(), "the arithmetic is `plain` or `fused`")),
+                }
+            }
+            Item::Crate(path) => {
+                if let Some(token) = path.clone().into_iter().next() {
+                    once("the path of the run-time crate", Place::at(token.span()));
+                }
+                options.runtime = Some(path.clone());
+            }
             Item::Emit(name) => match name.text.as_str() {
                 "source" if cfg!(feature = "source") => options.emit_source = true,
                 "source" => sink.report(
@@ -46,7 +72,8 @@ pub(super) fn options(ast: &Ast, sink: &Sink) -> Options {
     options
 }
 
-fn choose_unit(units: &mut Units, name: &Name, sink: &Sink) {
+/// What the unit is of, if it is one.
+fn choose_unit(units: &mut Units, name: &Name, sink: &Sink) -> Option<&'static str> {
     let refuse = |problem: String| {
         sink.report(
             Diagnostic::new(name.place(), problem)
@@ -55,9 +82,16 @@ fn choose_unit(units: &mut Units, name: &Name, sink: &Sink) {
         );
     };
     match unit(&name.text) {
-        Some(unit) if unit.dimension == Dimension::LENGTH => units.length = unit,
-        Some(unit) if unit.dimension == Dimension::FORCE => units.force = unit,
+        Some(unit) if unit.dimension == Dimension::LENGTH => {
+            units.length = unit;
+            return Some("the unit of length");
+        }
+        Some(unit) if unit.dimension == Dimension::FORCE => {
+            units.force = unit;
+            return Some("the unit of force");
+        }
         Some(_) => refuse(format!("`{name}` is a unit neither of length nor of force")),
         None => refuse(format!("there is no unit `{name}`")),
     }
+    None
 }
