@@ -332,6 +332,11 @@ fn results(
             Diagnostic::new(given.method.place(), "a scene without results has nothing to compute")
                 .help("list its results, or leave the list out to have them all"),
         );
+    } else if results == [Wanted::ErrorBound] && refused.is_empty() {
+        sink.report(
+            Diagnostic::new(end_of(&listed[0]).place(), "there is no result whose error it could bound")
+                .help("list the results whose bounds are wanted beside it"),
+        );
     }
     (results, refused)
 }
