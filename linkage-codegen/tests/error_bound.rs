@@ -38,6 +38,7 @@ fn in_single_precision(arguments: &Arguments) -> Arguments {
         params: arguments.params.iter().map(round).collect(),
         motion: arguments.motion.clone(),
         sides: arguments.sides.clone(),
+        ..Arguments::default()
     }
 }
 
@@ -118,11 +119,7 @@ fn around(seed: u64, count: usize, poses: usize) {
                 let range = if name == "booms" { 0.5..3.0 } else { -1.2..1.2 };
                 let drives = vec![random.range(range.start, range.end)];
                 let loads = vec![[random.range(-50.0, 50.0), random.range(-50.0, 50.0)]; 2];
-                all.extend(check::<Double>(
-                    &linkage,
-                    &Arguments { drives, loads, params: Vec::new(), sides: Vec::new(), motion: Vec::new() },
-                    &text,
-                ));
+                all.extend(check::<Double>(&linkage, &Arguments { drives, loads, ..Arguments::default() }, &text));
             }
         }
         expect_tight(name, all);
@@ -221,13 +218,7 @@ fn near_dead_centres() {
     let mut before = 0.0;
     for exponent in 1..=7 {
         let drives = vec![core::f64::consts::PI - 10f64.powi(-exponent)];
-        let arguments = Arguments {
-            drives,
-            loads: vec![[10.0, -20.0], [-5.0, 30.0]],
-            params: Vec::new(),
-            sides: Vec::new(),
-            motion: Vec::new(),
-        };
+        let arguments = Arguments { drives, loads: vec![[10.0, -20.0], [-5.0, 30.0]], ..Arguments::default() };
         let Ok(found) = scene::<Double>(&linkage, "bounded", &arguments) else { continue };
         ratios(&linkage, &arguments, &found, FOUR_BAR);
         let bound = found["error_bound.B.x"].to_f64();
@@ -263,7 +254,7 @@ fn of_moving(name: &str, text: &str, around: f64, by: f64) {
     for _ in 0..40 {
         let drives = vec![around + random.range(-by, by)];
         let motion = vec![[random.range(-20.0, 20.0), random.range(-300.0, 300.0)]];
-        let arguments = Arguments { drives, loads: vec![[0.0; 2]], params: Vec::new(), sides: Vec::new(), motion };
+        let arguments = Arguments { drives, loads: vec![[0.0; 2]], motion, ..Arguments::default() };
         for name in ["place", "v", "a", "f", "w"] {
             all.extend(ratios_of(&linkage, name, &arguments, text));
         }

@@ -4,8 +4,19 @@ use std::path::Path;
 
 use proc_macro2::{TokenStream, TokenTree};
 
-/// All examples by the names of their files.
+/// The examples of which every stage is looked at, by the names of their files.
 pub const EXAMPLES: [&str; 5] = ["four_bar", "slider_crank", "six_bar", "three_loads", "stephenson"];
+
+/// All examples by the names of their files, as the folder has them.
+pub fn every_example() -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
+    let files = std::fs::read_dir(folder).expect("the examples").map(|entry| entry.expect("a file").path());
+    let sources = files.filter(|path| path.extension().is_some_and(|extension| extension == "rs"));
+    let mut names: Vec<String> = sources.map(|path| path.file_stem().expect("a name").display().to_string()).collect();
+    names.sort();
+    assert!(names.len() >= 8, "only {} examples were found", names.len());
+    names
+}
 
 /// The tokens between the braces of an example's `linkage!`.
 pub fn declaration(example: &str) -> TokenStream {

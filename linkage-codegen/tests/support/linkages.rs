@@ -1234,7 +1234,7 @@ impl Builder {
             moving.flat_map(|b| b.points.iter().flat_map(|p| b.points.iter().map(move |q| minus(p.1, q.1))));
         let longest = distances.map(size).fold(0.0, f64::max);
         let drives = self.drives.iter().map(|(_, at)| *at).collect();
-        let arguments = Arguments { drives, loads, params, sides: self.sides, motion };
+        let arguments = Arguments { drives, loads, params, sides: self.sides, motion, ..Arguments::default() };
         Sample { text, arguments, places: self.places, longest }
     }
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::missing_panics_doc, clippy::must_use_candidate, reason = "tests panic where something is wrong")]
 
 pub mod bounds;
+pub mod declarations;
 pub mod examples;
 pub mod families;
 pub mod general;
@@ -48,10 +49,17 @@ pub struct Arguments {
     pub sides: Vec<f64>,
     /// Rate and acceleration of each drive.
     pub motion: Vec<[f64; 2]>,
+    /// One of all these with another value.
+    pub instead: Option<(Symbol, f64)>,
 }
 
 impl Arguments {
     pub fn of(&self, symbol: Symbol) -> f64 {
+        if let Some((changed, value)) = self.instead
+            && changed == symbol
+        {
+            return value;
+        }
         match symbol {
             Symbol::Drive(drive) => self.drives[drive.index()],
             Symbol::Load(load, part) => self.loads[load.index()][usize::from(part) % 2],
