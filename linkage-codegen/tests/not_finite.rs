@@ -1,0 +1,169 @@
+//! NaN and infinity in every input of every emitted function, one at a time: a typed error, or the same results bit for bit.
+//!
+//! The functions are those of every example and of the declarations beside them, as the interpreter carries them out: what it finds is what
+//! the emitted code computes, as `emitted.rs` and `emitted_random.rs` hold. Not among them: sweeps, which are held to their
+//! scenes elsewhere, `Limits`, and the accelerations that follow from an equation of motion.
+
+mod support;
+
+use std::collections::HashMap;
+
+use linkage_codegen::Linkage;
+use linkage_codegen::graph::{NodeId, Order, Scalar, Symbol};
+use linkage_codegen::model::ids::DriveId;
+use linkage_codegen::program::{Fault, Input, Program, Step};
+use support::declarations::{coordinates, given, linkages, poses};
+use support::numbers::{Double, Single};
+use support::{Arguments, Number, direct, from_pose, moved, pose, prepared};
+
+type Call<'a, T> = Box<dyn Fn(&Arguments) -> Result<Vec<T>, Fault> + 'a>;
+
+/// A function by its name, and where its arguments are good.
+struct Function<'a, T> {
+    name: String,
+    good: Arguments,
+    call: Call<'a, T>,
+}
+
+/// How many values of inputs were tried, and what came of them.
+#[derive(Debug, Default)]
+struct Tally {
+    refused: usize,
+    untouched: usize,
+}
+
+/// All inputs that a program of the linkage reads, but for sides, which are no numbers.
+fn inputs(linkage: &Linkage) -> Vec<Symbol> {
+    let functions = &linkage.functions;
+    let scenes = functions.scenes.iter().flat_map(|scene| [&scene.direct, &scene.from_pose]);
+    let programs = [&functions.prepare, &functions.pose].into_iter().chain(&functions.near).chain(scenes);
+    let mut all: Vec<Symbol> =
+        (0..linkage.model.drives.len()).map(|drive| Symbol::Drive(DriveId::new(drive))).collect();
+    for (_, input) in programs.chain(&functions.accessors).flat_map(Program::inputs) {
+        if let Input::Symbol(
+            symbol @ (Symbol::Parameter(_)
+            | Symbol::Drive(_)
+            | Symbol::Driven(_, Order::Rate | Order::Acceleration)
+            | Symbol::Load(..)),
+        ) = input
+            && !all.contains(&symbol)
+        {
+            all.push(symbol);
+        }
+    }
+    all
+}
+
+/// A program with the steps that are emitted.
+fn emitted(program: &Program, keeps: impl Fn(&Step) -> bool) -> Program {
+    let mut program = program.clone();
+    program.steps.retain(keeps);
+    program
+}
+
+/// `Pose::at`, which also checks the drives that nothing of a pose depends on.
+fn checked_pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<HashMap<NodeId, T>, Fault> {
+    let read: Vec<Input> = linkage.functions.pose.inputs().map(|(_, input)| input).collect();
+    let drives = (0..linkage.model.drives.len()).map(|drive| Symbol::Drive(DriveId::new(drive)));
+    let mut unread = drives.filter(|drive| !read.contains(&Input::Symbol(*drive)));
+    if unread.all(|drive| arguments.of(drive).is_finite()) { pose(linkage, arguments) } else { Err(Fault::NotFinite) }
+}
+
+/// The functions of a linkage; of one that is driven for an inverse scene that scene alone is emitted.
+fn functions<'a, T: Number + 'a>(linkage: &'a Linkage, is_inverse: bool) -> Vec<Function<'a, T>> {
+    let given = given(linkage);
+    // An inverse scene may have its answers further away, and only where nothing lies on its other side.
+    let further = |drives: Vec<f64>| drives.into_iter().map(|drive| 2.0 * drive).collect();
+    let at = if is_inverse { coordinates(linkage).map(further).collect() } else { poses(linkage) };
+    let at: Vec<Arguments> = at.into_iter().map(|drives| Arguments { drives, ..given.clone() }).collect();
+    let mut all = Vec::new();
+    let mut add = |name: &str, call: Call<'a, T>| {
+        let good = at.iter().find(|arguments| call(arguments).is_ok());
+        let good = good.unwrap_or_else(|| panic!("{name}: {:?}", call(&at[0]).err())).clone();
+        all.push(Function { name: name.to_owned(), good, call });
+    };
+    let in_order = move |kept: &HashMap<NodeId, T>| -> Vec<T> {
+        linkage.plan.pose.iter().map(|part| kept[&part.node].clone()).collect()
+    };
+    add(
+        "Linkage::new",
+        Box::new(|arguments| {
+            let values = prepared::<T>(linkage, arguments)?;
+            Ok(linkage.functions.prepared.iter().map(|node| values[node].clone()).collect())
+        }),
+    );
+    for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
+        let name = &scene.name.text;
+        add(&format!("{name}_at"), Box::new(|arguments| direct(linkage, &functions.direct, arguments)));
+        if !is_inverse {
+            let program = emitted(&functions.from_pose, |step| !matches!(step, Step::FiniteInput(_)));
+            let call = move |arguments: &Arguments| {
+                let kept = checked_pose::<T>(linkage, arguments)?;
+                from_pose(linkage, &program, &kept, arguments)
+            };
+            add(&format!("Pose::{name}"), Box::new(call));
+        }
+    }
+    if is_inverse {
+        return all;
+    }
+    add("Pose::at", Box::new(move |arguments| Ok(in_order(&checked_pose::<T>(linkage, arguments)?))));
+    for (accessor, program) in linkage.plan.accessors.iter().zip(&linkage.functions.accessors) {
+        let program = emitted(program, |step| matches!(step, Step::Let(_)));
+        let call = move |arguments: &Arguments| {
+            let kept = checked_pose::<T>(linkage, arguments)?;
+            from_pose(linkage, &program, &kept, arguments)
+        };
+        add(&format!("Pose::{}", accessor.name), Box::new(call));
+    }
+    if linkage.functions.near.is_some() {
+        let mut before = at[0].clone();
+        before.drives[0] += 0.01;
+        let from = pose::<T>(linkage, &before).expect("a pose");
+        let call = move |arguments: &Arguments| Ok(in_order(&moved(linkage, (&from, &before), arguments)?));
+        add("Pose::moved_to", Box::new(call));
+    }
+    all
+}
+
+fn try_all<T: Number>(name: &str, linkage: &Linkage, is_inverse: bool, tally: &mut Tally) {
+    let inputs = inputs(linkage);
+    for Function { name: function, good, call } in functions::<T>(linkage, is_inverse) {
+        let before = call(&good).expect("good arguments");
+        assert!(before.iter().all(|value| value.to_f64().is_finite()), "{name}, {function}");
+        for symbol in &inputs {
+            for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let Ok(after) = call(&Arguments { instead: Some((*symbol, bad)), ..good.clone() }) else {
+                    tally.refused += 1;
+                    continue;
+                };
+                for (found, expected) in after.iter().zip(&before) {
+                    let [found, expected] = [found, expected].map(T::to_f64);
+                    assert_eq!(
+                        found.to_bits(),
+                        expected.to_bits(),
+                        "{name}, {function} with {symbol:?} = {bad}: {found} instead of {expected}"
+                    );
+                }
+                tally.untouched += 1;
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_that_is_not_finite_passes() {
+    let mut tally = Tally::default();
+    let mut inverses = 0;
+    for (name, linkage) in linkages() {
+        let all = core::iter::once((&linkage, false)).chain(linkage.inverses.iter().map(|inverse| (inverse, true)));
+        for (linkage, is_inverse) in all {
+            inverses += usize::from(is_inverse);
+            match linkage.model.graph.scalar() {
+                Scalar::F64 => try_all::<Double>(&name, linkage, is_inverse, &mut tally),
+                Scalar::F32 => try_all::<Single>(&name, linkage, is_inverse, &mut tally),
+            }
+        }
+    }
+    assert!(tally.refused > 4000 && tally.untouched > 5000 && inverses >= 3, "{tally:?}, {inverses} inverse scenes");
+}
