@@ -1,10 +1,12 @@
-//! What a scene does not need is not computed: shown on the programs and on the emitted code.
+//! What a scene does not need is not computed: shown on the programs and on the emitted code, of every example and of what no example has too.
 
 mod support;
 
 use linkage_codegen::graph::{Op, Order, Symbol};
 use linkage_codegen::program::{Counts, Definition, Input, Program, Step};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use support::compile;
+use support::declarations::{declarations, linkages};
 
 const FOUR_BAR: &str = "pub mod four_bar; units { mm, N }
     ground { A0: (0, 0), B0: (140mm, 0) } link crank { A0 -> A: 80mm }
@@ -289,17 +291,243 @@ fn power_is_not_found_by_way_of_what_turns() {
     assert_eq!(operations("(1mm, 0)"), operations("(0, 49mm)"));
 }
 
-/// Every value of every program is read by a later step, or is a result.
+/// All programs of a linkage, with names.
+fn programs(linkage: &linkage_codegen::Linkage) -> Vec<(String, &Program)> {
+    let functions = &linkage.functions;
+    let mut all = vec![("Linkage::new".to_owned(), &functions.prepare), ("Pose::at".to_owned(), &functions.pose)];
+    all.extend(functions.near.iter().map(|near| ("Pose::moved_to".to_owned(), near)));
+    all.extend(linkage.limits.prepare.iter().map(|prepare| ("Limits::of".to_owned(), prepare)));
+    for search in &functions.searches {
+        all.push(("each step of a search".to_owned(), &search.step));
+        all.push(("the way of a search".to_owned(), &search.on_the_way));
+    }
+    for (accessor, program) in linkage.plan.accessors.iter().zip(&functions.accessors) {
+        all.push((format!("Pose::{}", accessor.name), program));
+    }
+    for (scene, functions) in linkage.model.scenes.iter().zip(&functions.scenes) {
+        all.push((format!("Pose::{}", scene.name), &functions.from_pose));
+        all.push((format!("{}_at", scene.name), &functions.direct));
+    }
+    all.extend(linkage.inverses.iter().flat_map(programs));
+    all
+}
+
+/// Every value of every program is read by a later step, or is a result: of every example and of what no example has.
 #[test]
 fn no_program_computes_what_nothing_reads() {
-    let linkage = compile(FOUR_BAR);
-    let scenes = linkage.functions.scenes.iter().flat_map(|scene| [&scene.direct, &scene.from_pose]);
-    for program in scenes.chain([&linkage.functions.pose]).chain(&linkage.functions.accessors) {
-        let uses = program.uses();
-        for step in &program.steps {
-            let Step::Let(value) = step else { continue };
-            assert!(matches!(program.value(*value).definition, Definition::Computed(_)));
-            assert!(uses[value.index()] > 0, "{:?}", program.value(*value).label);
+    let (mut computed, mut looked_at) = (0, 0);
+    for (name, linkage) in linkages() {
+        for (function, program) in programs(&linkage) {
+            let uses = program.uses();
+            for step in &program.steps {
+                let Step::Let(value) = step else { continue };
+                assert!(matches!(program.value(*value).definition, Definition::Computed(_)));
+                let label = &program.value(*value).label;
+                assert!(uses[value.index()] > 0, "{name}, {function}: {label:?}");
+                computed += 1;
+            }
+            looked_at += 1;
         }
+    }
+    assert!(computed > 17_000 && looked_at > 850, "{computed} values in {looked_at} programs");
+}
+
+/// The names that functions bind and never read behind that, and how many they bind.
+#[derive(Default)]
+struct Reading {
+    function: String,
+    /// The names of each block, from the outermost to the innermost, and whether they are read.
+    blocks: Vec<Vec<(String, bool)>>,
+    bound: usize,
+    unread: Vec<String>,
+}
+
+impl Reading {
+    fn of(code: TokenStream) -> Self {
+        let mut reading = Self::default();
+        reading.block(code, Vec::new());
+        reading
+    }
+
+    /// A block in which these names are bound already.
+    fn block(&mut self, code: TokenStream, names: Vec<String>) {
+        self.blocks.push(Vec::new());
+        self.bind(names);
+        self.read(&code.into_iter().collect::<Vec<_>>());
+        for (name, is_read) in self.blocks.pop().expect("this block") {
+            if !is_read {
+                self.unread.push(format!("{name} in {}", self.function));
+            }
+        }
+    }
+
+    fn bind(&mut self, names: Vec<String>) {
+        self.bound += names.len();
+        self.blocks.last_mut().expect("a block").extend(names.into_iter().map(|name| (name, false)));
+    }
+
+    fn read(&mut self, code: &[TokenTree]) {
+        let mut at = 0;
+        while let Some(token) = code.get(at) {
+            let before = at.checked_sub(1).map(|before| &code[before]);
+            at += 1;
+            match token {
+                TokenTree::Ident(word) if word == "let" => {
+                    let is_condition = before.is_some_and(|before| is(before, "if") || is(before, "while"));
+                    at = self.binding(code, at, is_condition);
+                }
+                TokenTree::Ident(word) if word == "fn" => at = self.function(code, at),
+                TokenTree::Ident(word) if word == "use" || word == "struct" => at = end_of_item(code, at),
+                TokenTree::Ident(name) => {
+                    // Neither a field or a method, nor a part of a path, nor the name of a field before its value, nor a lifetime.
+                    let is_range = at > 2 && is(&code[at - 3], ".");
+                    let is_part = before
+                        .is_some_and(|mark| is(mark, ".") && !is_range || follows_path(code, at - 2) || is(mark, "'"));
+                    let is_field = code.get(at).is_some_and(|mark| is(mark, ":"));
+                    if !is_part && !is_field {
+                        self.mark(&name.to_string());
+                    }
+                }
+                // An attribute.
+                TokenTree::Punct(mark) if mark.as_char() == '#' => at += 1,
+                TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => {
+                    self.block(group.stream(), Vec::new());
+                }
+                TokenTree::Group(group) => self.read(&group.stream().into_iter().collect::<Vec<_>>()),
+                TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+            }
+        }
+    }
+
+    fn mark(&mut self, name: &str) {
+        let mut all = self.blocks.iter_mut().rev().flat_map(|block| block.iter_mut().rev());
+        if let Some((_, is_read)) = all.find(|(bound, _)| bound == name) {
+            *is_read = true;
+        }
+    }
+
+    /// What stands behind a `let`; the place behind it.
+    fn binding(&mut self, code: &[TokenTree], start: usize, is_condition: bool) -> usize {
+        let equals = start + code[start..].iter().position(|token| is(token, "=")).expect("a value");
+        let pattern = &code[start..equals];
+        // A type may follow.
+        let typed = (0..pattern.len()).find(|at| is(&pattern[*at], ":") && !in_path(pattern, *at));
+        let names = bound_by(&pattern[..typed.unwrap_or(pattern.len())]);
+        let is_end = |token: &TokenTree| match token {
+            TokenTree::Group(group) => is_condition && group.delimiter() == Delimiter::Brace,
+            token => is(token, ";"),
+        };
+        let end = equals + code[equals..].iter().position(is_end).expect("an end");
+        self.read(&code[equals + 1..end]);
+        match &code[end] {
+            TokenTree::Group(group) => self.block(group.stream(), names),
+            _ => self.bind(names),
+        }
+        end + 1
+    }
+
+    /// What stands behind `fn`: nothing outside is seen there.
+    fn function(&mut self, code: &[TokenTree], start: usize) -> usize {
+        let is_body =
+            |token: &TokenTree| matches!(token, TokenTree::Group(group) if group.delimiter() == Delimiter::Brace);
+        let body = start + code[start..].iter().position(is_body).expect("a body");
+        let TokenTree::Group(group) = &code[body] else { return body };
+        let outside = core::mem::take(&mut self.blocks);
+        let function = core::mem::replace(&mut self.function, code[start].to_string());
+        self.block(group.stream(), Vec::new());
+        (self.blocks, self.function) = (outside, function);
+        body + 1
+    }
+}
+
+/// Whether a token is this word or mark.
+fn is(token: &TokenTree, text: &str) -> bool {
+    !matches!(token, TokenTree::Group(_)) && token.to_string() == text
+}
+
+/// Whether a colon is one of two.
+fn in_path(code: &[TokenTree], at: usize) -> bool {
+    follows_path(code, at) || code.get(at + 1).is_some_and(|next| is(next, ":"))
+}
+
+/// Whether a token is the second of two colons.
+fn follows_path(code: &[TokenTree], at: usize) -> bool {
+    at > 0 && is(&code[at], ":") && is(&code[at - 1], ":")
+}
+
+/// The place behind an item that is no function.
+fn end_of_item(code: &[TokenTree], start: usize) -> usize {
+    let is_end = |token: &TokenTree| match token {
+        TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,
+        token => is(token, ";"),
+    };
+    code[start..].iter().position(is_end).map_or(code.len(), |end| start + end + 1)
+}
+
+/// The names that a pattern binds.
+fn bound_by(pattern: &[TokenTree]) -> Vec<String> {
+    let mut names = Vec::new();
+    for (at, token) in pattern.iter().enumerate() {
+        match token {
+            TokenTree::Group(group) => names.extend(bound_by(&group.stream().into_iter().collect::<Vec<_>>())),
+            TokenTree::Ident(name) => {
+                // A type, a variant, or the name of a field before a pattern.
+                let is_other =
+                    pattern.get(at + 1).is_some_and(|next| is(next, ":") || matches!(next, TokenTree::Group(_)));
+                let is_variant = at > 0 && follows_path(pattern, at - 1);
+                let is_word = ["mut", "ref", "_", "None"].iter().any(|word| name == word);
+                if !(is_other || is_variant || is_word) {
+                    names.push(name.to_string());
+                }
+            }
+            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+        }
+    }
+    names
+}
+
+/// Every name that a function of the emitted code binds is read behind it, in that function: so in the code of every example and of what no
+/// example has, sweeps, searches and limits included.
+#[test]
+fn no_emitted_function_binds_what_it_does_not_read() {
+    let mut bound = 0;
+    let mut unread = Vec::new();
+    for (name, declaration) in declarations() {
+        let reading = Reading::of(linkage_codegen::expand(declaration));
+        unread.extend(reading.unread.into_iter().map(|what| format!("{name}: {what}")));
+        bound += reading.bound;
+    }
+    assert!(bound > 9000, "only {bound} names");
+    assert!(unread.is_empty(), "{} of {bound}: {unread:#?}", unread.len());
+}
+
+/// What the test before this one looks for is found.
+#[test]
+fn a_name_that_is_not_read_is_found() {
+    for (code, expected) in [
+        ("let a = 1; let b = a; b", &[][..]),
+        ("let a = 1; let b = 2; a", &["b"]),
+        ("let a = 1; let a = a; a", &[]),
+        ("let a = 1; let a = 2; a", &["a"]),
+        ("let a = a;", &["a"]),
+        ("let a = 1; b.a + c::a(b.a())", &["a"]),
+        ("let a = 1; S { a: 2 }", &["a"]),
+        ("let a = 1; let b = 2; S { a, c: b }", &[]),
+        ("let a = 1; 0..a", &[]),
+        ("let (a, _) = f(); let [b, mut c] = a; c", &["b"]),
+        ("let Self { a, b: d, .. } = *self; b + a", &["d"]),
+        ("let p::S { a: [b, c], .. } = s; b", &["c"]),
+        ("let S { a: ref b, .. } = s; a", &["b"]),
+        ("let a: f64 = 1; f64", &["a"]),
+        ("let a = 1; { let a = 2; a }", &["a"]),
+        ("if let Some(a) = f(b) { a } let c = 1; if let Some(c) = d { c }", &["c"]),
+        ("while let Some((a, b)) = s.f() { a }", &["b"]),
+        ("let Some(a) = b else { continue }; f(&a)", &[]),
+        ("let a = 1; fn g() { a }", &["a"]),
+        ("let a = 1; #[doc = a] struct S<'a> { a: a } f(|x| x[a])", &[]),
+    ] {
+        let code: TokenStream = format!("fn f() {{ {code} }}").parse().expect("tokens");
+        let expected: Vec<String> = expected.iter().map(|name| format!("{name} in f")).collect();
+        assert_eq!(Reading::of(code.clone()).unread, expected, "{code}");
     }
 }
