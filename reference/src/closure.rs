@@ -12,7 +12,7 @@ use proc_macro2::LexError;
 
 use crate::declaration::{Declaration, is_pure_couple, joint_of, line_of};
 use crate::exact::nearest;
-use crate::file::{Coordinate, End, File, Place};
+use crate::file::{Coordinate, End, File};
 use crate::number::{Number, Raw};
 
 /// A declaration that the compiler took, with its closures.
@@ -211,7 +211,7 @@ impl Guess<'_> {
         let joint = joint_of(self.file, &self.declaration.joints, named(slide))?;
         let [x, y] = joint.axis.as_ref()?;
         let [_, _, angle] = self.frame(&joint.a.0)?;
-        let along = turned([self.value(x)?, self.value(y)?], angle);
+        let along = turned([self.file.value(x).ok()?, self.file.value(y).ok()?], angle);
         Some(dot(along, from(self.place(pin)?, self.place(at)?)))
     }
 
@@ -227,35 +227,18 @@ impl Guess<'_> {
         }
     }
 
-    fn end(&self, End(link, place): &End) -> Option<[f64; 2]> {
-        let body = if link == "ground" { &self.file.ground } else { self.file.links.get(link)? };
-        let [x, y] = match place {
-            Place::Named(name) => body.points.get(name)?,
-            Place::At(at) => at,
-        };
-        let [at_x, at_y, angle] = self.frame(link)?;
-        let [x, y] = turned([self.value(x)?, self.value(y)?], angle);
+    fn end(&self, end: &End) -> Option<[f64; 2]> {
+        let [at_x, at_y, angle] = self.frame(&end.0)?;
+        let [x, y] = turned(self.file.place(end)?, angle);
         Some([at_x + x, at_y + y])
     }
 
     fn frame(&self, link: &str) -> Option<[f64; 3]> {
-        if link == "ground" {
-            return Some([0.0; 3]);
+        if self.source == Source::Guess || link == "ground" {
+            return self.file.guessed(link);
         }
-        match self.source {
-            Source::Guess => {
-                let [x, y, angle] = self.file.guess.get(link)?;
-                Some([self.value(x)?, self.value(y)?, self.value(angle)?])
-            }
-            Source::Answer => {
-                let [x, y, angle] = self.file.reference.as_ref()?.pose.get(link)?;
-                Some([nearest(x).ok()?, nearest(y).ok()?, nearest(angle).ok()?])
-            }
-        }
-    }
-
-    fn value(&self, raw: &Raw) -> Option<f64> {
-        Number::new(raw, self.file.number_mode).ok().map(|number| number.value)
+        let [x, y, angle] = self.file.reference.as_ref()?.pose.get(link)?;
+        Some([nearest(x).ok()?, nearest(y).ok()?, nearest(angle).ok()?])
     }
 }
 

@@ -12,7 +12,6 @@ use crate::declaration::{
 };
 use crate::exact::{difference, difference_of_angles, nearest};
 use crate::file::{Answers, File, Limits, LinkMotion, Ordered, Reaction, Reduced};
-use crate::number::Number;
 use crate::printed::Value;
 
 /// No limit is closer than some roundings.
@@ -167,7 +166,7 @@ fn largest<'a>(reactions: impl Iterator<Item = &'a Reaction>) -> Result<f64, Str
 
 /// The largest distance of two points of a link, or a driven travel: by it places are measured, and couples against forces.
 fn length_of(file: &File) -> Result<f64, String> {
-    let value = |raw| Number::new(raw, file.number_mode).map(|number| number.value);
+    let value = |raw| file.value(raw);
     let mut length: f64 = 0.0;
     for body in std::iter::once(&file.ground).chain(file.links.iter().map(|(_, body)| body)) {
         let points = body.points.iter().map(|(_, [x, y])| Ok([value(x)?, value(y)?]));
@@ -439,10 +438,10 @@ impl Comparison<'_> {
             return self.sums(&found, worst);
         }
         // The file is silent of what brings nothing: the inertia of a link that stands still, for one.
-        for (load, own) in &found {
+        for (load, own) in found.iter().filter(|(load, _)| self.answers.contributions.get(load).is_none()) {
             let mut numbers = Vec::new();
             own.numbers("", &mut numbers);
-            if self.answers.contributions.get(load).is_none() && numbers.iter().any(|(_, number)| *number != 0.0) {
+            if numbers.iter().any(|(_, number)| *number != 0.0) {
                 return Err(format!("`{load}` brings something, and the file knows nothing of it"));
             }
         }

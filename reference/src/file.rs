@@ -9,7 +9,7 @@ use std::marker::PhantomData;
 use serde::de::{IgnoredAny, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use crate::number::{Mode, Raw};
+use crate::number::{Mode, Number, Raw};
 
 /// A mapping in the order of the file: links are declared in that order, and contributions reported so.
 #[derive(Clone, Debug)]
@@ -475,6 +475,30 @@ impl Expected {
 impl File {
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         serde_json::from_str(text).map_err(|error| error.to_string())
+    }
+
+    /// A number of the file, or the double next to it.
+    pub(crate) fn value(&self, raw: &Raw) -> Result<f64, String> {
+        Number::new(raw, self.number_mode).map(|number| number.value)
+    }
+
+    /// A point in the frame of its link.
+    pub(crate) fn place(&self, End(link, place): &End) -> Option<[f64; 2]> {
+        let body = if link == "ground" { &self.ground } else { self.links.get(link)? };
+        let [x, y] = match place {
+            Place::Named(name) => body.points.get(name)?,
+            Place::At(at) => at,
+        };
+        Some([self.value(x).ok()?, self.value(y).ok()?])
+    }
+
+    /// A link's frame at the guess.
+    pub(crate) fn guessed(&self, link: &str) -> Option<[f64; 3]> {
+        if link == "ground" {
+            return Some([0.0; 3]);
+        }
+        let [x, y, angle] = self.guess.get(link)?;
+        Some([self.value(x).ok()?, self.value(y).ok()?, self.value(angle).ok()?])
     }
 
     /// The answers, at each position that has some.

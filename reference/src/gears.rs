@@ -2,17 +2,17 @@
 
 use std::f64::consts::PI;
 
-use crate::file::{End, File, Joint, JointKind, Place};
-use crate::number::{Number, Raw};
+use crate::file::{End, File, Joint, JointKind};
 
 /// By how many turns of both wheels together the declaration's phase is ahead of the file's: `2π (ra ± rb)` each.
 pub(crate) fn turns(file: &File, gear: &Joint) -> Option<i32> {
-    let [ra, rb] = [value(file, gear.ra.as_ref()?)?, value(file, gear.rb.as_ref()?)?];
+    let [ra, rb] = [file.value(gear.ra.as_ref()?).ok()?, file.value(gear.rb.as_ref()?).ok()?];
     let rb = if gear.internal { -rb } else { rb };
-    let phase = gear.phase.as_ref().map_or(Some(0.0), |phase| value(file, phase))?;
+    let phase = gear.phase.as_ref().map_or(Ok(0.0), |phase| file.value(phase)).ok()?;
     let (arm, [from, to]) = arm(file, gear)?;
-    let psi = angle(file, arm)? + (to[1] - from[1]).atan2(to[0] - from[0]);
-    let [a, b] = [angle(file, &gear.a.0)?, angle(file, &gear.b.0)?];
+    let angle = |link: &str| file.guessed(link).map(|[_, _, angle]| angle);
+    let psi = angle(arm)? + (to[1] - from[1]).atan2(to[0] - from[0]);
+    let [a, b] = [angle(&gear.a.0)?, angle(&gear.b.0)?];
     let open = ra * (a - psi) + rb * (b - psi) - phase;
     #[allow(clippy::cast_possible_truncation, reason = "a few turns")]
     Some((open / (2.0 * PI * (ra + rb))).round() as i32)
@@ -26,37 +26,14 @@ fn arm<'f>(file: &'f File, gear: &Joint) -> Option<(&'f str, [[f64; 2]; 2])> {
 
 /// Where on a link a pin holds a point of another one.
 fn pinned(file: &File, link: &str, centre: &End) -> Option<[f64; 2]> {
-    let centre_place = place(file, centre)?;
-    let is_centre = |end: &End| end.0 == centre.0 && place(file, end) == Some(centre_place);
+    let centre_place = file.place(centre)?;
+    let is_centre = |end: &End| end.0 == centre.0 && file.place(end) == Some(centre_place);
     file.joints.iter().filter(|joint| joint.kind == JointKind::Revolute).find_map(|joint| {
         let own = match (is_centre(&joint.a), is_centre(&joint.b)) {
             (true, _) => &joint.b,
             (_, true) => &joint.a,
             _ => return None,
         };
-        if own.0 == link { place(file, own) } else { None }
+        if own.0 == link { file.place(own) } else { None }
     })
-}
-
-/// A point in the frame of its link.
-fn place(file: &File, End(link, at): &End) -> Option<[f64; 2]> {
-    let body = if link == "ground" { &file.ground } else { file.links.get(link)? };
-    let [x, y] = match at {
-        Place::Named(name) => body.points.get(name)?,
-        Place::At(at) => at,
-    };
-    Some([value(file, x)?, value(file, y)?])
-}
-
-/// The angle of a link at the guess, with its turns.
-fn angle(file: &File, link: &str) -> Option<f64> {
-    if link == "ground" {
-        return Some(0.0);
-    }
-    let [_, _, angle] = file.guess.get(link)?;
-    value(file, angle)
-}
-
-fn value(file: &File, raw: &Raw) -> Option<f64> {
-    Number::new(raw, file.number_mode).ok().map(|number| number.value)
 }
