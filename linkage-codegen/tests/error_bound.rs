@@ -36,9 +36,7 @@ fn in_single_precision(arguments: &Arguments) -> Arguments {
         drives: arguments.drives.iter().map(round).collect(),
         loads: arguments.loads.iter().map(|load| load.map(|x| round(&x))).collect(),
         params: arguments.params.iter().map(round).collect(),
-        motion: arguments.motion.clone(),
-        sides: arguments.sides.clone(),
-        ..Arguments::default()
+        ..arguments.clone()
     }
 }
 

@@ -292,18 +292,16 @@ fn block_along_x(crank: f64, offset: f64) -> String {
 #[test]
 fn blocks_whose_pins_are_nearly_square_to_the_slide() {
     let mut random = Random(18);
-    let families: Vec<Family> = (0..140)
-        .map(|index| {
-            let (crank, offset) = (length(&mut random, 0.6, 1.4), length(&mut random, 0.5, 0.9));
-            // D = h/√(1 − distance²), with D² = 1 + a² − 2a cos θ
-            let distance = 10f64.powi(-(index % 7) - 1);
-            let d2 = offset * offset / (1.0 - distance * distance);
-            let angle = ((1.0 + crank * crank - d2) / (2.0 * crank)).acos();
-            let (drives, loads) = (vec![angle, -angle], loads(&mut random));
-            Family { text: block_along_x(crank, offset), longest: crank.max(1.0), drives, loads }
-        })
-        .collect();
-    assert!(check(families.into_iter(), "nearly square to the slide") > 150);
+    let families = (0..140).map(|index| {
+        let (crank, offset) = (length(&mut random, 0.6, 1.4), length(&mut random, 0.5, 0.9));
+        // D = h/√(1 − distance²), with D² = 1 + a² − 2a cos θ
+        let distance = 10f64.powi(-(index % 7) - 1);
+        let d2 = offset * offset / (1.0 - distance * distance);
+        let angle = ((1.0 + crank * crank - d2) / (2.0 * crank)).acos();
+        let (drives, loads) = (vec![angle, -angle], loads(&mut random));
+        Family { text: block_along_x(crank, offset), longest: crank.max(1.0), drives, loads }
+    });
+    assert!(check(families, "nearly square to the slide") > 150);
 }
 
 #[test]

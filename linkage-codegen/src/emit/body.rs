@@ -9,7 +9,7 @@ use super::formula::{Formula, Values};
 use super::literals::{ident, literal};
 use crate::graph::number::Number;
 use crate::graph::{Condition, Failure, Graph, Guard, Kernel, Op, Scalar};
-use crate::model::Model;
+use crate::model::{Model, OWN_PATTERNS};
 use crate::program::{Definition, Program, Step, ValueId};
 
 /// How tightly an expression binds.
@@ -71,7 +71,7 @@ impl<'a> Body<'a> {
         input: &dyn Fn(crate::program::Input) -> String,
         taken: &[&str],
     ) -> Self {
-        let mut used: BTreeSet<String> = taken.iter().map(|name| (*name).to_owned()).collect();
+        let mut used: BTreeSet<String> = taken.iter().copied().chain(OWN_PATTERNS).map(str::to_owned).collect();
         let mut names = BTreeMap::new();
         for (value, which) in program.inputs() {
             let name = input(which);

@@ -12,29 +12,13 @@ use super::{docs, prepared_names};
 use crate::Linkage;
 use crate::graph::Symbol;
 use crate::model::ids::{DriveId, LoadId};
-use crate::model::{LoadKind, Method, Model, type_name};
+use crate::model::{LoadKind, Method, Model, SWEPT, type_name};
 use crate::plan::{Comparison, Output};
 use crate::program::{Input, Program, ValueId};
 
-/// Names that a function's own values cannot have, those of patterns that Rust knows already and of what a sweep runs over among them.
-const TAKEN: [&str; 16] = [
-    "motion",
-    "loads",
-    "linkage",
-    "params",
-    "closures",
-    "EQUATIONS",
-    "LIMITS",
-    "OPERATIONS",
-    "SOURCE",
-    "Ok",
-    "Err",
-    "Some",
-    "None",
-    "lane",
-    "block",
-    "holds",
-];
+/// Names that a function's own values cannot have, beside those of what a sweep runs over.
+const TAKEN: [&str; 9] =
+    ["motion", "loads", "linkage", "params", "closures", "EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"];
 
 /// The name of an input.
 pub(super) fn input_name(linkage: &Linkage, input: Input) -> String {
@@ -70,7 +54,8 @@ pub(super) fn input_name(linkage: &Linkage, input: Input) -> String {
 
 /// The body of a function.
 pub(super) fn body<'a>(linkage: &'a Linkage, program: &'a Program) -> Body<'a> {
-    Body::new(program, &linkage.model.graph, &|input| input_name(linkage, input), &TAKEN)
+    let taken: Vec<&str> = TAKEN.into_iter().chain(SWEPT).collect();
+    Body::new(program, &linkage.model.graph, &|input| input_name(linkage, input), &taken)
 }
 
 /// Where a function has the coordinates of the drives from.

@@ -8,8 +8,8 @@ use crate::graph::number::Number;
 
 /// A name as an identifier, raw where it is a keyword.
 pub(super) fn ident(name: &str) -> Ident {
-    // Names that cannot be raw were refused when they were read. A keyword from the edition of 2024 on only.
-    let plain = if name == "gen" { None } else { syn::parse_str::<Ident>(name).ok() };
+    // `gen` is a keyword only from the edition of 2024 on, and a name to syn. Names that cannot be raw were refused when they were read.
+    let plain = syn::parse_str::<Ident>(name).ok().filter(|_| name != "gen");
     plain.unwrap_or_else(|| match name {
         "self" | "Self" | "super" | "crate" | "_" => Ident::new(&format!("{name}_"), Span::call_site()),
         _ => Ident::new_raw(name, Span::call_site()),

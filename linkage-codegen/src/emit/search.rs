@@ -13,21 +13,7 @@ use crate::model::Model;
 use crate::program::{Input, Program, SearchFunctions};
 
 /// Names that a function's own values cannot have.
-const TAKEN: [&str; 13] = [
-    "search",
-    "start",
-    "from",
-    "to",
-    "way",
-    "changing",
-    "EQUATIONS",
-    "OPERATIONS",
-    "SOURCE",
-    "Ok",
-    "Err",
-    "Some",
-    "None",
-];
+const TAKEN: [&str; 9] = ["search", "start", "from", "to", "way", "changing", "EQUATIONS", "OPERATIONS", "SOURCE"];
 
 /// The functions of all searches.
 pub(super) fn functions(linkage: &Linkage) -> TokenStream {

@@ -12,8 +12,8 @@ mod names;
 mod options;
 mod scenes;
 mod turns;
-pub(crate) use scenes::OWN_TYPES;
 pub use scenes::type_name;
+pub(crate) use scenes::{OWN_PATTERNS, OWN_TYPES, SWEPT};
 mod sweeps;
 pub mod units;
 

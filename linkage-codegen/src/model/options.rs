@@ -80,18 +80,18 @@ fn choose_unit(units: &mut Units, name: &Name, sink: &Sink) -> Option<&'static s
                 .help("`units { mm, N }` chooses the length and the force of the generated functions")
                 .note("mass is always in kg, time in s, and an angle in rad"),
         );
+        None
     };
     match unit(&name.text) {
         Some(unit) if unit.dimension == Dimension::LENGTH => {
             units.length = unit;
-            return Some("the unit of length");
+            Some("the unit of length")
         }
         Some(unit) if unit.dimension == Dimension::FORCE => {
             units.force = unit;
-            return Some("the unit of force");
+            Some("the unit of force")
         }
         Some(_) => refuse(format!("`{name}` is a unit neither of length nor of force")),
         None => refuse(format!("there is no unit `{name}`")),
     }
-    None
 }

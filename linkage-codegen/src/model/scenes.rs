@@ -778,6 +778,12 @@ pub fn type_name(name: &str) -> String {
     core::iter::once(name[..name.len() - inner.len()].to_owned()).chain(capitals).collect()
 }
 
+/// Patterns that Rust knows already: no value can be bound by such a name.
+pub(crate) const OWN_PATTERNS: [&str; 4] = ["Ok", "Err", "Some", "None"];
+
+/// Names by which a sweep computes its positions.
+pub(crate) const SWEPT: [&str; 3] = ["lane", "block", "holds"];
+
 /// Types of the generated module and names that it takes from elsewhere.
 pub(crate) const OWN_TYPES: [&str; 15] = [
     "Pose",
@@ -817,10 +823,10 @@ fn check_values(model: &Model, sink: &Sink) {
     for constant in ["EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"] {
         values.insert(constant.into(), "is a constant of the module".into());
     }
-    for pattern in ["Ok", "Err", "Some", "None"] {
+    for pattern in OWN_PATTERNS {
         values.insert(pattern.into(), "is Rust's own".into());
     }
-    for name in ["lane", "block", "holds"].into_iter().filter(|_| !model.sweeps.is_empty()) {
+    for name in SWEPT.into_iter().filter(|_| !model.sweeps.is_empty()) {
         values.insert(name.into(), "is what sweeps compute by".into());
     }
     for inverse in model.inverses.iter().filter(|_| !model.params.is_empty()) {

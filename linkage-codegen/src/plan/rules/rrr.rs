@@ -369,16 +369,16 @@ fn lead_by_arms(r1: Expr<'_>, r2: Expr<'_>) -> bool {
 
 /// Whether the outer pins are so close to each other that a leg of any length is about as long as the other one, a constant.
 fn pins_are_close(d2: Expr<'_>, lengths: [Expr<'_>; 2]) -> bool {
-    let constants = lengths.into_iter().filter_map(Expr::value);
-    let Some(d2) = d2.value() else { return false };
-    constants.into_iter().any(|length| d2.mul(&Number::integer(64)).compare(&length.mul(&length)).is_le())
+    // (8 D)²
+    let Some(limit) = d2.value().map(|d2| Number::integer(64).mul(&d2)) else { return false };
+    lengths.into_iter().filter_map(Expr::value).any(|length| limit.compare(&length.mul(&length)).is_le())
 }
 
 /// The directions of both legs from the vectors along them, P → B and Q → B.
 ///
 /// Of legs of the same order the longer one is the shorter one and d: both vectors have the rounding of the shorter link and of d, which is
-/// at most twice as long as the longer link. Of others each is found by itself. Where the pins are close, this would leave the difference of
-/// both vectors the rounding of constants, over 2D.
+/// at most twice as long as the longer link. Legs whose pins are close are of the same order, whatever one of them measures: found by
+/// themselves, they would differ from d by the rounding of constants, over 2D. Of others each is found by itself.
 fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     let lengths = dyad.lengths();
     let Closing { d, d2, of_angle, .. } = *closing;
