@@ -161,6 +161,22 @@ fn pins_close_to_each_other() {
     assert!(check(std::iter::once(family), "pins close to each other") > 30);
 }
 
+/// A block that is loaded where it slides on a lever, across the lever's line: next to nothing is left for its own guide, far away, which must
+/// get the moment of that and not of what rounding leaves of two forces that cancel.
+#[test]
+fn a_guide_that_is_left_with_little() {
+    let text = format!(
+        "pub mod sample; ground {{ O: (0, 0), B: (-0.29m, 0.113m) }} link crank {{ O: (0, 0), A: (0.5m, 0) }} link lever {{ B: (0, 0) }}
+         link block {{ P: (0, 0), G: (2.2m, 0.4m) }} revolute O: ground -> crank; revolute B: ground -> lever; drive q: O;
+         prismatic outer: crank.A -> block.G along 20deg of crank; prismatic inner: lever.B -> block.P along 10deg of lever, angle 70deg;
+         load F: force(block.P); {SCENES}"
+    );
+    // At zero the lever's line is at −60°, and the load across it.
+    let drives = (-20..=20).map(|step| 0.000_7 * f64::from(step)).collect();
+    let family = Family { text, longest: 2.3, drives, loads: vec![[34.64, 20.0]] };
+    assert!(check(std::iter::once(family), "a guide that is left with little") == 41);
+}
+
 #[test]
 fn sliders_on_sliders() {
     assert!(check(tangent_mechanisms(7, (60, 20)), "tangent mechanisms") > 1000);

@@ -29,6 +29,8 @@ struct Acting<'m> {
     force: Framed<'m>,
     /// Whether it is a load, which is given, and not what a joint was found to exert.
     is_load: bool,
+    /// How many forces at this place it is the sum of.
+    forces: i64,
 }
 
 /// The reaction of a joint on its second link, at the joint's place on it; of a gear pair where the wheels touch.
@@ -68,7 +70,7 @@ impl<'m, 'p> Balance<'m, 'p> {
                 Action::Force { link, at, force, frame } => {
                     let at = placement.carried(link, at.vector(graph));
                     let force = balance.force_in_frame(force.vector(graph), frame);
-                    balance.act(link, Acting { at, force, is_load: true });
+                    balance.act(link, Acting { at, force, is_load: true, forces: 1 });
                 }
                 Action::Couple { link, moment } => balance.couple(link, graph.expr(moment)),
             }
@@ -102,7 +104,7 @@ impl<'m, 'p> Balance<'m, 'p> {
 
     /// Puts the force of a joint on a link, at a place along and across its direction.
     pub fn push(&mut self, link: LinkId, at: Vector<'m>, force: Framed<'m>) {
-        self.act(link, Acting { at, force, is_load: false });
+        self.act(link, Acting { at, force, is_load: false, forces: 1 });
     }
 
     /// Forces at one place are added up.
@@ -116,6 +118,7 @@ impl<'m, 'p> Balance<'m, 'p> {
             Some(there) => {
                 there.force = there.force.plus(&acting.force, ground);
                 there.is_load &= acting.is_load;
+                there.forces += acting.forces;
             }
             None => forces.push(acting),
         }
@@ -129,7 +132,7 @@ impl<'m, 'p> Balance<'m, 'p> {
 
     /// Puts a force at a place and a couple in the stead of all that acts on a link.
     pub fn reduce(&mut self, link: LinkId, at: Vector<'m>, force: Framed<'m>, couple: Expr<'m>) {
-        self.wrenches[link.index()] = Wrench { forces: vec![Acting { at, force, is_load: false }], couple };
+        self.wrenches[link.index()] = Wrench { forces: vec![Acting { at, force, is_load: false, forces: 1 }], couple };
     }
 
     /// Lets the loads on a link act at one of its pins on the other link there, and leaves their moment about it. At a pin on the ground they
@@ -140,7 +143,7 @@ impl<'m, 'p> Balance<'m, 'p> {
         let (force, couple) = (self.total(link), self.moment(link, about, self.graph().one()));
         self.wrenches[link.index()] = Wrench { forces: Vec::new(), couple };
         let at = self.placement.slide_point(pin, far.link);
-        self.act(far.link, Acting { at, force, is_load: true });
+        self.act(far.link, Acting { at, force, is_load: true, forces: 1 });
     }
 
     /// Whether a force on a link is known to act nearer to one of its places than another place is.
@@ -155,6 +158,23 @@ impl<'m, 'p> Balance<'m, 'p> {
     pub fn all_act_nearer(&self, link: LinkId, to: Vector<'m>, than: Vector<'m>) -> bool {
         let forces = &self.wrenches[link.index()].forces;
         !forces.is_empty() && forces.iter().all(|acting| is_shorter(acting.at - to, acting.at - than))
+    }
+
+    /// A place on a link amid the forces that act there: this one, where another force will act, or that of a force from which the ways to
+    /// all of them are together at most half as long. Forces that act near each other may cancel, and the moment of what is left of them
+    /// has the rounding of each, times its arm. Where the places are not numbers, it counts how many forces act elsewhere.
+    #[must_use]
+    pub fn amid_forces(&self, link: LinkId, place: Vector<'m>) -> Vector<'m> {
+        let forces = &self.wrenches[link.index()].forces;
+        let places = || forces.iter().map(|acting| (acting.at, acting.forces)).chain([(place, 1)]);
+        let are_numbers = places().all(|(at, _)| (at - place).squared().value().is_some());
+        let ways = |to: Vector<'m>| {
+            let one = self.graph().one();
+            let way = |from: Vector<'m>| if are_numbers || from == to { (to - from).size() } else { one };
+            places().fold(self.graph().zero(), |sum, (at, forces)| sum + forces * way(at))
+        };
+        let nearer = |to: Vector<'m>, than: Vector<'m>| matches!((2 * ways(to) - ways(than)).sign(), Some(-1 | 0));
+        forces.iter().fold(place, |best, acting| if nearer(acting.at, best) { acting.at } else { best })
     }
 
     /// Whether nothing acts on a link but forces at this place.
@@ -185,7 +205,7 @@ impl<'m, 'p> Balance<'m, 'p> {
         let wrench = &self.wrenches[link.index()];
         let mut sum = factor * wrench.couple;
         let mut loads: Vec<(Vector<'m>, Vector<'m>)> = Vec::new();
-        for Acting { at, force, is_load } in &wrench.forces {
+        for Acting { at, force, is_load, .. } in &wrench.forces {
             let arm = (*at - about).scaled(factor);
             if arm.is_zero() {
                 continue;

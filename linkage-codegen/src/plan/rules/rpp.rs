@@ -125,8 +125,10 @@ impl Rule for Rpp {
         if !slider.is_single() {
             return dyad.balance_rest(balance, slider);
         }
-        // About the guide's own point: where the inner slide is may be far away, and its force small beside the others.
-        let at = balance.placement.point(balance.end(slider.outer, slider.link()));
+        // What acts on the slider is all on it, and what it comes to is across its guide. About the guide's own point, or amid the forces:
+        // where the inner slide is may be far away, and its force small beside the others.
+        let own = balance.placement.point(balance.end(slider.outer, slider.link()));
+        let at = balance.amid_forces(slider.link(), own);
         let held = load.y - across * balance.placement.between(slides(&dyad)).x;
         super::slide::guide(balance, slider.outer, slider.link(), held, at);
         Ok(())
