@@ -161,8 +161,8 @@ impl<'m, 'p> Balance<'m, 'p> {
     }
 
     /// A place on a link amid the forces that act there: this one, where another force will act, or that of a force from which the ways to
-    /// all of them are together at most half as long. Forces that act near each other may cancel, and the moment of what is left of them
-    /// has the rounding of each, times its arm. Where the places are not numbers, it counts how many forces act elsewhere.
+    /// all of them are shorter together. Forces that act near each other may cancel, and the moment of what is left of them has the rounding
+    /// of each, times its arm. Where the places are not numbers, it counts how many forces act elsewhere.
     #[must_use]
     pub fn amid_forces(&self, link: LinkId, place: Vector<'m>) -> Vector<'m> {
         let forces = &self.wrenches[link.index()].forces;
@@ -173,7 +173,7 @@ impl<'m, 'p> Balance<'m, 'p> {
             let way = |from: Vector<'m>| if are_numbers || from == to { (to - from).size() } else { one };
             places().fold(self.graph().zero(), |sum, (at, forces)| sum + forces * way(at))
         };
-        let nearer = |to: Vector<'m>, than: Vector<'m>| matches!((2 * ways(to) - ways(than)).sign(), Some(-1 | 0));
+        let nearer = |to: Vector<'m>, than: Vector<'m>| (ways(to) - ways(than)).sign() == Some(-1);
         forces.iter().fold(place, |best, acting| if nearer(acting.at, best) { acting.at } else { best })
     }
 
