@@ -7,7 +7,7 @@ use std::mem::MaybeUninit;
 use faer::dyn_stack::MemStack;
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::{MatMut, Par, Spec};
-use nalgebra::{DMatrix, DVector, SMatrix};
+use nalgebra::{DMatrix, SMatrix};
 
 /// Where a joint is, seen from the point of moments of the first and the second link that it joins; the first may be the
 /// ground.
@@ -64,7 +64,10 @@ where
 
 /// LU with exchange of rows and columns, sizes known at compile time.
 #[inline]
-pub(crate) fn full<const N: usize>(matrix: SMatrix<f64, N, N>, right: &SMatrix<f64, N, 1>) -> Option<SMatrix<f64, N, 1>>
+pub(crate) fn full<const N: usize, const M: usize>(
+    matrix: SMatrix<f64, N, N>,
+    right: &SMatrix<f64, N, M>,
+) -> Option<SMatrix<f64, N, M>>
 where
     nalgebra::Const<N>: nalgebra::DimMin<nalgebra::Const<N>, Output = nalgebra::Const<N>>,
 {
@@ -73,12 +76,12 @@ where
 
 /// LU with exchange of rows, sizes known at run time.
 #[inline]
-pub(crate) fn dynamic<const N: usize>(
+pub(crate) fn dynamic<const N: usize, const M: usize>(
     matrix: SMatrix<f64, N, N>,
-    right: &SMatrix<f64, N, 1>,
-) -> Option<SMatrix<f64, N, 1>> {
+    right: &SMatrix<f64, N, M>,
+) -> Option<SMatrix<f64, N, M>> {
     let matrix = DMatrix::from_column_slice(N, N, matrix.as_slice());
-    let right = DVector::from_column_slice(right.as_slice());
+    let right = DMatrix::from_column_slice(N, M, right.as_slice());
     matrix.lu().solve(&right).map(|solution| SMatrix::from_column_slice(solution.as_slice()))
 }
 
@@ -101,3 +104,17 @@ pub(crate) fn faer<const N: usize, const M: usize>(
     solve::solve_in_place(factors, factors, exchanged, unknowns, Par::Seq, room);
     solution.iter().all(|x| x.is_finite()).then_some(solution)
 }
+
+/// The four ways to solve an item's equations as its competitors: `$add` makes one of a name and a function, `$solve` sets the equations up
+/// and has them solved by what it is given.
+macro_rules! eliminations {
+    ($add:expr, $size:literal, $solve:ident) => {
+        [
+            $add(concat!("LU ", $size), |case, out| $solve(case, out, dense::partial)),
+            $add(concat!("LU ", $size, ", full pivoting"), |case, out| $solve(case, out, dense::full)),
+            $add(concat!("LU ", $size, ", dynamic"), |case, out| $solve(case, out, dense::dynamic)),
+            $add(concat!("LU ", $size, ", faer"), |case, out| $solve(case, out, dense::faer)),
+        ]
+    };
+}
+pub(super) use eliminations;

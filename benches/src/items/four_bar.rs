@@ -3,7 +3,7 @@
 use linkage_runtime::{Vector2, polar};
 use nalgebra::{SMatrix, SVector};
 
-use super::dense::{self, Pin};
+use super::dense::{self, Pin, eliminations};
 use super::{Case, Extent, Item, Reactions, Start, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, Vector, equilibrium, in_frame, left, vector};
 use crate::expert::four_bar as expert;
@@ -50,6 +50,9 @@ impl Start for expert::Pose {
 type All = Reactions<4>;
 type At = Case<f64, Loads>;
 type Posed = Case<Pose, Loads>;
+type Matrix = SMatrix<f64, 9, 9>;
+/// A right side for each set of loads.
+type Right<const M: usize> = SMatrix<f64, 9, M>;
 
 pub(super) fn items(extent: Extent) -> Vec<Item> {
     let turn = Turn::new(extent, 80.0, |theta, loads| vec![exact(theta, loads)]);
@@ -57,7 +60,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     let pose = |theta| Pose::at(theta).expect("a pose");
     let fused_pose = |theta| four_bar_fused::Pose::at(theta).expect("a pose");
     let careful_pose = |theta| expert::careful_pose(theta).expect("a pose");
-    let mut items = vec![
+    let mut items = [
         Item {
             id: "P1a",
             title: "four-bar: all forces and the torque, from a pose",
@@ -66,10 +69,6 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 turn.prepared("careful expert", careful_pose, statics_careful),
                 turn.prepared("generated", pose, statics_generated),
                 turn.prepared("generated, fused", fused_pose, statics_fused),
-                turn.prepared("LU 9x9", pose, statics_dense),
-                turn.prepared("LU 9x9, full pivoting", pose, statics_full),
-                turn.prepared("LU 9x9, dynamic", pose, statics_dynamic),
-                turn.prepared("LU 9x9, faer", pose, statics_faer),
             ],
         },
         Item {
@@ -81,8 +80,6 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 turn.competitor("generated", statics_at_generated),
                 turn.competitor("generated, fused", statics_at_fused),
                 turn.competitor("generated, by way of a pose", statics_at_pose),
-                turn.competitor("LU 9x9", statics_at_dense),
-                turn.competitor("LU 9x9, faer", statics_at_faer),
             ],
         },
         Item {
@@ -93,7 +90,6 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 turn.competitor("careful expert", torque_at_careful),
                 turn.competitor("generated", torque_at_generated),
                 turn.competitor("generated, fused", torque_at_fused),
-                turn.competitor("LU 9x9", torque_at_dense),
             ],
         },
         Item {
@@ -104,10 +100,18 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 parts.competitor("careful expert", parts_at_careful),
                 parts.competitor("generated", parts_at_generated),
                 parts.competitor("generated, fused", parts_at_fused),
-                parts.competitor("LU 9x9", parts_at_dense),
             ],
         },
     ];
+    let eliminations = [
+        eliminations!(|method, call| turn.prepared(method, pose, call), "9x9", statics_eliminated),
+        eliminations!(|method, call| turn.competitor(method, call), "9x9", statics_at_eliminated),
+        eliminations!(|method, call| turn.competitor(method, call), "9x9", torque_at_eliminated),
+        eliminations!(|method, call| parts.competitor(method, call), "9x9", parts_at_eliminated),
+    ];
+    for (item, eliminations) in items.iter_mut().zip(eliminations) {
+        item.competitors.extend(eliminations);
+    }
     let loads = |loads: &Loads| vec![loads.F13, loads.F14];
     for Item { id, competitors, .. } in &mut items {
         match *id {
@@ -117,7 +121,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
             _ => generators::add::<_, 5, 18, 2>(competitors, id, &parts, loads),
         }
     }
-    items
+    items.into()
 }
 
 fn statics_expert(case: &Case<expert::Pose, Loads>, out: &mut All) -> bool {
@@ -300,53 +304,31 @@ pub(crate) fn put(solution: Option<SVector<f64, 9>>, out: &mut All) -> bool {
     true
 }
 
-fn statics_dense(case: &Posed, out: &mut All) -> bool {
+fn statics_eliminated(case: &Posed, out: &mut All, solve: impl Fn(Matrix, &Right<1>) -> Option<Right<1>>) -> bool {
     let (matrix, right) = equations(&case.start, &case.loads);
-    put(dense::partial(matrix, &right), out)
+    put(solve(matrix, &right), out)
 }
 
-fn statics_full(case: &Posed, out: &mut All) -> bool {
-    let (matrix, right) = equations(&case.start, &case.loads);
-    put(dense::full(matrix, &right), out)
+fn statics_at_eliminated(case: &At, out: &mut All, solve: impl Fn(Matrix, &Right<1>) -> Option<Right<1>>) -> bool {
+    let Ok(start) = Pose::at(case.start) else { return false };
+    statics_eliminated(&Case { start, loads: case.loads }, out, solve)
 }
 
-fn statics_dynamic(case: &Posed, out: &mut All) -> bool {
-    let (matrix, right) = equations(&case.start, &case.loads);
-    put(dense::dynamic(matrix, &right), out)
-}
-
-fn statics_faer(case: &Posed, out: &mut All) -> bool {
-    let (matrix, right) = equations(&case.start, &case.loads);
-    put(dense::faer(matrix, &right), out)
-}
-
-fn statics_at_faer(case: &At, out: &mut All) -> bool {
+fn torque_at_eliminated(case: &At, out: &mut f64, solve: impl Fn(Matrix, &Right<1>) -> Option<Right<1>>) -> bool {
     let Ok(pose) = Pose::at(case.start) else { return false };
     let (matrix, right) = equations(&pose, &case.loads);
-    put(dense::faer(matrix, &right), out)
-}
-
-fn statics_at_dense(case: &At, out: &mut All) -> bool {
-    let Ok(pose) = Pose::at(case.start) else { return false };
-    let (matrix, right) = equations(&pose, &case.loads);
-    put(dense::partial(matrix, &right), out)
-}
-
-fn torque_at_dense(case: &At, out: &mut f64) -> bool {
-    let Ok(pose) = Pose::at(case.start) else { return false };
-    let (matrix, right) = equations(&pose, &case.loads);
-    let Some(x) = dense::partial(matrix, &right) else { return false };
+    let Some(x) = solve(matrix, &right) else { return false };
     *out = x[8];
     true
 }
 
-fn parts_at_dense(case: &At, out: &mut [All; 2]) -> bool {
+fn parts_at_eliminated(case: &At, out: &mut [All; 2], solve: impl Fn(Matrix, &Right<2>) -> Option<Right<2>>) -> bool {
     let Ok(pose) = Pose::at(case.start) else { return false };
     let (matrix, c, d) = dense(&pose);
-    let mut right = SMatrix::<f64, 9, 2>::zeros();
+    let mut right = Right::zeros();
     dense::load(&mut right, 0, 1, c, case.loads.F13.into());
     dense::load(&mut right, 1, 2, d, case.loads.F14.into());
-    let Some(x) = dense::partial(matrix, &right) else { return false };
+    let Some(x) = solve(matrix, &right) else { return false };
     put(Some(x.column(0).into_owned()), &mut out[0]) && put(Some(x.column(1).into_owned()), &mut out[1])
 }
 

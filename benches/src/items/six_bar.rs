@@ -3,7 +3,7 @@
 use linkage_runtime::{Vector2, polar};
 use nalgebra::{SMatrix, SVector};
 
-use super::dense::{self, Pin};
+use super::dense::{self, Pin, eliminations};
 use super::{Case, Extent, Item, Reactions, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, in_frame, left, vector};
 use crate::expert::six_bar as expert;
@@ -30,9 +30,8 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
         turn.competitor("expert", statics_at_expert),
         turn.competitor("generated", statics_at_generated),
         turn.competitor("generated, fused", statics_at_fused),
-        turn.competitor("LU 15x15", statics_at_dense),
-        turn.competitor("LU 15x15, faer", statics_at_faer),
     ];
+    competitors.extend(eliminations!(|method, call| turn.competitor(method, call), "15x15", statics_at_eliminated));
     generators::add::<_, 5, 15, 1>(&mut competitors, "P2b", &turn, |loads: &Loads| vec![loads.F, loads.G]);
     vec![Item {
         id: "P2b",
@@ -103,16 +102,14 @@ fn put(solution: Option<SVector<f64, 15>>, out: &mut All) -> bool {
     true
 }
 
-fn statics_at_dense(case: &At, out: &mut All) -> bool {
+fn statics_at_eliminated(
+    case: &At,
+    out: &mut All,
+    solve: impl Fn(SMatrix<f64, 15, 15>, &SVector<f64, 15>) -> Option<SVector<f64, 15>>,
+) -> bool {
     let Ok(pose) = Pose::at(case.start) else { return false };
     let (matrix, right) = equations(&pose, &case.loads);
-    put(dense::partial(matrix, &right), out)
-}
-
-fn statics_at_faer(case: &At, out: &mut All) -> bool {
-    let Ok(pose) = Pose::at(case.start) else { return false };
-    let (matrix, right) = equations(&pose, &case.loads);
-    put(dense::faer(matrix, &right), out)
+    put(solve(matrix, &right), out)
 }
 
 /// Each link's mass in kg, and its place in mm.

@@ -3,7 +3,7 @@
 use linkage_runtime::{Vector2, polar};
 use nalgebra::{SMatrix, SVector};
 
-use super::dense;
+use super::dense::{self, eliminations};
 use super::{Case, Extent, Item, Reactions, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, vector};
 use crate::expert::slider_crank as expert;
@@ -29,9 +29,8 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
         turn.competitor("expert", statics_at_expert),
         turn.competitor("generated", statics_at_generated),
         turn.competitor("generated, fused", statics_at_fused),
-        turn.competitor("LU 9x9", statics_at_dense),
-        turn.competitor("LU 9x9, faer", statics_at_faer),
     ];
+    competitors.extend(eliminations!(|method, call| turn.competitor(method, call), "9x9", statics_at_eliminated));
     generators::add::<_, 3, 9, 1>(&mut competitors, "P3b", &turn, |loads: &Loads| vec![loads.gas]);
     vec![Item { id: "P3b", title: "slider-crank: all forces and the torque, from the driver's angle", competitors }]
 }
@@ -93,16 +92,14 @@ fn put(solution: Option<SVector<f64, 9>>, out: &mut All) -> bool {
     true
 }
 
-fn statics_at_dense(case: &At, out: &mut All) -> bool {
+fn statics_at_eliminated(
+    case: &At,
+    out: &mut All,
+    solve: impl Fn(SMatrix<f64, 9, 9>, &SVector<f64, 9>) -> Option<SVector<f64, 9>>,
+) -> bool {
     let Ok(pose) = Pose::at(case.start) else { return false };
     let (matrix, right) = equations(&pose, &case.loads);
-    put(dense::partial(matrix, &right), out)
-}
-
-fn statics_at_faer(case: &At, out: &mut All) -> bool {
-    let Ok(pose) = Pose::at(case.start) else { return false };
-    let (matrix, right) = equations(&pose, &case.loads);
-    put(dense::faer(matrix, &right), out)
+    put(solve(matrix, &right), out)
 }
 
 /// The exact forces and torque.
