@@ -1,12 +1,13 @@
 //! The stress suite: kinds of groups in families of poses that break weak implementations, held to the bars, in both scalars; with
-//! `error_bound`, which no error may exceed, and which is within a hundred times the error as a median of each family and scalar. A
-//! reduced size is among the quick tests; all of it is
+//! `error_bound`, which no error may exceed, and which is within a hundred times the error as a median of each family and scalar. In plain
+//! arithmetic, and what is measured in fused arithmetic too. A reduced size is among the quick tests; all of it is
 //!
 //! ```text
 //! just stress
 //! ```
 //!
-//! with 10⁶ random poses of four-bars and slider-cranks, and 10⁴ of each other kind, and 100 members of a kind in each family. It prints, for
+//! with 10⁶ random poses of four-bars and slider-cranks, and 10⁴ of each other kind and of any in fused arithmetic; with 100 members of a
+//! kind in each family, 50 in fused arithmetic. It prints, for
 //! each kind and family, the worst measure as a part of its bar, and the median of bound over error. Members are drawn until as many as
 //! are asked for have poses in either scalar: a kind without poses in a family that is its own by the table fails. The bars are `BARS` of
 //! `support/families.rs`, the measures explained in `support/measures.rs`.
@@ -816,6 +817,8 @@ struct Size {
     poses: usize,
     /// Each of how many members has its bounds looked at: all, or each fourth at full size.
     bounded: usize,
+    /// Whether products are added without being rounded.
+    fused: bool,
 }
 
 impl Size {
@@ -828,7 +831,10 @@ impl Size {
                 return (double, single);
             }
             let before = (double.poses, single.poses);
-            for poses in make() {
+            for mut poses in make() {
+                if self.fused {
+                    poses.text = poses.text.replacen(';', "; arithmetic fused;", 1);
+                }
                 let bounded = members % self.bounded == 0;
                 double.add::<Double>(&poses, bounded);
                 single.add::<Single>(&poses, bounded);
@@ -843,27 +849,28 @@ impl Size {
 }
 
 /// All families of a kind, and as many random poses as are asked for.
-fn run(kind: &Kind, members: usize, random_poses: usize, bounded: usize) {
+fn run(kind: &Kind, members: usize, random_poses: usize, bounded: usize, fused: bool) {
     let mut beyond = String::new();
+    let kind_name = if fused { format!("{}, fused", kind.name) } else { kind.name.to_owned() };
     let mut add = |family: &str, (double, single): (Cell, Cell)| {
         let [(double, first), (single, second)] = [double, single].map(Cell::report);
-        println!("{:46} {family:14} f64 {double}  f32 {single}", kind.name);
+        println!("{kind_name:46} {family:14} f64 {double}  f32 {single}");
         for (scalar, example) in [("f64", first), ("f32", second)] {
             let Some(example) = example else { continue };
-            beyond += &[kind.name, ", ", family, ", ", scalar, ": ", &example, "\n"].concat();
+            beyond += &[&kind_name, ", ", family, ", ", scalar, ": ", &example, "\n"].concat();
         }
     };
     for (number, Hard { name, of, make }) in (0..).zip(&FAMILIES) {
         if of(kind) {
             let mut random = Random(number);
-            let size = Size { members, poses: 1, bounded };
-            add(name, size.filled(&[kind.name, ", ", name].concat(), || make(kind, &mut random)));
+            let size = Size { members, poses: 1, bounded, fused };
+            add(name, size.filled(&[&kind_name, ", ", name].concat(), || make(kind, &mut random)));
         }
     }
     if random_poses > 0 {
         let mut random = Random(77);
-        let size = Size { members: 1, poses: random_poses, bounded };
-        let cells = size.filled(kind.name, || {
+        let size = Size { members: 1, poses: random_poses, bounded, fused };
+        let cells = size.filled(&kind_name, || {
             let member = kind.drawn(&mut random);
             let drives = member.drives(&mut random, 40);
             vec![member.poses(drives)]
@@ -1102,7 +1109,8 @@ fn each_by_itself<T: Scalar>(kind: &Kind, members: usize) {
 fn all(kind: &Kind, members: usize, random_poses: usize, bounded: usize) {
     each_by_itself::<Double>(kind, members);
     each_by_itself::<Single>(kind, members);
-    run(kind, members, random_poses, bounded);
+    run(kind, members, random_poses, bounded, false);
+    run(kind, members.div_ceil(2), random_poses.min(10_000), bounded, true);
 }
 
 kinds! {
