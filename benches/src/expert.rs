@@ -157,6 +157,18 @@ pub(crate) mod four_bar {
     four_bar!(f64);
 }
 
+#[allow(
+    dead_code,
+    clippy::excessive_precision,
+    reason = "what single precision is asked for; of a number the nearest there"
+)]
+pub(crate) mod four_bar_single {
+    use super::{Reactions, Vector2};
+    use crate::linkages::four_bar_single::Loads;
+
+    four_bar!(f32);
+}
+
 /// For the loads of linkages with sweeps.
 #[allow(dead_code, clippy::excessive_precision, reason = "the formulas of the other, of which sweeps need two")]
 pub(crate) mod swept {

@@ -8,7 +8,7 @@ use libloading::Library;
 use linkage_runtime::Vector2;
 
 use crate::harness::Competitor;
-use crate::items::{Case, Results, Start, Turn};
+use crate::items::{Case, Results, Scalar, Start, Turn};
 
 static LIBRARY: OnceLock<Library> = OnceLock::new();
 
@@ -67,6 +67,7 @@ impl<const N: usize, const PARTS: usize> Default for Found<N, PARTS> {
 }
 
 impl<const N: usize, const PARTS: usize> Results for Found<N, PARTS> {
+    const MISTAKE: f64 = <f64 as Scalar>::MISTAKE;
     fn parts(&self) -> Vec<(f64, Vec<Vector2<f64>>)> {
         let part = |numbers: &[f64]| {
             let (torque, forces) = numbers.split_last().expect("a torque");

@@ -29,6 +29,9 @@ pub(crate) struct Competitor {
     pub(crate) method: &'static str,
     /// Its largest errors over the poses that are judged.
     pub(crate) errors: Errors,
+    /// The largest difference of its results from the expert's that is taken for rounding, by the largest number of all results: a torque
+    /// may vanish beside forces that do not.
+    rounding: f64,
     calls: Box<dyn Calls>,
 }
 
@@ -91,7 +94,7 @@ impl Competitor {
         cases: Vec<C>,
         call: fn(&C, &mut R) -> bool,
     ) -> Self {
-        Self { method, errors, calls: Box::new(Table { cases, call }) }
+        Self { method, errors, rounding: R::MISTAKE, calls: Box::new(Table { cases, call }) }
     }
 
     /// Goes through the table that often.
@@ -115,10 +118,6 @@ impl Competitor {
     }
 }
 
-/// The largest difference of two competitors' results that is taken for rounding, by the largest number of all results:
-/// a torque may vanish beside forces that do not.
-const ROUNDING: f64 = 1e-9;
-
 /// Whether all competitors of an item give the expert's results for all arguments that are timed.
 ///
 /// Errors are found over other poses, with other loads: this is what says that the same work is timed.
@@ -128,7 +127,7 @@ pub(crate) fn agree(item: &Item) -> Result<(), String> {
     let largest = expected.iter().flatten().fold(0.0_f64, |largest, x| largest.max(x.abs()));
     for other in others {
         for (index, (result, expected)) in other.calls.results().iter().zip(&expected).enumerate() {
-            if !result.iter().zip(expected).all(|(x, y)| (x - y).abs() <= ROUNDING * largest) {
+            if !result.iter().zip(expected).all(|(x, y)| (x - y).abs() <= other.rounding * largest) {
                 return Err(format!("{}: {} disagrees with the expert at pose {index}", item.id, other.method));
             }
         }

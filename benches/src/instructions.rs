@@ -20,7 +20,7 @@ pub(crate) fn once(id: &str, method: &str, sweeps: u32, mode: Mode) -> Result<()
 const POSES: u32 = 512;
 
 /// Runs without exact solutions, which would only cost time here.
-const EXTENT: Extent = Extent { timed: POSES, judged: false, shuffled: false };
+const EXTENT: Extent = Extent { timed: POSES, judged: false, shuffled: false, single: false };
 
 /// Prints the instructions of one call of every competitor, the loop around it taken off.
 pub(crate) fn print(chosen: impl Fn(&Item) -> bool) -> Result<(), String> {

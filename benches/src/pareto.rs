@@ -13,15 +13,13 @@ use crate::harness::{Competitor, Mode, measure};
 use crate::items::four_bar::{
     equations, exact, exact_parts, put, statics_at_fused, statics_at_generated, torque_at_fused, torque_at_generated,
 };
-use crate::items::{Case, Errors, Item, Random, Reactions, Results, Start, dense};
+use crate::items::{Case, Errors, Item, Random, Reactions, Results, Start, dense, rounded, single};
 use crate::linkages::four_bar::{self, Loads, Pose};
-use crate::linkages::four_bar_single;
 use crate::picture::{self, Family, Mark, Panel};
 use crate::{newton, textbook};
 
 type All = Reactions<4>;
 type At = Case<f64, Loads>;
-type AtSingle = Case<f32, four_bar_single::Loads>;
 type AtBegin = Case<newton::Begin, Loads>;
 type Posed<T> = Vec<(At, T)>;
 
@@ -30,14 +28,6 @@ const POSES: u32 = 1024;
 
 /// The loads on coupler and rocker, N.
 const LOADS: (f64, f64) = (50.0, 100.0);
-
-impl Start for f32 {
-    #[allow(clippy::cast_possible_truncation, reason = "zero")]
-    fn depend(&mut self, change: f64) -> bool {
-        *self += change as f32;
-        true
-    }
-}
 
 impl Start for newton::Begin {
     fn depend(&mut self, change: f64) -> bool {
@@ -65,6 +55,13 @@ struct Judged {
     /// How many poses have no answer.
     refused: usize,
     on_front: bool,
+}
+
+impl Judged {
+    /// Whether it is a method for any linkage, and has answers.
+    fn competes(&self) -> bool {
+        self.family != Family::Hand && self.typical.is_finite()
+    }
 }
 
 /// The methods of a panel, with their competitors.
@@ -119,16 +116,15 @@ impl<'a> Methods<'a> {
         for (method, timing) in judged.iter_mut().zip(measure(&mut item, rounds, least, Mode::Independent)) {
             (method.nanoseconds, method.ratio) = (timing.nanoseconds, timing.ratio);
         }
-        let competes = |method: &Judged| method.family != Family::Hand && method.typical.is_finite();
         let all: Vec<(f64, f64)> = judged
             .iter()
-            .filter(|method| competes(method))
+            .filter(|method| method.competes())
             .map(|method| (method.nanoseconds, method.typical))
             .collect();
         for method in &mut judged {
             let own = (method.nanoseconds, method.typical);
             let beaten = |other: &(f64, f64)| *other != own && other.0 <= own.0 && other.1 <= own.1;
-            method.on_front = competes(method) && !all.iter().any(beaten);
+            method.on_front = method.competes() && !all.iter().any(beaten);
         }
         judged
     }
@@ -148,6 +144,7 @@ fn error(torque: f64, forces: &[Vector2<f64>], Truth { exact, effort }: &Truth) 
 /// Measures all methods, prints the tables, and draws them if a file is named.
 pub(crate) fn print(rounds: usize, least: Duration, machine: &str, file: Option<&str>) -> Result<(), String> {
     let mut panels = Vec::new();
+    let mut beaten = String::new();
     for (where_, poses) in
         [("at least 30° from the change point", regular()), ("10⁻¹ to 10⁻⁵ rad from the change point", near())]
     {
@@ -155,6 +152,9 @@ pub(crate) fn print(rounds: usize, least: Duration, machine: &str, file: Option<
             let judged = methods.timed(rounds, least);
             let title = format!("{what}, {where_}");
             table(&title, &judged);
+            for (generated, by) in beaten_by_others(&judged) {
+                beaten += &format!("{title}: {generated} is slower and less exact than {by}\n");
+            }
             let marks = judged.iter().filter(|method| method.typical.is_finite()).map(|method| Mark {
                 name: method.name,
                 family: method.family,
@@ -169,7 +169,18 @@ pub(crate) fn print(rounds: usize, least: Duration, machine: &str, file: Option<
         std::fs::write(file, picture::drawn(&panels, machine)).map_err(|error| format!("{file}: {error}"))?;
         println!("\nwrote {file}");
     }
-    Ok(())
+    if beaten.is_empty() { Ok(()) } else { Err(beaten) }
+}
+
+/// Generated functions, each with a method for any linkage that is not generated and beats it in both time and typical error.
+fn beaten_by_others(judged: &[Judged]) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let of = |generated: bool| {
+        judged.iter().filter(move |method| (method.family == Family::Generated) == generated && method.competes())
+    };
+    of(true).flat_map(move |own| {
+        let beats = |other: &&Judged| other.nanoseconds <= own.nanoseconds && other.typical <= own.typical;
+        of(false).filter(beats).map(|other| (own.name, other.name))
+    })
 }
 
 fn table(title: &str, judged: &[Judged]) {
@@ -182,13 +193,12 @@ fn table(title: &str, judged: &[Judged]) {
 }
 
 /// A pose at an angle, with loads in any directions.
-#[allow(clippy::cast_possible_truncation, reason = "single precision is what all methods are given")]
 fn pose(theta: f64, random: &mut Random) -> (At, Truth) {
     let mut load = |size: f64| {
         let force = polar(size, std::f64::consts::TAU * random.next());
-        force.map(|part| f64::from(part as f32))
+        force.map(rounded)
     };
-    let case = Case { start: f64::from(theta as f32), loads: Loads { F13: load(LOADS.0), F14: load(LOADS.1) } };
+    let case = Case { start: rounded(theta), loads: Loads { F13: load(LOADS.0), F14: load(LOADS.1) } };
     let theta = Big::of(case.start);
     let effort = [(1.0, 0.0), (0.0, 1.0)].map(|(x, y)| {
         let along = |size: f64| Vector2::new(size * x, size * y);
@@ -233,13 +243,7 @@ fn all(poses: &Posed<Truth>) -> Methods<'_> {
     methods.add(CAREFUL, same, |case: &At, out: &mut All| answer(expert::careful_pose(case.start), case, out));
     methods.add((Family::Generated, "generated, equilibrium"), same, statics_at_generated);
     methods.add((Family::Generated, "generated, equilibrium, fused"), same, statics_at_fused);
-    methods.add((Family::Generated, "generated, equilibrium, f32"), single, |case, out: &mut Reactions<4, f32>| {
-        match four_bar_single::statics_at(case.start, &case.loads) {
-            Ok(all) => *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] },
-            Err(_) => out.torque = f32::NAN,
-        }
-        true
-    });
+    methods.add((Family::Generated, "generated, equilibrium, f32"), single::given, single::statics_generated);
     methods.add((Family::Generated, "generated, superposition"), same, |case: &At, out: &mut All| {
         match four_bar::parts_at(case.start, &case.loads).and_then(|parts| parts.total()) {
             Ok(all) => *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] },
@@ -278,10 +282,7 @@ fn torque(poses: &Posed<Truth>) -> Methods<'_> {
     });
     methods.add((Family::Generated, "generated, virtual work"), same, torque_at_generated);
     methods.add((Family::Generated, "generated, virtual work, fused"), same, torque_at_fused);
-    methods.add((Family::Generated, "generated, virtual work, f32"), single, |case, out: &mut f32| {
-        *out = four_bar_single::torque_at(case.start, &case.loads).map_or(f32::NAN, |torque| torque.T12);
-        true
-    });
+    methods.add((Family::Generated, "generated, virtual work, f32"), single::given, single::torque_generated);
     methods.add(ANGLES, same, |case: &At, out: &mut f64| {
         let mut all = All::default();
         textbook::statics(case.start, &case.loads, &mut all);
@@ -309,13 +310,6 @@ fn torque(poses: &Posed<Truth>) -> Methods<'_> {
 
 fn same(case: &At) -> At {
     *case
-}
-
-#[allow(clippy::cast_possible_truncation, reason = "they are numbers of single precision")]
-fn single(case: &At) -> AtSingle {
-    let force = |force: Vector2<f64>| force.map(|part| part as f32);
-    let Loads { F13, F14 } = case.loads;
-    Case { start: case.start as f32, loads: four_bar_single::Loads { F13: force(F13), F14: force(F14) } }
 }
 
 /// Newton's method comes from the pose before: a degree farther from the change point, next to it a tenth of the distance.
@@ -358,6 +352,30 @@ fn eliminated(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn who_is_beaten_is_found() {
+        let method = |name, family, nanoseconds, typical| Judged {
+            name,
+            family,
+            nanoseconds,
+            ratio: 0.0,
+            typical,
+            worst: typical,
+            refused: 0,
+            on_front: false,
+        };
+        let hand = method("by hand", Family::Hand, 1.0, 1e-17);
+        let fused = method("fused", Family::Generated, 2.0, 1e-16);
+        let [fast, exact] =
+            [(2.0, 3e-16), (9.0, 1e-16)].map(|(ns, error)| method("plain", Family::Generated, ns, error));
+        let elimination = method("LU", Family::Elimination, 3.0, 2e-16);
+        let of = |all: [Judged; 4]| beaten_by_others(&all).collect::<Vec<_>>();
+        assert_eq!(of([hand, fused, fast, elimination]), []);
+        let [hand, fused] =
+            [("by hand", Family::Hand), ("fused", Family::Generated)].map(|(n, f)| method(n, f, 2.0, 1e-16));
+        assert_eq!(of([hand, fused, exact, method("LU", Family::Elimination, 3.0, 1e-16)]), [("plain", "LU")]);
+    }
 
     /// What each method is good for at poses that are far from the change point.
     #[test]

@@ -18,6 +18,10 @@ macro_rules! loads {
             fn toward(first: f64, second: f64) -> Self {
                 Self { F13: polar(50.0, first as $scalar), F14: polar(100.0, second as $scalar) }
             }
+            fn rounded(self) -> Self {
+                let rounded = |force: Vector2<$scalar>| force.map(|x| super::rounded(x.into()) as $scalar);
+                Self { F13: rounded(self.F13), F14: rounded(self.F14) }
+            }
             fn depend(&mut self, change: f64) {
                 self.F13.x += change as $scalar;
                 self.F14.x += change as $scalar;

@@ -4,7 +4,7 @@ use linkage_runtime::{Vector2, polar};
 use nalgebra::{SMatrix, SVector};
 
 use super::dense::{self, Pin, eliminations};
-use super::{Case, Extent, Item, Reactions, Turn};
+use super::{Case, Extent, Item, Reactions, Turn, rounded};
 use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, in_frame, left, vector};
 use crate::expert::six_bar as expert;
 use crate::generators;
@@ -14,6 +14,9 @@ use crate::linkages::six_bar_fused;
 impl super::Loads for Loads {
     fn toward(first: f64, second: f64) -> Self {
         Self { F: polar(50.0, first), G: polar(100.0, second) }
+    }
+    fn rounded(self) -> Self {
+        Self { F: self.F.map(rounded), G: self.G.map(rounded) }
     }
     fn depend(&mut self, change: f64) {
         self.F.x += change;

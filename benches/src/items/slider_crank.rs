@@ -4,7 +4,7 @@ use linkage_runtime::{Vector2, polar};
 use nalgebra::{SMatrix, SVector};
 
 use super::dense::{self, eliminations};
-use super::{Case, Extent, Item, Reactions, Turn};
+use super::{Case, Extent, Item, Reactions, Turn, rounded};
 use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, vector};
 use crate::expert::slider_crank as expert;
 use crate::generators;
@@ -14,6 +14,9 @@ use crate::linkages::slider_crank_fused;
 impl super::Loads for Loads {
     fn toward(first: f64, _: f64) -> Self {
         Self { gas: polar(50.0, first) }
+    }
+    fn rounded(self) -> Self {
+        Self { gas: self.gas.map(rounded) }
     }
     fn depend(&mut self, change: f64) {
         self.gas.x += change;
