@@ -274,8 +274,8 @@ fn mass_and_bias_together_cost_less_than_two_dynamic_solutions() {
         println!("dynamic solution {once}, M and h {both}, with rounding {all}, M {mass}");
         // `rounding`, of which the default has one number for each of M, too.
         assert!(all < 2 * once && both < all && mass < both, "{once} {both} {all} {mass}");
-        // The mass needs no acceleration.
-        assert!(2 * mass < once, "{once} {mass}");
+        // The mass needs no acceleration: three fifths of a dynamic solution, which skips what has no power.
+        assert!(5 * mass < 3 * once, "{once} {mass}");
     }
     // And inertia of one link no velocity of another.
     let linkage = compile(&text);

@@ -107,14 +107,15 @@ impl<'m, 'p> Balance<'m, 'p> {
         self.act(link, Acting { at, force, is_load: false, forces: 1 });
     }
 
-    /// Forces at one place are added up.
+    /// Forces at one place in the same axes are added up. Those in other axes stay apart: in its own axes what has no moment is seen to have
+    /// none, as the part of a link's inertia along its arm.
     fn act(&mut self, link: LinkId, acting: Acting<'m>) {
         if link == GROUND || acting.force.components.is_zero() {
             return;
         }
         let ground = self.placement.direction(GROUND);
         let forces = &mut self.wrenches[link.index()].forces;
-        match forces.iter_mut().find(|there| there.at == acting.at) {
+        match forces.iter_mut().find(|there| there.at == acting.at && there.force.axes == acting.force.axes) {
             Some(there) => {
                 there.force = there.force.plus(&acting.force, ground);
                 there.is_load &= acting.is_load;
