@@ -177,6 +177,49 @@ fn common_factors_are_multiplied_once() {
     assert!(saved > 40 && named > 10, "{saved} products saved, {named} named");
 }
 
+/// Nothing is computed twice, but under two names; and no bit of a result changes.
+#[test]
+fn what_is_repeated_is_computed_once() {
+    let mut saved = 0;
+    for seed in 0..60 {
+        let kind = Kind { dyads: 1 + usize::try_from(seed % 3).unwrap(), moving: seed % 2 == 0, ..KIND };
+        let sample = sample(seed, kind);
+        let linkage = compile(&sample.text);
+        let graph = &linkage.model.graph;
+        for output in &linkage.plan.scenes {
+            for form in [Form::Direct, Form::FromPose] {
+                let programs = before_and_after("repeated", unoptimised(output, graph, form), graph);
+                let [before, after] =
+                    programs.each_ref().map(|program| results::<Double>(&linkage, program, &sample.arguments));
+                let bits = |results: Vec<Double>| results.iter().map(|x| x.0.to_bits()).collect::<Vec<_>>();
+                assert_eq!(bits(before), bits(after), "{}", sample.text);
+                let [before, after] = programs.each_ref().map(repeated);
+                assert_eq!(after, 0, "{}", sample.text);
+                saved += before;
+            }
+        }
+    }
+    assert!(saved > 20, "{saved}");
+}
+
+/// How many values a program computes of which there is one already, but for those of which both have names.
+fn repeated(program: &Program) -> usize {
+    let mut there: Vec<(Op<ValueId>, bool)> = Vec::new();
+    let mut count = 0;
+    for step in &program.steps {
+        let Step::Let(value) = step else { continue };
+        let op = match program.op(*value).expect("computed") {
+            Op::Add(a, b) => Op::Add(*a.min(b), *a.max(b)),
+            Op::Mul(a, b) => Op::Mul(*a.min(b), *a.max(b)),
+            op => op.clone(),
+        };
+        let named = program.value(*value).label.is_some();
+        count += usize::from(there.iter().any(|(other, other_named)| *other == op && !(named && *other_named)));
+        there.push((op, named));
+    }
+    count
+}
+
 /// Of two products the one that a fused sum adds is not known before the one that is rounded.
 #[test]
 fn the_product_that_is_known_last_is_fused() {

@@ -9,18 +9,21 @@ mod fused;
 mod late;
 mod pivots;
 mod reciprocals;
+mod repeated;
 mod signs;
 mod unused;
 
-use super::{Definition, Program, Value, ValueId};
+use std::collections::BTreeMap;
+
+use super::{Definition, Program, Step, Value, ValueId};
 use crate::graph::number::Number;
-use crate::graph::{Graph, Op};
+use crate::graph::{Graph, Guard, Op};
 
 /// A pass.
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 11] = [
+pub const PASSES: [(&str, Pass); 12] = [
     ("pivots", pivots::compare_directly),
     ("reciprocals", reciprocals::share),
     ("constants", constants::merge),
@@ -29,6 +32,7 @@ pub const PASSES: [(&str, Pass); 11] = [
     ("constants at reciprocals", constants::multiply_reciprocals),
     ("late", late::multiply_last),
     ("common factors", common::factor),
+    ("repeated", repeated::compute_once),
     ("signs", signs::absorb),
     ("finite", finite::check_once),
     ("fused", fused::contract),
@@ -45,6 +49,29 @@ impl Program {
     /// A new constant.
     fn add_constant(&mut self, graph: &Graph, number: &Number, beside: ValueId) -> ValueId {
         self.add(Op::Constant(graph.intern_number(number)), beside)
+    }
+
+    /// A step that reads other values in place of some.
+    fn reading(&mut self, step: Step, replaced: &BTreeMap<ValueId, ValueId>) -> Step {
+        let name = |value: ValueId| replaced.get(&value).copied().unwrap_or(value);
+        let computed: &[ValueId] = match &step {
+            Step::Let(value) => std::slice::from_ref(value),
+            Step::Check { report, .. } => report,
+            Step::FiniteInput(_) | Step::FiniteResults(_) => &[],
+        };
+        for value in computed {
+            if let Definition::Computed(op) = &self.values[value.index()].definition {
+                self.values[value.index()].definition = Definition::Computed(op.map(name));
+            }
+        }
+        match step {
+            Step::Check { guard, report } => {
+                let failure = guard.failure.map(name);
+                Step::Check { guard: Guard { condition: guard.condition.map(name), failure }, report }
+            }
+            Step::FiniteResults(values) => Step::FiniteResults(values.into_iter().map(name).collect()),
+            step => step,
+        }
     }
 
     /// What a constant is.

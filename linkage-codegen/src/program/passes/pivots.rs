@@ -6,13 +6,13 @@
 use std::collections::BTreeMap;
 
 use crate::graph::{Condition, Graph, Guard, Op};
-use crate::program::{Definition, Program, Step, ValueId};
+use crate::program::{Program, Step, ValueId};
 
 pub(super) fn compare_directly(mut program: Program, graph: &Graph) -> Program {
     let mut replaced: BTreeMap<ValueId, ValueId> = BTreeMap::new();
     let mut steps = Vec::new();
     for step in core::mem::take(&mut program.steps) {
-        let step = renamed(&mut program, step, &replaced);
+        let step = program.reading(step, &replaced);
         let Step::Check { guard, report } = step else {
             steps.push(step);
             continue;
@@ -51,22 +51,5 @@ fn not_zero(program: &Program, graph: &Graph, guard: &Guard<ValueId>) -> Option<
         // The magnitude of a pivot that is negative by its side.
         Op::Neg(pivot) => matches!(program.op(*pivot), Some(Op::Where { .. })).then_some(*pivot),
         _ => None,
-    }
-}
-
-fn renamed(program: &mut Program, step: Step, replaced: &BTreeMap<ValueId, ValueId>) -> Step {
-    let name = |value: ValueId| replaced.get(&value).copied().unwrap_or(value);
-    match step {
-        Step::Let(value) => {
-            if let Definition::Computed(op) = &program.values[value.index()].definition {
-                program.values[value.index()].definition = Definition::Computed(op.map(name));
-            }
-            Step::Let(value)
-        }
-        Step::Check { guard, report } => Step::Check {
-            guard: Guard { condition: guard.condition.map(name), failure: guard.failure.map(name) },
-            report,
-        },
-        other => other,
     }
 }

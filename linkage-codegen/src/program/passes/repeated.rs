@@ -1,0 +1,51 @@
+//! What other passes have brought to the same operation is computed once.
+//!
+//! The graph holds no operation twice, but a sum whose common factor was taken out may leave a sum that is there already: the work of a load
+//! along a line has that of the velocity along it.
+
+use std::collections::{BTreeMap, HashMap};
+
+use crate::graph::{Graph, Op};
+use crate::program::{Program, Step, ValueId};
+
+pub(super) fn compute_once(mut program: Program, _graph: &Graph) -> Program {
+    let mut replaced: BTreeMap<ValueId, ValueId> = BTreeMap::new();
+    let mut first: HashMap<Op<ValueId>, ValueId> = HashMap::new();
+    let mut steps = Vec::new();
+    for step in core::mem::take(&mut program.steps) {
+        let step = program.reading(step, &replaced);
+        if let Step::Let(value) = step
+            && let Some(op) = program.op(value)
+        {
+            let there = *first.entry(in_one_order(op)).or_insert(value);
+            if there != value && may_be_one(&program, there, value) {
+                let label = program.values[value.index()].label.take();
+                let known = &mut program.values[there.index()].label;
+                *known = known.take().or(label);
+                replaced.insert(value, there);
+                continue;
+            }
+        }
+        steps.push(step);
+    }
+    for (_, value) in &mut program.outputs {
+        *value = replaced.get(value).copied().unwrap_or(*value);
+    }
+    program.steps = steps;
+    program
+}
+
+/// Whether a value may stand for another one: not where both have names, which are lines of the derivation.
+fn may_be_one(program: &Program, there: ValueId, value: ValueId) -> bool {
+    let [there, value] = [there, value].map(|value| program.value(value));
+    (there.label.is_none() || value.label.is_none()) && there.divided == value.divided
+}
+
+/// Sums and products of the same in either order are the same.
+fn in_one_order(op: &Op<ValueId>) -> Op<ValueId> {
+    match *op {
+        Op::Add(a, b) if b < a => Op::Add(b, a),
+        Op::Mul(a, b) if b < a => Op::Mul(b, a),
+        _ => op.clone(),
+    }
+}
