@@ -1,6 +1,7 @@
 //! Resultants of forces about a point, and powers: what shakes the ground, what acts on it, what the drives put in.
 
 use super::efforts::{Act, Unit};
+use super::framed::Framed;
 use super::placement::Placement;
 use super::{Balance, Motion};
 use crate::equations::loads::Action;
@@ -29,16 +30,20 @@ impl<'m, 'p> Resultant<'m, 'p> {
 
     /// From the point to a place along and across a link's direction, ground axes.
     fn arm(&self, link: LinkId, at: Vector<'m>) -> Vector<'m> {
+        let (way, beyond) = self.way_and_beyond(link, at);
+        way + beyond.turned_by(self.placement.direction(link))
+    }
+
+    /// The same as the way to the link, in ground axes, and what is beyond on the link, along and across its direction.
+    fn way_and_beyond(&self, link: LinkId, at: Vector<'m>) -> (Vector<'m>, Vector<'m>) {
         if link == self.about.link {
-            let own = self.placement.point(self.about);
-            return (at - own).turned_by(self.placement.direction(link));
+            return (self.placement.graph().zero_vector(), at - self.placement.point(self.about));
         }
         let near = End { link, point: PointId::FIRST };
         if self.placement.model.link(link).points.is_empty() {
-            return at.turned_by(self.placement.direction(link)) - self.placement.place(self.about);
+            return (-self.placement.place(self.about), at);
         }
-        let beyond = at - self.placement.point(near);
-        self.placement.way(self.about, near).vector() + beyond.turned_by(self.placement.direction(link))
+        (self.placement.way(self.about, near).vector(), at - self.placement.point(near))
     }
 
     /// With a force at the end of an arm: `M + arm × F`.
@@ -52,10 +57,23 @@ impl<'m, 'p> Resultant<'m, 'p> {
         self.moment = self.moment + couple;
     }
 
-    /// With force and couple of a link's inertia at its centre of mass.
-    pub(super) fn inertia(&mut self, link: LinkId, centroid: Vector<'m>, force: Vector<'m>, couple: Expr<'m>) {
+    /// With force and couple of a link's inertia at its centre of mass; the force in ground axes too, as it is named. In the link's own axes
+    /// what has no moment about a place on the link is seen to have none.
+    pub(super) fn inertia(
+        &mut self,
+        (link, centroid): (LinkId, Vector<'m>),
+        force: Framed<'m>,
+        named: Vector<'m>,
+        couple: Expr<'m>,
+    ) {
         let at = self.placement.carried(link, centroid);
-        self.force(self.arm(link, at), force);
+        if force.axes == self.placement.direction(link) {
+            let (way, beyond) = self.way_and_beyond(link, at);
+            self.force(way, named);
+            self.couple(beyond.cross(force.components));
+        } else {
+            self.force(self.arm(link, at), named);
+        }
         self.couple(couple);
     }
 

@@ -409,8 +409,13 @@ impl<'m> Forces<'_, 'm> {
         let mut resultant = Resultant::about(self.posed.placement, at);
         for link in self.model.moving_links() {
             let Some(mass) = self.model.link(link).mass else { continue };
-            let (_, force, couple) = self.inertia_of(link);
-            resultant.inertia(link, mass.centroid.vector(graph), force, couple);
+            let Some(motion) = self.posed.accelerations else { continue };
+            let (_, named, couple) = self.inertia_of(link);
+            let centroid = mass.centroid.vector(graph);
+            let acceleration = motion.of_place(link, self.posed.placement.carried(link, centroid));
+            let force = by_dalembert(self.model, mass, acceleration.components, motion.rate(link)).0;
+            let force = Framed { components: force, axes: acceleration.axes };
+            resultant.inertia((link, centroid), force, named, couple);
         }
         let name = self.model.result_name(Wanted::Shaking(at)).unwrap_or_default();
         let doc = format!("What the inertia of all links exerts: {}.", wrench_doc(self.model, at));
