@@ -2,11 +2,12 @@
 
 mod support;
 
-use linkage_codegen::graph::{Op, Order, Symbol};
-use linkage_codegen::program::{Counts, Definition, Input, Program, Step};
+use linkage_codegen::graph::{Graph, Kernel, Op, Order, Symbol};
+use linkage_codegen::program::{Counts, Definition, Input, Program, Step, ValueId};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use support::compile;
 use support::declarations::{declarations, linkages};
+use support::linkages::Random;
 
 const FOUR_BAR: &str = "pub mod four_bar; units { mm, N }
     ground { A0: (0, 0), B0: (140mm, 0) } link crank { A0 -> A: 80mm }
@@ -293,6 +294,11 @@ fn power_is_not_found_by_way_of_what_turns() {
 
 /// All programs of a linkage, with names.
 fn programs(linkage: &linkage_codegen::Linkage) -> Vec<(String, &Program)> {
+    own_programs(linkage).into_iter().chain(linkage.inverses.iter().flat_map(programs)).collect()
+}
+
+/// The same without those of its inverses, which are linkages of their own.
+fn own_programs(linkage: &linkage_codegen::Linkage) -> Vec<(String, &Program)> {
     let functions = &linkage.functions;
     let mut all = vec![("Linkage::new".to_owned(), &functions.prepare), ("Pose::at".to_owned(), &functions.pose)];
     all.extend(functions.near.iter().map(|near| ("Pose::moved_to".to_owned(), near)));
@@ -308,7 +314,6 @@ fn programs(linkage: &linkage_codegen::Linkage) -> Vec<(String, &Program)> {
         all.push((format!("Pose::{}", scene.name), &functions.from_pose));
         all.push((format!("{}_at", scene.name), &functions.direct));
     }
-    all.extend(linkage.inverses.iter().flat_map(programs));
     all
 }
 
@@ -330,6 +335,148 @@ fn no_program_computes_what_nothing_reads() {
         }
     }
     assert!(computed > 17_000 && looked_at > 850, "{computed} values in {looked_at} programs");
+}
+
+/// What a program comes to for numbers of which none is related to another: any given ones, and any results of kernels and roots. So
+/// what is a square by a law of triangles is not, and nothing is stationary because a vector has unit size.
+struct Unrelated<'a> {
+    program: &'a Program,
+    graph: &'a Graph,
+    numbers: Vec<f64>,
+}
+
+impl<'a> Unrelated<'a> {
+    fn of(program: &'a Program, graph: &'a Graph, seed: u64) -> Self {
+        let mut random = Random(seed);
+        let mut unrelated = Self { program, graph, numbers: vec![0.0; program.values.len()] };
+        for (index, value) in program.values.iter().enumerate() {
+            unrelated.numbers[index] = match &value.definition {
+                Definition::Computed(Op::Constant(number)) => graph.number(*number).to_f64(),
+                _ => random.range(0.5, 2.0),
+            };
+        }
+        for value in unrelated.computed() {
+            if let Some(number) = unrelated.number(value) {
+                unrelated.numbers[value.index()] = number;
+            }
+        }
+        unrelated
+    }
+
+    /// All that is computed, in an order of evaluation; of a report before its check.
+    fn computed(&self) -> Vec<ValueId> {
+        let of = |step: &Step| match step {
+            Step::Let(value) => vec![*value],
+            Step::Check { report, .. } => report.clone(),
+            _ => Vec::new(),
+        };
+        self.program.steps.iter().flat_map(of).collect()
+    }
+
+    /// What an operation makes of its operands; of a kernel or a root nothing is known.
+    fn number(&self, value: ValueId) -> Option<f64> {
+        let at = |operand: &ValueId| self.numbers[operand.index()];
+        Some(match self.program.op(value)? {
+            Op::Neg(a) => -at(a),
+            Op::Abs(a) | Op::NonNegative(a) => at(a).abs(),
+            Op::Add(a, b) => at(a) + at(b),
+            Op::Sub(a, b) => at(a) - at(b),
+            Op::Mul(a, b) => at(a) * at(b),
+            Op::Div(a, b) => at(a) / at(b),
+            Op::Kernel { kernel: Kernel::MulAdd, args, .. } => at(&args[0]) * at(&args[1]) + at(&args[2]),
+            Op::Where { then, .. } => at(then),
+            _ => return None,
+        })
+    }
+
+    /// What must be right: results, both sides of checks, what they report, and what kernels are given.
+    fn wanted(&self) -> Vec<ValueId> {
+        let mut wanted: Vec<ValueId> = self.program.outputs.iter().map(|(_, value)| *value).collect();
+        for step in &self.program.steps {
+            match step {
+                Step::Check { .. } => wanted.extend(self.program.operands_of(step)),
+                Step::FiniteResults(values) => wanted.extend(values),
+                Step::Let(_) | Step::FiniteInput(_) => {}
+            }
+        }
+        for value in self.computed() {
+            match self.program.op(value).expect("computed") {
+                Op::Kernel { kernel, args, .. } if *kernel != Kernel::MulAdd => wanted.extend(args),
+                Op::Where { value, limit, .. } => wanted.extend([value, limit]),
+                _ => {}
+            }
+        }
+        wanted.sort_unstable();
+        wanted.dedup();
+        wanted
+    }
+
+    /// How a value changes with each of its operands.
+    fn slopes(&self, value: ValueId) -> Vec<(ValueId, f64)> {
+        let at = |operand: ValueId| self.numbers[operand.index()];
+        match self.program.op(value).expect("computed") {
+            Op::Neg(a) => vec![(*a, -1.0)],
+            Op::Abs(a) | Op::NonNegative(a) => vec![(*a, at(*a).signum())],
+            Op::Sqrt(a) => vec![(*a, 0.5 / at(value))],
+            Op::Add(a, b) => vec![(*a, 1.0), (*b, 1.0)],
+            Op::Sub(a, b) => vec![(*a, 1.0), (*b, -1.0)],
+            Op::Mul(a, b) => vec![(*a, at(*b)), (*b, at(*a))],
+            Op::Div(a, b) => vec![(*a, 1.0 / at(*b)), (*b, -at(value) / at(*b))],
+            Op::Kernel { kernel: Kernel::MulAdd, args, .. } => {
+                vec![(args[0], at(args[1])), (args[1], at(args[0])), (args[2], 1.0)]
+            }
+            Op::Where { then, .. } => vec![(*then, 1.0)],
+            _ => Vec::new(),
+        }
+    }
+
+    /// Which values change something that is wanted, and not only in ways that cancel.
+    fn with_effect(&self) -> Vec<bool> {
+        let computed = self.computed();
+        let mut effect = vec![false; self.numbers.len()];
+        for wanted in self.wanted() {
+            // How it changes with each value: the sum over all ways, and the sum of their magnitudes.
+            let mut change = vec![(0.0f64, 0.0f64); self.numbers.len()];
+            change[wanted.index()] = (1.0, 1.0);
+            for value in computed.iter().rev() {
+                let (sum, size) = change[value.index()];
+                if sum.abs() > 1e-9 * size {
+                    effect[value.index()] = true;
+                    for (operand, slope) in self.slopes(*value) {
+                        let (operand_sum, operand_size) = &mut change[operand.index()];
+                        *operand_sum += sum * slope;
+                        *operand_size += (sum * slope).abs();
+                    }
+                }
+            }
+        }
+        effect
+    }
+}
+
+/// No value is computed of which nothing is left in any result, because its terms cancel; but for residuals, of which bounds of rounding
+/// errors are made, and for an arm whose numbers happen to balance it.
+#[test]
+fn no_program_computes_what_cancels() {
+    let mut looked_at = 0;
+    for (name, linkage) in linkages() {
+        let each = std::iter::once(&linkage).chain(&linkage.inverses);
+        for (own, (function, program)) in each.flat_map(|own| own_programs(own).into_iter().map(move |one| (own, one)))
+        {
+            let has_bounds = program.outputs.iter().any(|(path, _)| path.contains("error_bound"));
+            if has_bounds || (name.as_str(), function.as_str()) == ("balanced_arm", "balanced_at") {
+                continue;
+            }
+            let effects = [1, 2].map(|seed| Unrelated::of(program, &own.model.graph, seed).with_effect());
+            for step in &program.steps {
+                let Step::Let(value) = step else { continue };
+                let has_effect = effects.iter().any(|effect| effect[value.index()]);
+                assert!(has_effect, "{name}, {function}: {:?}", program.value(*value));
+                looked_at += 1;
+            }
+        }
+    }
+    assert!(looked_at > 16_000, "{looked_at}");
 }
 
 /// The names that functions bind and never read behind that, and how many they bind.
