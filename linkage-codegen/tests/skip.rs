@@ -341,14 +341,13 @@ fn no_program_computes_what_nothing_reads() {
 /// what is a square by a law of triangles is not, and nothing is stationary because a vector has unit size.
 struct Unrelated<'a> {
     program: &'a Program,
-    graph: &'a Graph,
     numbers: Vec<f64>,
 }
 
 impl<'a> Unrelated<'a> {
     fn of(program: &'a Program, graph: &'a Graph, seed: u64) -> Self {
         let mut random = Random(seed);
-        let mut unrelated = Self { program, graph, numbers: vec![0.0; program.values.len()] };
+        let mut unrelated = Self { program, numbers: vec![0.0; program.values.len()] };
         for (index, value) in program.values.iter().enumerate() {
             unrelated.numbers[index] = match &value.definition {
                 Definition::Computed(Op::Constant(number)) => graph.number(*number).to_f64(),
@@ -454,8 +453,8 @@ impl<'a> Unrelated<'a> {
     }
 }
 
-/// No value is computed of which nothing is left in any result, because its terms cancel; but for residuals, of which bounds of rounding
-/// errors are made, and for an arm whose numbers happen to balance it.
+/// No value is computed of which nothing is left in any result, because its terms cancel; but for functions with bounds of rounding
+/// errors, which are made of residuals, and for an arm whose numbers happen to balance it.
 #[test]
 fn no_program_computes_what_cancels() {
     let mut looked_at = 0;

@@ -51,7 +51,7 @@ impl Program {
         self.add(Op::Constant(graph.intern_number(number)), beside)
     }
 
-    /// A step that reads other values in place of some.
+    /// A step that reads other values in place of some; of results it checks the same.
     fn reading(&mut self, step: Step, replaced: &BTreeMap<ValueId, ValueId>) -> Step {
         let name = |value: ValueId| replaced.get(&value).copied().unwrap_or(value);
         let computed: &[ValueId] = match &step {
@@ -69,7 +69,6 @@ impl Program {
                 let failure = guard.failure.map(name);
                 Step::Check { guard: Guard { condition: guard.condition.map(name), failure }, report }
             }
-            Step::FiniteResults(values) => Step::FiniteResults(values.into_iter().map(name).collect()),
             step => step,
         }
     }

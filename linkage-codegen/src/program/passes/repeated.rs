@@ -6,11 +6,21 @@
 use std::collections::{BTreeMap, HashMap};
 
 use crate::graph::{Graph, Op};
-use crate::program::{Program, Step, ValueId};
+use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn compute_once(mut program: Program, _graph: &Graph) -> Program {
     let mut replaced: BTreeMap<ValueId, ValueId> = BTreeMap::new();
     let mut first: HashMap<Op<ValueId>, ValueId> = HashMap::new();
+    // Constants need no step.
+    for (index, value) in program.values.iter().enumerate() {
+        if let Definition::Computed(op @ Op::Constant(_)) = &value.definition {
+            let value = ValueId::new(index);
+            let there = *first.entry(op.clone()).or_insert(value);
+            if there != value {
+                replaced.insert(value, there);
+            }
+        }
+    }
     let mut steps = Vec::new();
     for step in core::mem::take(&mut program.steps) {
         let step = program.reading(step, &replaced);
@@ -28,8 +38,12 @@ pub(super) fn compute_once(mut program: Program, _graph: &Graph) -> Program {
         }
         steps.push(step);
     }
-    for (_, value) in &mut program.outputs {
-        *value = replaced.get(value).copied().unwrap_or(*value);
+    let name = |value: &mut ValueId| *value = replaced.get(value).copied().unwrap_or(*value);
+    program.outputs.iter_mut().for_each(|(_, value)| name(value));
+    for step in &mut steps {
+        if let Step::FiniteResults(values) = step {
+            values.iter_mut().for_each(name);
+        }
     }
     program.steps = steps;
     program
