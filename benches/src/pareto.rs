@@ -76,8 +76,8 @@ impl<'a> Methods<'a> {
         Self { poses, judged: Vec::new(), competitors: Vec::new() }
     }
 
-    /// A method that starts from what `prepare` makes of a pose, which is not timed. Where it has no answer it goes on, with NaN as its
-    /// torque: that costs time too.
+    /// A method that starts from what `prepare` makes of a pose, which is not timed. Where one has no answer it goes
+    /// on, with NaN as its torque: that costs time too. Generated functions have answers at all poses, and stop where they have none.
     fn add<S: Start, L: crate::items::Loads, R: Results>(
         &mut self,
         (family, name): (Family, &'static str),

@@ -274,7 +274,12 @@ fn mass_and_bias_together_cost_less_than_two_dynamic_solutions() {
         println!("dynamic solution {once}, M and h {both}, with rounding {all}, M {mass}");
         // `rounding`, of which the default has one number for each of M, too.
         assert!(all < 2 * once && both < all && mass < both, "{once} {both} {all} {mass}");
-        // The mass needs no acceleration: three fifths of a dynamic solution, which skips what has no power.
+        // The mass needs no acceleration, nor what one has of velocities: three fifths of a dynamic solution, which skips what has no power.
+        let of_mass = &linkage.functions.scenes[index_of(&linkage, "mass")].from_pose;
+        let names = of_mass.values.iter().filter_map(|value| value.label.as_ref()).map(|label| label.name.as_str());
+        let moving = ["omega_", "omega2_", "alpha_", "da_"];
+        assert!(names.clone().all(|name| !moving.iter().any(|start| name.starts_with(start))));
+        assert!(names.count() > 3);
         assert!(5 * mass < 3 * once, "{once} {mass}");
     }
     // And inertia of one link no velocity of another.

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use linkage_codegen::{analyse, expand, formatted};
 use proc_macro2::{Delimiter, Spacing, TokenStream, TokenTree};
-use support::examples::{EXAMPLES, declaration};
+use support::examples::{declaration, every_example};
 use support::linkages::Random;
 
 /// Far above what any of these takes, far below what a user would bear.
@@ -54,7 +54,7 @@ const FURTHER: [&str; 4] = [
 /// All declarations, as words.
 fn declarations() -> Vec<Vec<String>> {
     let further = FURTHER.iter().map(|text| text.parse().expect("tokens"));
-    EXAMPLES.iter().map(|example| declaration(example)).chain(further).map(words).collect()
+    every_example().iter().map(|example| declaration(example)).chain(further).map(words).collect()
 }
 
 /// A declaration as words: names, numbers, signs and brackets, each by itself.

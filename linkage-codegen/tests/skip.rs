@@ -292,13 +292,8 @@ fn power_is_not_found_by_way_of_what_turns() {
     assert_eq!(operations("(1mm, 0)"), operations("(0, 49mm)"));
 }
 
-/// All programs of a linkage, with names.
-fn programs(linkage: &linkage_codegen::Linkage) -> Vec<(String, &Program)> {
-    own_programs(linkage).into_iter().chain(linkage.inverses.iter().flat_map(programs)).collect()
-}
-
-/// The same without those of its inverses, which are linkages of their own.
-fn own_programs(linkage: &linkage_codegen::Linkage) -> Vec<(String, &Program)> {
+/// All programs of a linkage, with names and the graph of each: its inverses are linkages of their own.
+fn programs(linkage: &linkage_codegen::Linkage) -> Vec<(String, &Program, &Graph)> {
     let functions = &linkage.functions;
     let mut all = vec![("Linkage::new".to_owned(), &functions.prepare), ("Pose::at".to_owned(), &functions.pose)];
     all.extend(functions.near.iter().map(|near| ("Pose::moved_to".to_owned(), near)));
@@ -314,7 +309,8 @@ fn own_programs(linkage: &linkage_codegen::Linkage) -> Vec<(String, &Program)> {
         all.push((format!("Pose::{}", scene.name), &functions.from_pose));
         all.push((format!("{}_at", scene.name), &functions.direct));
     }
-    all
+    let own = all.into_iter().map(|(name, program)| (name, program, &linkage.model.graph));
+    own.chain(linkage.inverses.iter().flat_map(programs)).collect()
 }
 
 /// Every value of every program is read by a later step, or is a result: of every example and of what no example has.
@@ -322,7 +318,7 @@ fn own_programs(linkage: &linkage_codegen::Linkage) -> Vec<(String, &Program)> {
 fn no_program_computes_what_nothing_reads() {
     let (mut computed, mut looked_at) = (0, 0);
     for (name, linkage) in linkages() {
-        for (function, program) in programs(&linkage) {
+        for (function, program, _) in programs(&linkage) {
             let uses = program.uses();
             for step in &program.steps {
                 let Step::Let(value) = step else { continue };
@@ -459,14 +455,12 @@ impl<'a> Unrelated<'a> {
 fn no_program_computes_what_cancels() {
     let mut looked_at = 0;
     for (name, linkage) in linkages() {
-        let each = std::iter::once(&linkage).chain(&linkage.inverses);
-        for (own, (function, program)) in each.flat_map(|own| own_programs(own).into_iter().map(move |one| (own, one)))
-        {
+        for (function, program, graph) in programs(&linkage) {
             let has_bounds = program.outputs.iter().any(|(path, _)| path.contains("error_bound"));
             if has_bounds || (name.as_str(), function.as_str()) == ("balanced_arm", "balanced_at") {
                 continue;
             }
-            let effects = [1, 2].map(|seed| Unrelated::of(program, &own.model.graph, seed).with_effect());
+            let effects = [1, 2].map(|seed| Unrelated::of(program, graph, seed).with_effect());
             for step in &program.steps {
                 let Step::Let(value) = step else { continue };
                 let has_effect = effects.iter().any(|effect| effect[value.index()]);

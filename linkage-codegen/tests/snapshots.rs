@@ -7,7 +7,7 @@ use std::fmt::Write;
 use linkage_codegen::topology::{Group, Input};
 use linkage_codegen::{Linkage, emit};
 use support::declarations::{OTHERS, given, poses};
-use support::examples::{EXAMPLES, declaration};
+use support::examples::{declaration, every_example};
 use support::numbers::Double;
 use support::{Arguments, direct, pose};
 
@@ -81,11 +81,11 @@ fn numbers(linkage: &Linkage, poses: &[Vec<f64>]) -> String {
 
 #[test]
 fn every_stage_of_every_example() {
-    for example in EXAMPLES {
-        let linkage = linkage(example);
+    for example in every_example() {
+        let linkage = linkage(&example);
         let operations = emit::operations(&linkage);
         let code =
-            linkage_codegen::formatted(linkage_codegen::expand(without_source(declaration(example)))).expect("Rust");
+            linkage_codegen::formatted(linkage_codegen::expand(without_source(declaration(&example)))).expect("Rust");
         insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
             insta::assert_snapshot!(format!("{example}.1_groups"), topology(&linkage));
             insta::assert_snapshot!(format!("{example}.2_equations"), emit::equations(&linkage));

@@ -33,6 +33,12 @@ struct Acting<'m> {
     forces: i64,
 }
 
+impl<'m> Acting<'m> {
+    fn one(at: Vector<'m>, force: Framed<'m>, is_load: bool) -> Self {
+        Self { at, force, is_load, forces: 1 }
+    }
+}
+
 /// The reaction of a joint on its second link, at the joint's place on it; of a gear pair where the wheels touch.
 #[derive(Clone, Copy, Debug)]
 pub struct Reaction<'m> {
@@ -70,7 +76,7 @@ impl<'m, 'p> Balance<'m, 'p> {
                 Action::Force { link, at, force, frame } => {
                     let at = placement.carried(link, at.vector(graph));
                     let force = balance.force_in_frame(force.vector(graph), frame);
-                    balance.act(link, Acting { at, force, is_load: true, forces: 1 });
+                    balance.act(link, Acting::one(at, force, true));
                 }
                 Action::Couple { link, moment } => balance.couple(link, graph.expr(moment)),
             }
@@ -104,7 +110,7 @@ impl<'m, 'p> Balance<'m, 'p> {
 
     /// Puts the force of a joint on a link, at a place along and across its direction.
     pub fn push(&mut self, link: LinkId, at: Vector<'m>, force: Framed<'m>) {
-        self.act(link, Acting { at, force, is_load: false, forces: 1 });
+        self.act(link, Acting::one(at, force, false));
     }
 
     /// Forces at one place in the same axes are added up. Those in other axes stay apart: in its own axes what has no moment is seen to have
@@ -133,7 +139,7 @@ impl<'m, 'p> Balance<'m, 'p> {
 
     /// Puts a force at a place and a couple in the stead of all that acts on a link.
     pub fn reduce(&mut self, link: LinkId, at: Vector<'m>, force: Framed<'m>, couple: Expr<'m>) {
-        self.wrenches[link.index()] = Wrench { forces: vec![Acting { at, force, is_load: false, forces: 1 }], couple };
+        self.wrenches[link.index()] = Wrench { forces: vec![Acting::one(at, force, false)], couple };
     }
 
     /// Lets the loads on a link act at one of its pins on the other link there, and leaves their moment about it. At a pin on the ground they
@@ -144,7 +150,7 @@ impl<'m, 'p> Balance<'m, 'p> {
         let (force, couple) = (self.total(link), self.moment(link, about, self.graph().one()));
         self.wrenches[link.index()] = Wrench { forces: Vec::new(), couple };
         let at = self.placement.slide_point(pin, far.link);
-        self.act(far.link, Acting { at, force, is_load: true, forces: 1 });
+        self.act(far.link, Acting::one(at, force, true));
     }
 
     /// Whether a force on a link is known to act nearer to one of its places than another place is.

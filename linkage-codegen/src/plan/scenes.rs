@@ -14,7 +14,7 @@ use crate::equations::{Exerted, Source, System};
 use crate::graph::{Expr, Failure, Order, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, LoadId, UnknownId};
 use crate::model::units::Kind;
-use crate::model::{Along, Drive, End, JointKind, LoadKind, Method, Model, Scene, Spot, UnknownKind, Wanted};
+use crate::model::{Along, Drive, End, JointKind, LoadKind, Mass, Method, Model, Scene, Spot, UnknownKind, Wanted};
 use crate::plan::output::Field;
 use crate::topology::Group;
 
@@ -387,35 +387,35 @@ impl<'m> Forces<'_, 'm> {
         (format!("Inertia of `{name}` by D'Alembert."), Output::Record(fields))
     }
 
+    /// A link's mass, the acceleration of its centre in the axes in which it is found, and the angular one.
+    fn mass_in_motion(&self, link: LinkId) -> Option<(Mass, Framed<'m>, Expr<'m>)> {
+        let (mass, motion) = (self.model.link(link).mass?, self.posed.accelerations?);
+        let at = self.posed.placement.carried(link, mass.centroid.vector(&self.model.graph));
+        Some((mass, motion.of_place(link, at), motion.rate(link)))
+    }
+
     /// Acceleration of the centre of mass, force and couple, ground axes.
     fn inertia_of(&self, link: LinkId) -> (Vector<'m>, Vector<'m>, Expr<'m>) {
         let (model, graph) = (self.model, &self.model.graph);
-        let zero = graph.zero();
-        let (Some(mass), Some(motion)) = (model.link(link).mass, self.posed.accelerations) else {
-            return (graph.zero_vector(), graph.zero_vector(), zero);
+        let Some((mass, acceleration, rate)) = self.mass_in_motion(link) else {
+            return (graph.zero_vector(), graph.zero_vector(), graph.zero());
         };
         let name = &model.link(link).name;
-        let at = self.posed.placement.carried(link, mass.centroid.vector(graph));
-        let acceleration = motion.of_place(link, at).ground();
         let meaning = format!("acceleration of the centre of mass of {name}");
-        let acceleration = acceleration.named(&format!("a_G_{name}"), &meaning);
-        let (force, couple) = by_dalembert(model, mass, acceleration, motion.rate(link));
+        let acceleration = acceleration.ground().named(&format!("a_G_{name}"), &meaning);
+        let (force, couple) = by_dalembert(model, mass, acceleration, rate);
         (acceleration, force, couple)
     }
 
     /// The resultant of all links' inertia about a point: `Σ −m a`, `Σ r × (−m a) − I α`.
     fn shaking(&self, at: End) -> (String, Output) {
-        let graph = &self.model.graph;
         let mut resultant = Resultant::about(self.posed.placement, at);
         for link in self.model.moving_links() {
-            let Some(mass) = self.model.link(link).mass else { continue };
-            let Some(motion) = self.posed.accelerations else { continue };
+            let Some((mass, acceleration, rate)) = self.mass_in_motion(link) else { continue };
             let (_, named, couple) = self.inertia_of(link);
-            let centroid = mass.centroid.vector(graph);
-            let acceleration = motion.of_place(link, self.posed.placement.carried(link, centroid));
-            let force = by_dalembert(self.model, mass, acceleration.components, motion.rate(link)).0;
-            let force = Framed { components: force, axes: acceleration.axes };
-            resultant.inertia((link, centroid), force, named, couple);
+            let components = by_dalembert(self.model, mass, acceleration.components, rate).0;
+            let force = Framed { components, axes: acceleration.axes };
+            resultant.inertia((link, mass.centroid.vector(&self.model.graph)), force, named, couple);
         }
         let name = self.model.result_name(Wanted::Shaking(at)).unwrap_or_default();
         let doc = format!("What the inertia of all links exerts: {}.", wrench_doc(self.model, at));

@@ -4,10 +4,6 @@ use std::path::Path;
 
 use proc_macro2::{TokenStream, TokenTree};
 
-/// The examples of which every stage is looked at, by the names of their files.
-pub const EXAMPLES: [&str; 8] =
-    ["four_bar", "slider_crank", "six_bar", "three_loads", "stephenson", "engine", "press", "control_loop"];
-
 /// All examples by the names of their files, as the folder has them.
 pub fn every_example() -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");

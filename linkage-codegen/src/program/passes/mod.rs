@@ -51,7 +51,7 @@ impl Program {
         self.add(Op::Constant(graph.intern_number(number)), beside)
     }
 
-    /// A step that reads other values in place of some; of results it checks the same.
+    /// A step that reads other values in place of some. Which results it checks stays as it is.
     fn reading(&mut self, step: Step, replaced: &BTreeMap<ValueId, ValueId>) -> Step {
         let name = |value: ValueId| replaced.get(&value).copied().unwrap_or(value);
         let computed: &[ValueId] = match &step {

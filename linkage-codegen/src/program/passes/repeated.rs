@@ -1,7 +1,8 @@
 //! What other passes have brought to the same operation is computed once.
 //!
-//! The graph holds no operation twice, but a sum whose common factor was taken out may leave a sum that is there already: the work of a load
-//! along a line has that of the velocity along it.
+//! The graph holds no operation twice, but passes make new ones: products by constants that they bring together, so that a rate and its
+//! change have one `1/(l sin μ)`; and what is left of a sum whose common factor was taken out, so that the work of a load along a line has
+//! the velocity along it.
 
 use std::collections::{BTreeMap, HashMap};
 
