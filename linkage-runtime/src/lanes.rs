@@ -126,7 +126,7 @@ macro_rules! lanes {
         pub fn lay<T: Copy, const PARTS: usize>(
             series: &crate::Series<'_, T>,
             first: usize,
-            columns: [&mut Column; PARTS],
+            mut columns: [&mut Column; PARTS],
             parts: impl Fn(T) -> [$scalar; PARTS],
         ) {
             match series {
@@ -137,18 +137,28 @@ macro_rules! lanes {
                 }
                 crate::Series::Each(values) => {
                     let values = values.get(first..).unwrap_or_default();
-                    let mut lay = |lane: usize, value: T| {
-                        let parts = parts(value);
-                        for which in 0..PARTS {
-                            columns[which][lane] = parts[which];
-                        }
-                    };
                     // A whole block has a length that the compiler knows.
-                    if let Some(values) = values.first_chunk::<BLOCK>() {
-                        values.iter().enumerate().for_each(|(lane, value)| lay(lane, *value));
-                    } else {
-                        values.iter().enumerate().take(BLOCK).for_each(|(lane, value)| lay(lane, *value));
+                    match (values.first_chunk::<BLOCK>(), columns.as_mut_slice()) {
+                        // All is read before anything is written: the compiler need not know that the values lie elsewhere.
+                        (Some(values), [column]) => **column = values.map(|value| parts(value)[0]),
+                        (Some(values), _) => lay_each(values, &mut columns, parts),
+                        (None, _) => lay_each(values, &mut columns, parts),
                     }
+                }
+            }
+        }
+
+        /// Lays out the parts of values, as far as a block has room for them.
+        #[inline(always)]
+        fn lay_each<T: Copy, const PARTS: usize>(
+            values: &[T],
+            columns: &mut [&mut Column; PARTS],
+            parts: impl Fn(T) -> [$scalar; PARTS],
+        ) {
+            for (lane, value) in values.iter().enumerate().take(BLOCK) {
+                let parts = parts(*value);
+                for which in 0..PARTS {
+                    columns[which][lane] = parts[which];
                 }
             }
         }
