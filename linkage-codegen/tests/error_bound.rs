@@ -7,7 +7,7 @@ use linkage_codegen::Linkage;
 use linkage_codegen::program::Fault;
 use support::bounds::{LOOSEST, median, ratios, ratios_of, with_bounds};
 use support::families::{boom, four_bar, length, oscillating_block, scotch_yoke, slider_crank, tangent_mechanism};
-use support::linkages::{Class, Kind, Random, sample, sample_with_forces, sample_with_search};
+use support::linkages::{Class, Kind, Layout, Random, sample, sample_with_forces, sample_with_search};
 use support::numbers::{Double, Single};
 use support::{Arguments, Number, from_pose, index_of, pose, scene};
 
@@ -131,7 +131,7 @@ fn iterated(seeds: core::ops::Range<u64>, poses: usize) {
     {
         let (mut random, mut all) = (Random(seeds.start), Vec::new());
         for seed in seeds.clone() {
-            let sample = sample_with_forces(seed, class);
+            let sample = sample_with_forces(seed, class, Layout::Anywhere);
             let Some(linkage) = with_bounds(&sample.text) else { continue };
             for _ in 0..poses {
                 let mut arguments = sample.arguments.clone();

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::graph::{Failure, Graph, Kernel, NodeId, Op};
-use linkage_codegen::program::Fault;
+use linkage_codegen::program::{Definition, Fault};
 use support::general::{Coordinates, residuals_at};
 use support::linkages::{Kind, Random, sample_with_search};
 use support::numbers::{Double, Extended, Single};
@@ -342,4 +342,29 @@ fn a_triad_by_parameters_closes_to_rounding() {
 fn the_sense_of_a_way_is_that_of_its_start() {
     let [reached, ended, timid] = check_far(1661..1662);
     assert_eq!([reached, ended, timid], [8, 0, 0]);
+}
+
+/// A triad all of whose legs stand on one link is placed when compiled. One leg lies along an axis: what rounding leaves of the direction's
+/// other component is no number that single precision has to hold.
+#[test]
+fn what_rounding_leaves_of_a_direction_that_is_found_when_compiled_is_nothing() {
+    for scalar in ["f32", "f64"] {
+        let linkage = compile(&format!(
+            "pub mod sample; scalar {scalar};
+             ground {{ O: (0, 0) }} link crank {{ O -> A: 1m, P: (-2.5m, -0.5m), Q: (-2.5m, -3.5m), R: (-2m, 0.5m) }}
+             link plate {{ S -> T: 3.1622776985168457m, U: (2.213594436645508m, 1.2649110555648804m) }}
+             link b {{ P -> S: 3m, K: (1.5m, 0) }} link c {{ Q -> T: 3.1622776985168457m }} link d {{ R -> U: 1.8027756214141846m }}
+             revolute O: ground -> crank; revolute P: b -> crank; revolute S: b -> plate;
+             revolute Q: crank -> c; revolute T: c -> plate; revolute R: d -> crank; revolute U: d -> plate;
+             drive q: O; start q: 90deg; start b: (-1.01m, -0.52m), angle 0.025rad; start c: (1.98m, -0.48m), angle 2.82rad;
+             start d: (-2.03m, 0.02m), angle -0.55rad; start plate: (2.04m, -0.5m), angle 2.84rad;
+             load F: force(b.K); scene all: equilibrium;"
+        ));
+        let tiny = |number: f64| number != 0.0 && number.abs() < 1e-30;
+        let constants = linkage.functions.pose.values.iter().filter_map(|value| match value.definition {
+            Definition::Computed(Op::Constant(number)) => Some(linkage.model.graph.number(number).to_f64()),
+            _ => None,
+        });
+        assert_eq!(constants.filter(|number| tiny(*number)).count(), 0, "{scalar}");
+    }
 }

@@ -340,7 +340,7 @@ impl Number {
     }
 
     /// The place of the leading bit, give or take one; of π's multiples that of the factor.
-    fn binary_exponent(&self) -> isize {
+    pub(super) fn binary_exponent(&self) -> isize {
         match self {
             Self::Rational(q) | Self::Pi(q) => {
                 bit_length(q.numerator()).cast_signed() - bit_length(q.denominator().as_ibig()).cast_signed()

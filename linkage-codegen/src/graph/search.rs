@@ -247,7 +247,9 @@ impl Graph {
         let kernel = Kernel::Search { search: id, parts };
         let values: Option<Vec<Number>> = args.iter().map(|arg| arg.value()).collect();
         match values {
-            Some(values) => self.searched(id, &values).iter().map(|value| self.constant(value)).collect(),
+            Some(values) => {
+                self.searched(id, &values).iter().map(|value| self.constant(&without_rounding(value))).collect()
+            }
             None => (0..parts).map(|part| self.kernel(kernel, args, part)).collect(),
         }
     }
@@ -376,6 +378,12 @@ impl Graph {
         }
         newton.found()
     }
+}
+
+/// Zero for what is only rounding in a number that a search has found in 256 bits: a direction along an axis has a component of this size,
+/// which no scalar need hold.
+fn without_rounding(found: &Number) -> Number {
+    if found.is_zero() || found.binary_exponent() > -200 { found.clone() } else { Number::zero() }
 }
 
 /// The direction of an unknown in the symbols of its search.

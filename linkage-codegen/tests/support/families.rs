@@ -1,6 +1,6 @@
 //! Families of poses and the bars that they are held to.
 
-use super::linkages::{Class, Random, Sample, sample_with_forces};
+use super::linkages::{Class, Layout, Random, Sample, sample_with_forces};
 use super::measures::{Measures, measure};
 use super::numbers::{Double, Single};
 use super::{Arguments, Number, compile_if_it_closes};
@@ -184,7 +184,7 @@ pub fn planet([sun, planet, phase]: [f64; 3], random: &mut Random) -> String {
 
 /// A linkage whose last group has no closed form, near where it starts.
 pub fn searched(seed: u64, class: Class, poses: usize) -> Family {
-    let Sample { text, arguments, longest, .. } = sample_with_forces(seed, class);
+    let Sample { text, arguments, longest, .. } = sample_with_forces(seed, class, Layout::Anywhere);
     let mut random = Random(seed);
     let begin = arguments.drives[0];
     let drives = (0..poses).map(|_| begin + random.range(-0.3, 0.3)).collect();

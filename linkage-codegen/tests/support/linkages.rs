@@ -130,6 +130,40 @@ struct Builder {
     values: Option<Vec<(&'static str, f64)>>,
     /// Whether the frames of links have their origins at joints.
     framed: bool,
+    layout: Layout,
+    /// Places that others may lie next to.
+    drawn: Vec<Place>,
+}
+
+/// Where joints are.
+#[derive(Clone, Copy, Debug)]
+pub enum Layout {
+    Anywhere,
+    /// At multiples of half a metre, slides along the axes: many links lie along these, and many pins on a line.
+    OnLattice,
+    /// Some next to others, so many metres from them: lengths differ by that.
+    Apart(f64),
+    /// Anywhere behind a four-bar that folds where its crank points along the x axis: ground link, crank, coupler and rocker, which single
+    /// precision holds.
+    BehindFold([f64; 4]),
+}
+
+impl Layout {
+    /// What distances are at least, as a part of what they are anywhere.
+    fn least(self) -> f64 {
+        if let Self::Apart(distance) = self { distance } else { 1.0 }
+    }
+
+    /// The nearest place that there is.
+    fn nearest(self, [x, y]: Place) -> Place {
+        if matches!(self, Self::OnLattice) { [x, y].map(|x| (2.0 * x).round() / 2.0) } else { [x, y] }
+    }
+
+    /// The nearest direction.
+    fn turned(self, angle: f64) -> f64 {
+        use core::f64::consts::FRAC_PI_2;
+        if matches!(self, Self::OnLattice) { (angle / FRAC_PI_2).round() * FRAC_PI_2 } else { angle }
+    }
 }
 
 impl Builder {
@@ -151,6 +185,8 @@ impl Builder {
             sides: Vec::new(),
             values: kind.params.then(Vec::new),
             framed: false,
+            layout: Layout::Anywhere,
+            drawn: Vec::new(),
         }
     }
 
@@ -247,7 +283,7 @@ pub enum Class {
 
 /// A crank and groups of this class, with forces on two of its links that are given at run time. All lengths are numbers that single
 /// precision holds too. Frames have their origins at joints, about which moments are then taken.
-pub fn sample_with_forces(seed: u64, class: Class) -> Sample {
+pub fn sample_with_forces(seed: u64, class: Class, layout: Layout) -> Sample {
     let kind = Kind {
         dyads: 0,
         sliders: false,
@@ -259,9 +295,14 @@ pub fn sample_with_forces(seed: u64, class: Class) -> Sample {
     };
     let mut random = Random(seed);
     let base = [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
+    let base = if matches!(layout, Layout::BehindFold(_)) { Layout::OnLattice } else { layout }.nearest(base);
     let mut builder = Builder::new(random, base, kind);
     builder.framed = true;
-    let drive = builder.driven_link(false);
+    builder.layout = layout;
+    let drive = match layout {
+        Layout::BehindFold(lengths) => builder.folding_four_bar(lengths),
+        _ => builder.driven_link(false),
+    };
     builder.drives.push(drive);
     match class {
         Class::Three => builder.triad(false),
@@ -312,6 +353,16 @@ pub fn in_single_precision(text: &str) -> String {
     rounded + rest
 }
 
+/// Where circles about two places meet, left of the way from the first to the second.
+pub fn intersection([first, second]: [Place; 2], [r, s]: [f64; 2]) -> Option<Place> {
+    let way = minus(second, first);
+    let distance = size(way);
+    let along = (distance * distance + r * r - s * s) / (2.0 * distance * distance);
+    let across = (r * r / (distance * distance) - along * along).sqrt();
+    let [x, y] = way;
+    across.is_finite().then(|| plus(first, [along * x - across * y, along * y + across * x]))
+}
+
 /// How far a force along a line through `at` is from one that the first two lines hold: the determinant of three unit forces.
 fn independence(lines: [(Place, Place); 3]) -> f64 {
     let row = |(at, along): (Place, Place)| {
@@ -348,7 +399,8 @@ impl Builder {
 
     /// Where a link starts: near where it is.
     fn start(&mut self, link: usize) {
-        let mut off = || self.random.range(-0.04, 0.04);
+        let most = 0.04 * self.layout.least();
+        let mut off = || self.random.range(-most, most);
         let (dx, dy, turn) = (off(), off(), off());
         let Body { name, origin: [x, y], angle, .. } = &self.bodies[link];
         let line = format!("start {name}: ({:?}m, {:?}m), angle {:?}rad;\n", x + dx, y + dy, angle + turn);
@@ -369,8 +421,12 @@ impl Builder {
                 // A slider holds its pin across the line on which it goes.
                 (tips[i], if slides && i == 2 { [-leg[1], leg[0]] } else { leg })
             });
-            let apart = |a: Place, b: Place| size(minus(a, b)) > 0.4;
-            if (0..3).all(|i| apart(feet[i], tips[i]) && apart(tips[i], tips[(i + 1) % 3])) && independence(lines) > 0.4
+            let least = self.layout.least();
+            let apart = |a: Place, b: Place| size(minus(a, b)) > 0.4 * least;
+            let arms = [1, 2].map(|i| size(minus(tips[i], tips[0])));
+            let arm = if least < 1.0 { arms[0].max(arms[1]) } else { 1.0 };
+            if (0..3).all(|i| apart(feet[i], tips[i]) && apart(tips[i], tips[(i + 1) % 3]))
+                && independence(lines) > 0.4 * arm
             {
                 break (feet, tips, slides);
             }
@@ -413,7 +469,8 @@ impl Builder {
         // Feet a and b; c, d on the first plate, e, f on the second; legs c-e and d-f.
         let [a, b, c, d, e, f] = loop {
             let [a, b, c, d, e, f] = [(); 6].map(|()| self.place());
-            let apart = |a: Place, b: Place| size(minus(a, b)) > 0.4;
+            let least = self.layout.least();
+            let apart = |a: Place, b: Place| size(minus(a, b)) > 0.4 * least;
             let unit = |v: Place| v.map(|x| x / size(v));
             let far = [(a, c), (a, d), (c, d), (b, e), (b, f), (e, f), (c, e), (d, f), (a, b)];
             if !far.into_iter().all(|(p, q)| apart(p, q)) {
@@ -422,9 +479,13 @@ impl Builder {
             // The rates at which the plates' turns stretch the legs.
             let (u, v) = (unit(minus(e, c)), unit(minus(f, d)));
             let rates = [cross(minus(c, a), u), cross(minus(e, b), u), cross(minus(d, a), v), cross(minus(f, b), v)];
-            if (rates[0] * rates[3] - rates[1] * rates[2]).abs() > 0.6
-                && iterated::ring_is_firm([a, b, c, d, e, f], self.base)
-            {
+            let rate = (rates[0] * rates[3] - rates[1] * rates[2]).abs();
+            let firm = if least < 1.0 {
+                rate > 0.4 * size(minus(c, a)).max(size(minus(d, a))) * size(minus(e, b)).max(size(minus(f, b)))
+            } else {
+                rate > 0.6 && iterated::ring_is_firm([a, b, c, d, e, f], self.base)
+            };
+            if firm {
                 break [a, b, c, d, e, f];
             }
         };
@@ -452,15 +513,35 @@ impl Builder {
     }
 
     fn place(&mut self) -> Place {
-        plus(self.base, [self.random.range(-2.0, 2.0), self.random.range(-2.0, 2.0)])
+        let at = plus(self.base, [self.random.range(-2.0, 2.0), self.random.range(-2.0, 2.0)]);
+        let Layout::Apart(distance) = self.layout else { return self.layout.nearest(at) };
+        let at = if !self.drawn.is_empty() && self.random.chance(0.4) {
+            let other = *self.random.pick(&self.drawn);
+            plus(other, minus(at, self.base).map(|x| 0.5 * distance * x))
+        } else {
+            at
+        };
+        self.drawn.push(at);
+        at
+    }
+
+    fn angle(&mut self) -> f64 {
+        let angle = self.random.range(-3.0, 3.0);
+        self.layout.turned(angle)
     }
 
     fn link(&mut self, first: (&str, Place), second: (&str, Place)) -> usize {
         let name = self.fresh('l');
-        let framed = self.framed || self.random.chance(0.5);
         let arm = minus(second.1, first.1);
-        let (origin, angle) =
-            if framed { (first.1, arm[1].atan2(arm[0])) } else { (self.place(), self.random.range(-3.0, 3.0)) };
+        // On a lattice both points may be one place.
+        let framed = if self.framed { size(arm) > 0.0 } else { self.random.chance(0.5) };
+        let (origin, angle) = if framed {
+            (first.1, arm[1].atan2(arm[0]))
+        } else if self.framed {
+            (first.1, 0.0)
+        } else {
+            (self.place(), self.angle())
+        };
         let points = vec![(first.0.to_owned(), first.1), (second.0.to_owned(), second.1)];
         self.bodies.push(Body { name, origin, angle, points, framed, mass: None });
         self.bodies.len() - 1
@@ -511,13 +592,42 @@ impl Builder {
             let travel = if to == link { travel } else { -travel };
             return (joint, travel);
         }
-        let (length, angle) = (self.random.range(0.5, 1.5), self.random.range(-3.0, 3.0));
-        let end = plus(at, direction(angle).map(|x| x * length));
+        let (length, angle) = (self.random.range(0.5, 1.5), self.angle());
+        let small = if self.random_for_layout(0.3) { self.layout.least() } else { 1.0 };
+        let end = self.layout.nearest(plus(at, direction(angle).map(|x| x * length * small)));
         let tip = format!("{joint}x");
         let link = self.link((&joint, at), (&tip, end));
         let (_, to) = self.revolute(&joint, 0, link);
         let theta = if to == link { self.bodies[link].angle } else { -self.bodies[link].angle };
         (joint, theta)
+    }
+
+    /// A four-bar near its fold, and its drive.
+    fn folding_four_bar(&mut self, [ground, crank, coupler, rocker]: [f64; 4]) -> (String, f64) {
+        let [joint, p, q, b] = [self.fresh('J'), self.fresh('J'), self.fresh('J'), self.fresh('J')];
+        let (at, at_q) = (self.base, plus(self.base, [ground, 0.0]));
+        let (tip, at_b) = loop {
+            let fold = if self.random.chance(0.5) { 0.0 } else { core::f64::consts::PI };
+            let turned = self.random.range(0.1, 0.6);
+            let angle = if self.random.chance(0.5) { fold + turned } else { fold - turned };
+            let tip = plus(at, direction(angle).map(|x| x * crank));
+            if let Some(at_b) = intersection([tip, at_q], [coupler, rocker]) {
+                break (tip, at_b);
+            }
+        };
+        let points = [(joint.clone(), at), (q.clone(), at_q)];
+        self.bodies[0].points.extend(points);
+        self.places.push((joint.clone(), at));
+        let link = self.link((&joint, at), (&p, tip));
+        let (_, to) = self.revolute(&joint, 0, link);
+        self.close_pinned(link, 0, [&p, &q, &b], tip, at_q, at_b);
+        let angle = self.bodies[link].angle;
+        (joint, if to == link { angle } else { -angle })
+    }
+
+    /// A chance that is taken only where lengths differ.
+    fn random_for_layout(&mut self, probability: f64) -> bool {
+        matches!(self.layout, Layout::Apart(_)) && self.random.chance(probability)
     }
 
     /// A point for a dyad's outer joint on a placed link, under the joint's name.
@@ -550,17 +660,18 @@ impl Builder {
         let (x, y) = self.two_links();
         let [p, q, b] = [self.fresh('J'), self.fresh('J'), self.fresh('J')];
         let (at_p, at_q) = (self.outer(&p, x), self.outer(&q, y));
+        let least = self.layout.least();
         let at_b = loop {
             let at = self.place();
             let (u, v) = (minus(at, at_p), minus(at, at_q));
-            if size(u) > 0.3
-                && size(v) > 0.3
+            if size(u) > 0.3 * least
+                && size(v) > 0.3 * least
                 && (cross(u, v) / (size(u) * size(v))).abs() > self.sines
-                && size(minus(at_p, at_q)) > 0.2
+                && size(minus(at_p, at_q)) > 0.2 * least
             {
                 break at;
             }
-            if size(minus(at_p, at_q)) <= 0.2 {
+            if size(minus(at_p, at_q)) <= 0.2 * least {
                 // Too close together: take the second point elsewhere.
                 let moved = self.place();
                 let own = self.bodies[y].points.len() - 1;
@@ -572,10 +683,11 @@ impl Builder {
     }
 
     fn finish_pinned(&mut self, x: usize, y: usize, names: [&str; 3], at_p: Place, at_q: Place) {
+        let least = self.layout.least();
         let at_b = loop {
             let at = self.place();
             let (u, v) = (minus(at, at_p), minus(at, at_q));
-            if size(u) > 0.3 && size(v) > 0.3 && (cross(u, v) / (size(u) * size(v))).abs() > 0.05 {
+            if size(u) > 0.3 * least && size(v) > 0.3 * least && (cross(u, v) / (size(u) * size(v))).abs() > 0.05 {
                 break at;
             }
         };
@@ -598,12 +710,12 @@ impl Builder {
         let (x, y) = self.two_links();
         let [p, b, s] = [self.fresh('J'), self.fresh('J'), self.fresh('J')];
         let at_p = self.outer(&p, x);
-        let angle = self.random.range(-3.0, 3.0);
+        let (angle, least) = (self.angle(), self.layout.least());
         let e = direction(angle);
         let at_b = loop {
             let at = self.place();
             let u = minus(at, at_p);
-            if size(u) > 0.3 && (dot(u, e) / size(u)).abs() > self.sines {
+            if size(u) > 0.3 * least && (dot(u, e) / size(u)).abs() > self.sines {
                 break at;
             }
         };
@@ -864,11 +976,11 @@ impl Builder {
     fn sliding_pair(&mut self) {
         let (x, y) = self.two_links();
         let [p, q, s] = [self.fresh('J'), self.fresh('J'), self.fresh('J')];
-        let (at_p, angle) = (self.outer(&p, x), self.random.range(-3.0, 3.0));
+        let (at_p, angle, least) = (self.outer(&p, x), self.angle(), self.layout.least());
         let e = direction(angle);
         let at_q = loop {
             let at = self.place();
-            if dot(minus(at, at_p), e).abs() > 0.3 + self.sines * size(minus(at, at_p)) {
+            if dot(minus(at, at_p), e).abs() > 0.3 * least + self.sines * size(minus(at, at_p)) {
                 break at;
             }
         };
@@ -889,7 +1001,10 @@ impl Builder {
     fn two_directions(&mut self) -> [f64; 2] {
         let first = self.random.range(-3.0, 3.0);
         let turn = self.random.range(0.3, 2.8);
-        [first, if self.random.chance(0.5) { first + turn } else { first - turn }]
+        let second = if self.random.chance(0.5) { first + turn } else { first - turn };
+        let [one, two] = [first, second].map(|angle| self.layout.turned(angle));
+        // Quarter turns may be nearest that are parallel.
+        [one, if cross(direction(one), direction(two)).abs() < 0.2 { one + core::f64::consts::FRAC_PI_2 } else { two }]
     }
 
     /// Two sliders with a pin between them.

@@ -278,12 +278,19 @@ impl<'p, 'm> Parts<'p, 'm> {
             return None;
         }
         let on = |joint: JointId| self.model.joint(joint).end_on(carrier).is_some();
-        self.members.iter().find_map(|member| match (on(member.near), on(member.far)) {
+        let candidates = self.members.iter().filter_map(|member| match (on(member.near), on(member.far)) {
             (true, _) if self.is_slide(member.far) => Some((member.near, self.placement.slide_direction(member.far))),
             (true, _) => Some((member.near, self.rod(member).1)),
             (_, true) if !self.is_slide(member.far) => Some((member.far, self.rod(member).1)),
             _ => None,
-        })
+        });
+        // Moments are taken about this pin: where the link's frame begins, if a member is there, since that is the point that the
+        // declaration counts from.
+        let begins_elsewhere = |(pin, _): &(JointId, Vector<'m>)| {
+            let end = self.model.joint(*pin).end_on(carrier);
+            !end.is_some_and(|end| self.model.local(end).is_zero())
+        };
+        candidates.min_by_key(begins_elsewhere)
     }
 
     /// The axes in which the forces on a carrier or a pin are resolved.

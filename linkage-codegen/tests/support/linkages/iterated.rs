@@ -154,10 +154,6 @@ impl Builder {
         link
     }
 
-    fn angle(&mut self) -> f64 {
-        self.random.range(-3.0, 3.0)
-    }
-
     /// A plate, with no point that matters yet; now and then two links of which none moves against the other but by a drive. Legs hold
     /// them in turn.
     fn any_plate(&mut self, group: &mut Group) -> [usize; 2] {
