@@ -47,7 +47,9 @@ use support::families::{
     slotted_crank, slotted_yoke, tangent_mechanism, welded,
 };
 use support::general::{Coordinates, equations_at};
-use support::linkages::{Class, Layout, Place, Random, in_single_precision, intersection, sample_with_forces};
+use support::linkages::{
+    Class, Layout, Place, Random, direction, in_single_precision, intersection, minus, plus, sample_with_forces, size,
+};
 use support::measures::{Measures, is_moment, measure};
 use support::numbers::{Double, Single};
 use support::{Arguments, Number, compile_if_it_closes, pose, scene};
@@ -712,17 +714,31 @@ fn lengths_apart(kind: &Kind, random: &mut Random) -> Vec<Poses> {
     vec![member.poses(drives)]
 }
 
+/// The way of a length at an angle.
+fn along(angle: f64, length: f64) -> Place {
+    direction(angle).map(|x| length * x)
+}
+
+/// A way turned by an angle.
+fn turned([x, y]: Place, angle: f64) -> Place {
+    let (sin, cos) = angle.sin_cos();
+    [x * cos - y * sin, x * sin + y * cos]
+}
+
+/// A point as it is declared.
+fn point([x, y]: Place) -> String {
+    format!("({x:?}m, {y:?}m)")
+}
+
 /// A ternary link on three legs, by its pins and the ways along the legs to them, where it starts.
 fn triad(pins: [Place; 3], legs: [Place; 3], random: &mut Random) -> Member {
     let feet: Vec<Place> = pins.iter().zip(legs).map(|(p, l)| [p[0] - l[0], p[1] - l[1]]).collect();
     let (crank, q) = (length(random, 0.3, 1.0), random.range(-3.0, 3.0));
     let o = [feet[0][0] - crank * q.cos(), feet[0][1] - crank * q.sin()];
     let own = |p: Place| [p[0] - pins[0][0], p[1] - pins[0][1]];
-    let size = |a: Place| a[0].hypot(a[1]);
     let lengths = legs.map(size);
     let [angle_b, angle_c, angle_d] = legs.map(|leg| leg[1].atan2(leg[0]));
     let (x, y) = (random.range(-1.0, 1.0), random.range(-1.0, 1.0));
-    let point = |p: Place| format!("({:?}m, {:?}m)", p[0], p[1]);
     let text = format!(
         "pub mod sample; ground {{ O: {}, F: {}, G: {} }} link crank {{ O -> A: {crank:?}m }} link b {{ A -> P: {:?}m }}
          link t {{ P: (0, 0), Q: {}, R: {}, T: {} }} link c {{ F -> Q: {:?}m, S: ({x:?}m, {y:?}m) }} link d {{ G -> R: {:?}m }}
@@ -742,9 +758,6 @@ fn triad(pins: [Place; 3], legs: [Place; 3], random: &mut Random) -> Member {
 
 /// A triad on two legs of which the one on the crank moves a four-bar that folds, or a slider-crank whose crank is as long as its rod.
 fn folding_triad([ground, crank, coupler, rocker]: [f64; 4], slider: bool, random: &mut Random) -> Member {
-    let along = |angle: f64, size: f64| [size * angle.cos(), size * angle.sin()];
-    let plus = |a: Place, b: Place| [a[0] + b[0], a[1] + b[1]];
-    let minus = |a: Place, b: Place| [a[0] - b[0], a[1] - b[1]];
     let halves = |random: &mut Random| [(); 2].map(|()| random.range(-2.0, 2.0).round() / 2.0);
     let f = halves(random);
     let coupler = if slider { crank } else { coupler };
@@ -763,12 +776,11 @@ fn folding_triad([ground, crank, coupler, rocker]: [f64; 4], slider: bool, rando
     // The plate: its frame at Q, its x axis to R; and the leg from the crank to P.
     let angle_of = |way: Place| way[1].atan2(way[0]);
     let (plate, own, at_t) = (angle_of(minus(at_r, at_q)), halves(random), halves(random));
-    let at_p = plus(at_q, [own[0] * plate.cos() - own[1] * plate.sin(), own[0] * plate.sin() + own[1] * plate.cos()]);
-    let (leg, turned) = (length(random, 0.5, 2.0), random.range(-3.0, 3.0));
-    let at_a = minus(at_p, along(turned, leg));
+    let at_p = plus(at_q, turned(own, plate));
+    let (leg, inclined) = (length(random, 0.5, 2.0), random.range(-3.0, 3.0));
+    let at_a = minus(at_p, along(inclined, leg));
     let (drive, q) = (length(random, 0.5, 1.5), random.range(-3.0, 3.0));
     let o = minus(at_a, along(q, drive));
-    let point = |[x, y]: Place| format!("({x:?}m, {y:?}m)");
     let third = if slider {
         format!(
             "link d {{ R: (0, 0), V: (0.5m, 0.25m) }} prismatic G: ground.G -> d.R along 0deg, angle 0deg;
@@ -787,7 +799,7 @@ fn folding_triad([ground, crank, coupler, rocker]: [f64; 4], slider: bool, rando
          link t {{ Q -> R: {coupler:?}m, P: {}, T: {} }} link c {{ F -> Q: {crank:?}m, S: (0.25m, 0.5m) }} {third}
          revolute O: ground -> crank; revolute A: crank -> b; revolute P: b -> t; revolute F: ground -> c; revolute Q: c -> t;
          revolute R: d -> t; drive q: O; start q: {q:?}rad;
-         start b: {}, angle {turned:?}rad; start t: {}, angle {plate:?}rad; start c: {}, angle {:?}rad;
+         start b: {}, angle {inclined:?}rad; start t: {}, angle {plate:?}rad; start c: {}, angle {:?}rad;
          load L: force(t.T); load H: force({}); scene all: equilibrium; scene work: virtual_work;",
         point(o), point(f), point(g), point(own), point(at_t), point(at_a), point(at_q), point(f), angle_of(minus(at_q, f)),
         random.pick(&["c.S", "d.V"]),
@@ -798,14 +810,8 @@ fn folding_triad([ground, crank, coupler, rocker]: [f64; 4], slider: bool, rando
 
 /// Two plates on legs that are parallel and of one length: they fold where the legs point along the plates.
 fn folding_ring(random: &mut Random) -> Member {
-    let turned = |[x, y]: Place, angle: f64| {
-        let (sin, cos) = angle.sin_cos();
-        [x * cos - y * sin, x * sin + y * cos]
-    };
-    let plus = |a: Place, b: Place| [a[0] + b[0], a[1] + b[1]];
-    let minus = |a: Place, b: Place| [a[0] - b[0], a[1] - b[1]];
     let quarters = |random: &mut Random| [(); 2].map(|()| random.range(-6.0, 6.0).round() / 4.0);
-    let apart = |a: Place| a[0].hypot(a[1]) > 0.4;
+    let apart = |a: Place| size(a) > 0.4;
     let (c, e, between) = loop {
         let [c, e, between] = [(); 3].map(|()| quarters(random));
         if [c, e, between, plus(c, between), plus(e, between)].into_iter().all(apart) {
@@ -815,24 +821,22 @@ fn folding_ring(random: &mut Random) -> Member {
     let (d, f) = (plus(c, between), plus(e, between));
     let (leg, angle) = (0.25 * random.range(2.0, 8.0).round(), random.range(-3.0, 3.0));
     let off = random.range(0.1, 0.6) * if random.chance(0.5) { 1.0 } else { -1.0 };
-    let along = angle + between[1].atan2(between[0]) + off;
+    let legs = angle + between[1].atan2(between[0]) + off;
     let (drive, q, o) = (length(random, 0.5, 1.5), random.range(-3.0, 3.0), quarters(random));
-    let at_a = plus(o, [drive * q.cos(), drive * q.sin()]);
+    let at_a = plus(o, along(q, drive));
     let [at_c, at_d] = [c, d].map(|place| plus(at_a, turned(place, angle)));
-    let at_e = plus(at_c, [leg * along.cos(), leg * along.sin()]);
+    let at_e = plus(at_c, along(legs, leg));
     let at_b = minus(at_e, turned(e, angle));
     let (s, t) = (quarters(random), quarters(random));
-    let point = |[x, y]: Place| format!("({x:?}m, {y:?}m)");
     let text = format!(
         "pub mod sample; ground {{ O: {}, B: {} }} link crank {{ O -> A: {drive:?}m }} link m {{ A: (0, 0), C: {}, D: {}, S: {} }}
          link n {{ B: (0, 0), E: {}, F: {}, T: {} }} link g {{ C -> E: {leg:?}m }} link h {{ D -> F: {leg:?}m }}
          revolute O: ground -> crank; revolute A: crank -> m; revolute B: ground -> n; revolute C: m -> g; revolute E: g -> n;
          revolute D: m -> h; revolute F: h -> n; drive q: O; start q: {q:?}rad;
-         start m: {}, angle {angle:?}rad; start n: {}, angle {angle:?}rad; start g: {}, angle {along:?}rad; start h: {}, angle {along:?}rad;
+         start m: {}, angle {angle:?}rad; start n: {}, angle {angle:?}rad; start g: {}, angle {legs:?}rad; start h: {}, angle {legs:?}rad;
          load L: force(m.S); load H: force(n.T); scene all: equilibrium; scene work: virtual_work;",
         point(o), point(at_b), point(c), point(d), point(s), point(e), point(f), point(t), point(at_a), point(at_b), point(at_c), point(at_d),
     );
-    let size = |a: Place| a[0].hypot(a[1]);
     let longest = [c, d, e, f, between].map(size).into_iter().chain([drive, leg]).fold(0.0, f64::max);
     Member { text: in_single_precision(&text), longest, range: (q - 0.3, q + 0.3), loads: loads(random) }
 }
@@ -842,7 +846,6 @@ fn special_triads(random: &mut Random) -> Vec<Poses> {
     let distance = 10f64.powi(-1 - i32::try_from(random.below(4)).expect("small"));
     let sign = |random: &mut Random| if random.chance(0.5) { 1.0 } else { -1.0 };
     let at = |random: &mut Random| [random.range(-1.0, 1.0), random.range(-1.0, 1.0)];
-    let along = |angle: f64, size: f64| [size * angle.cos(), size * angle.sin()];
     let which = random.below(5);
     let mut pins = [at(random), at(random), at(random)];
     let sizes = [(); 3].map(|()| random.range(0.5, 2.0) * sign(random));

@@ -43,11 +43,11 @@ impl Random {
 
 pub type Place = [f64; 2];
 
-fn minus(a: Place, b: Place) -> Place {
+pub fn minus(a: Place, b: Place) -> Place {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-fn plus(a: Place, b: Place) -> Place {
+pub fn plus(a: Place, b: Place) -> Place {
     [a[0] + b[0], a[1] + b[1]]
 }
 
@@ -59,11 +59,11 @@ fn cross(a: Place, b: Place) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-fn size(a: Place) -> f64 {
+pub fn size(a: Place) -> f64 {
     a[0].hypot(a[1])
 }
 
-fn direction(angle: f64) -> Place {
+pub fn direction(angle: f64) -> Place {
     [angle.cos(), angle.sin()]
 }
 
@@ -593,7 +593,10 @@ impl Builder {
             return (joint, travel);
         }
         let (length, angle) = (self.random.range(0.5, 1.5), self.angle());
-        let small = if self.random_for_layout(0.3) { self.layout.least() } else { 1.0 };
+        let small = match self.layout {
+            Layout::Apart(distance) if self.random.chance(0.3) => distance,
+            _ => 1.0,
+        };
         let end = self.layout.nearest(plus(at, direction(angle).map(|x| x * length * small)));
         let tip = format!("{joint}x");
         let link = self.link((&joint, at), (&tip, end));
@@ -623,11 +626,6 @@ impl Builder {
         self.close_pinned(link, 0, [&p, &q, &b], tip, at_q, at_b);
         let angle = self.bodies[link].angle;
         (joint, if to == link { angle } else { -angle })
-    }
-
-    /// A chance that is taken only where lengths differ.
-    fn random_for_layout(&mut self, probability: f64) -> bool {
-        matches!(self.layout, Layout::Apart(_)) && self.random.chance(probability)
     }
 
     /// A point for a dyad's outer joint on a placed link, under the joint's name.
