@@ -279,18 +279,27 @@ impl<'p, 'm> Parts<'p, 'm> {
         }
         let on = |joint: JointId| self.model.joint(joint).end_on(carrier).is_some();
         let candidates = self.members.iter().filter_map(|member| match (on(member.near), on(member.far)) {
-            (true, _) if self.is_slide(member.far) => Some((member.near, self.placement.slide_direction(member.far))),
-            (true, _) => Some((member.near, self.rod(member).1)),
-            (_, true) if !self.is_slide(member.far) => Some((member.far, self.rod(member).1)),
+            (true, _) if self.is_slide(member.far) => {
+                Some((member, member.near, self.placement.slide_direction(member.far)))
+            }
+            (true, _) => Some((member, member.near, self.rod(member).1)),
+            (_, true) if !self.is_slide(member.far) => Some((member, member.far, self.rod(member).1)),
             _ => None,
         });
         // Moments are taken about this pin: where the link's frame begins, if a member is there, since that is the point that the
-        // declaration counts from.
-        let begins_elsewhere = |(pin, _): &(JointId, Vector<'m>)| {
+        // declaration counts from. Of several there the number of one on the ground is what the others leave: it does no work, and may be
+        // far larger than that of one that the drive moves.
+        let rank = |(member, pin, _): &(&Member, JointId, Vector<'m>)| {
             let end = self.model.joint(*pin).end_on(carrier);
-            !end.is_some_and(|end| self.model.local(end).is_zero())
+            let begins_here = end.is_some_and(|end| self.model.local(end).is_zero());
+            let other_end = if *pin == member.near { member.far } else { member.near };
+            match (begins_here, self.other(other_end, member.link) == GROUND) {
+                (true, true) => 0,
+                (true, false) => 1,
+                (false, _) => 2,
+            }
         };
-        candidates.min_by_key(begins_elsewhere)
+        candidates.min_by_key(rank).map(|(_, pin, along)| (pin, along))
     }
 
     /// The axes in which the forces on a carrier or a pin are resolved.
