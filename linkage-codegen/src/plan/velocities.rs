@@ -21,7 +21,7 @@ use super::rules::Rule;
 use crate::diagnostics::Sink;
 use crate::equations::loads::Action;
 use crate::graph::tangent::Tangent;
-use crate::graph::{Expr, Graph, Symbol, Vector};
+use crate::graph::{Expr, Graph, Stage, Symbol, Vector};
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId, UnknownId};
 use crate::model::{Gear, JointKind, Model, UnknownKind};
 use crate::topology::{Group, Input};
@@ -550,7 +550,7 @@ impl<'m, 'p> Motion<'m, 'p> {
         });
         let nearest = pins.fold((own.at, None), |nearest, joint| {
             let (at, there) = (self.placement.slide_point(joint, link), self.passed_on(joint, link).components);
-            let simple = there.x.is_zero() || there.y.is_zero();
+            let simple = there.x.is_zero() || there.y.is_zero() || there.x.stage().max(there.y.stage()) < Stage::Posed;
             let known = !loads.is_free(self.other(joint, link)) || loads.acts_only_at(link, at);
             if simple && known && loads.all_act_nearer(link, at, nearest.0) { (at, Some(joint)) } else { nearest }
         });
