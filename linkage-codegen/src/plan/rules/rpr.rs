@@ -88,11 +88,15 @@ impl Rule for Rpr {
                 format!("(moment_{} + moment_{})/{}", dyad.link_name(first), dyad.link_name(second), pivot_name(&dyad)),
             )
         };
-        // The couple about the runner from the link that carries it: there the lever arm of the pin does not change.
-        let model = balance.model();
-        let runner = model.joint(dyad.inner).place().link;
-        let (leg, other, acting) =
-            if runner == second.tip.end.link { (second, first, -across) } else { (first, second, across) };
+        // The couple about the runner from a link on which nothing else acts, or else from the link that carries the runner: there the lever
+        // arm of the pin does not change. Moments may be large on the other one, and their rounding more than the couple.
+        let runner = balance.model().joint(dyad.inner).place().link;
+        let of_second = match dyad.legs.each_ref().map(|leg| leg.is_single() && balance.is_free(leg.link())) {
+            [false, true] => true,
+            [true, false] => false,
+            _ => runner == second.tip.end.link,
+        };
+        let (leg, other, acting) = if of_second { (second, first, -across) } else { (first, second, across) };
         let loads = balance.total(leg.link());
         dyad.guide_inner(balance, leg, acting);
         if leg.is_single() {
