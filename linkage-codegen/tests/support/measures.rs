@@ -413,15 +413,17 @@ fn passed_power(
     let between = passing.filter(|(_, link)| link.index() > 1);
     let power = |(joint, link): (JointId, LinkId)| {
         let first = 3 * (link.index() - 1);
-        let columns =
-            (0..solution.len()).filter(|c| matches!(general.sources[*c], Source::Joint(own, _) if own == joint));
-        columns
-            .map(|c| {
-                let rate: f64 =
-                    (first..first + 3).map(|line| general.matrix[line][c].to_f64() * velocities[line]).sum();
-                (rate * solution[c].to_f64()).abs()
-            })
-            .sum::<f64>()
+        let of_joint = |c: &usize| matches!(general.sources[*c], Source::Joint(own, _) if own == joint);
+        // The two components of a pin are one force: its rounding has any direction, whatever that of the force itself.
+        let (pin, others): (Vec<usize>, Vec<usize>) = (0..solution.len())
+            .filter(of_joint)
+            .partition(|c| matches!(general.sources[*c], Source::Joint(_, Component::X | Component::Y)));
+        let rate = |c: usize| -> f64 {
+            (first..first + 3).map(|line| general.matrix[line][c].to_f64() * velocities[line]).sum()
+        };
+        let size = |values: &dyn Fn(usize) -> f64| pin.iter().map(|c| values(*c)).fold(0.0, f64::hypot);
+        let of_pin = size(&|c| solution[c].to_f64()) * size(&rate);
+        of_pin + others.into_iter().map(|c| (rate(c) * solution[c].to_f64()).abs()).sum::<f64>()
     };
     between.map(power).sum()
 }
