@@ -2,11 +2,14 @@
 
 mod support;
 
+use linkage_codegen::Linkage;
 use support::families::{
     Family, SCENES, boom, check, four_bar, length, loads, oscillating_block, planet, scotch_yoke, searched, shaper,
-    slider_crank, slotted_crank, slotted_yoke, tangent_mechanism,
+    single, slider_crank, slotted_crank, slotted_yoke, tangent_mechanism,
 };
 use support::linkages::{Class, Random};
+use support::numbers::{Double, Single};
+use support::{Arguments, Number, compile, scene};
 
 fn random_four_bars(seed: u64, count: usize, poses: usize) -> impl Iterator<Item = Family> {
     let mut random = Random(seed);
@@ -175,6 +178,94 @@ fn a_guide_that_is_left_with_little() {
     let drives = (-20..=20).map(|step| 0.000_7 * f64::from(step)).collect();
     let family = Family { text, longest: 2.3, drives, loads: vec![[34.64, 20.0]] };
     assert!(check(std::iter::once(family), "a guide that is left with little") == 41);
+}
+
+/// A lever whose load goes nearly through its pin swings a rod on a crank's end: the couple between them holds the rod alone, and must not have
+/// the rounding of the lever's moments.
+#[test]
+fn a_couple_that_is_small_beside_one_links_moments() {
+    let text = format!(
+        "pub mod sample; ground {{ A0: (0, 0), P: (-1.3m, -0.04m) }} link crank {{ A0 -> A: 1.1m }} link rod {{ A: (0, 0), S: (0.012m, -0.0002m) }}
+         link lever {{ P: (0, 0), S: (-0.73m, 0.98m), C: (1.1m, -1.6m) }}
+         revolute A0: ground -> crank; revolute A: rod -> crank; revolute P: ground -> lever;
+         prismatic S: lever -> rod along -2.28rad of rod, angle 5.21rad; drive theta: A0; assemble S: ahead(P);
+         unknown T: torque(ground -> crank); load F: force(lever.C); {SCENES}"
+    );
+    let linkage = compile(&text);
+    let families = (-20..=20).filter_map(|step| {
+        let drives = vec![0.1 * f64::from(step)];
+        let torque = |loads| {
+            let arguments = Arguments { drives: drives.clone(), loads: vec![loads], ..Arguments::default() };
+            Some(scene::<Double>(&linkage, "work", &arguments).ok()?["T"].0)
+        };
+        // Across the lever, as the load's point moves.
+        let across = [torque([1.0, 0.0])?, torque([0.0, 1.0])?];
+        let [x, y] = across.map(|part| part / across[0].hypot(across[1]));
+        let load = [50.0 * y + 0.005 * x, 0.005 * y - 50.0 * x];
+        Some(Family { text: text.clone(), longest: 1.5, drives, loads: vec![load] })
+    });
+    assert!(check(families, "a couple that is small beside one link's moments") > 20);
+}
+
+/// A parallelogram that a leg at one of its pins drives, next to its fold: two legs hold each other with 10⁷ times the loads, the third carries
+/// no more than it did.
+#[test]
+fn a_leg_that_drives_a_folding_loop() {
+    let text = format!(
+        "pub mod sample; ground {{ O: (0.27m, -0.28m), F: (0.5m, 0), G: (1.5m, 0) }} link crank {{ O -> A: 0.7m }} link b {{ A -> P: 0.76m }}
+         link t {{ Q -> R: 1m, P: (0, 0), T: (0, -0.5m) }} link c {{ F -> Q: 1m, S: (0.25m, 0.5m) }} link d {{ G -> R: 1m }}
+         revolute O: ground -> crank; revolute A: crank -> b; revolute P: b -> t; revolute F: ground -> c; revolute Q: c -> t;
+         revolute G: ground -> d; revolute R: d -> t; drive q: O; start q: 0.974rad;
+         start b: (0.66m, 0.3m), angle 0.152rad; start t: (1.41m, 0.413m), angle 0; start c: (0.5m, 0), angle 0.426rad;
+         start d: (1.5m, 0), angle 0.426rad; load L: force(t.T); load H: force(c.S); {SCENES}"
+    );
+    // Where the pins P and Q are at (1.5 m, 0): the angle from O that the crank has with legs of 0.7 m and 0.76 m.
+    let (way, crank, leg) = ((1.23f64).hypot(0.28), 0.7f64, 0.76f64);
+    let fold = (0.28f64).atan2(1.23) + ((way * way + crank * crank - leg * leg) / (2.0 * way * crank)).acos();
+    let distances = (2..=14).map(|half| 10f64.powf(-0.5 * f64::from(half)));
+    let drives: Vec<f64> = distances.flat_map(|distance| [fold - distance, fold + distance]).map(single).collect();
+    let loads = vec![[18.5, 21.0], [27.5, -11.25]];
+    // Their sizes, at arms of 1 m.
+    let size: f64 = loads.iter().map(|[x, y]: &[f64; 2]| x.hypot(*y)).sum();
+    let agree = |scalar: &str, epsilon: f64, torques: &dyn Fn(&Linkage, &Arguments) -> Option<[f64; 2]>| {
+        let linkage = compile(&text.replacen(';', &format!("; scalar {scalar};"), 1));
+        let mut poses = 0;
+        for drive in &drives {
+            let arguments = Arguments { drives: vec![*drive], loads: loads.clone(), ..Arguments::default() };
+            let Some([balanced, worked]) = torques(&linkage, &arguments) else { continue };
+            let terms = worked.abs() + size;
+            let off = (balanced - worked).abs() / (epsilon * terms);
+            assert!(off <= 8.0, "{scalar} at {drive}: {balanced}, {worked}, {off} ε of the terms");
+            poses += 1;
+        }
+        assert!(poses > 10);
+    };
+    agree("f64", f64::EPSILON, &both_torques::<Double>);
+    agree("f32", f64::from(f32::EPSILON), &both_torques::<Single>);
+}
+
+/// The drive's torque by equilibrium and by virtual work.
+fn both_torques<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Option<[f64; 2]> {
+    let torque = |name| Some(scene::<T>(linkage, name, arguments).ok()?["effort_q"].to_f64());
+    Some([torque("all")?, torque("work")?])
+}
+
+/// A leg with a load next to the crank, whose other pin moves much faster: its turning takes that velocity away again.
+#[test]
+fn a_load_near_a_pin_that_hardly_moves() {
+    let text = format!(
+        "pub mod sample; ground {{ O: (0.931m, 1.603m), G: (1.595m, 0.905m) }}
+         link crank {{ O: (0, 0), A: (-0.0052m, 0.0039m), C: (-0.912m, -1.118m), T: (0.0005m, 0.0073m) }}
+         link t {{ Q -> R: 2.28m, V: (1.502m, -0.996m) }} link b {{ A -> Q: 1.491m, S: (0.0158m, 0.0035m) }}
+         link c {{ G -> R: 2.363m }} link d {{ C -> V: 1.038m }}
+         revolute O: ground -> crank; revolute A: b -> crank; revolute Q: b -> t; revolute G: ground -> c; revolute R: c -> t;
+         revolute C: d -> crank; revolute V: d -> t; drive q: O; start q: -0.2875rad;
+         start b: (0.925m, 1.605m), angle -0.551rad; start c: (1.595m, 0.905m), angle -1.437rad; start d: (0.374m, 0.272m), angle -0.9rad;
+         start t: (2.195m, 0.824m), angle -1.697rad; load L: force(b.S); load H: force(crank.T); {SCENES}"
+    );
+    let drives = (-20..=20).map(|step| -0.2875 + 0.025 * f64::from(step)).collect();
+    let family = Family { text, longest: 2.4, drives, loads: vec![[-11.8, -23.9], [30.1, 34.6]] };
+    assert!(check(std::iter::once(family), "a load near a pin that hardly moves") > 30);
 }
 
 #[test]
