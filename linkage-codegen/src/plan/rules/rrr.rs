@@ -236,6 +236,8 @@ struct Closing<'m> {
     k: Expr<'m>,
     /// What is known if it is sin μ.
     of_angle: Option<OfAngle<'m>>,
+    /// cos μ by the law of cosines, where by these lengths it is as good as that of the directions.
+    cosine: Option<Expr<'m>>,
     /// The sign of that root.
     sign: Sign<'m>,
     /// What must exceed what for `sin μ` to be more than rounding.
@@ -247,8 +249,6 @@ struct Closing<'m> {
 struct OfAngle<'m> {
     /// `±(D² + r² − r'²)/(2 r r')` of the shorter leg r, negative if it is the second.
     sum: Expr<'m>,
-    /// cos μ, where by these lengths it is as good as that of the directions.
-    cosine: Option<Expr<'m>>,
     /// Whether the inner pin is always much farther from the outer pins than these are from each other.
     far: bool,
 }
@@ -345,7 +345,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let pivot = closing.significant.iter().fold(sine, |pivot, (value, limit)| pivot.where_above(*value, *limit));
     let pivot =
         pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding").held();
-    let cosine = closing.of_angle.and_then(|known| known.cosine).map(Expr::held);
+    let cosine = closing.cosine.map(Expr::held);
     assembly.pivots.state(u1, u2, Some(pivot), cosine);
     assembly.dyads.push(DyadPivot::sine(dyad.model, dyad.inner, pivot, cosine));
     Ok(())
@@ -485,7 +485,19 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let root =
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
     let significant = vec![(p, p_rounding), (q, q_rounding)];
-    Closing { d, d2, sums: None, k: sign.of(root), of_angle: None, sign, significant }
+    Closing { d, d2, sums: None, k: sign.of(root), of_angle: None, cosine: law_of_cosines(dyad, d2), sign, significant }
+}
+
+/// cos μ from the distance of the outer pins, which is known before the directions are. D²/(2 r₁ r₂) is at most 2¼ if no leg is more than twice
+/// as long as the other one; the larger it may be, the more its rounding tells in the cosine.
+fn law_of_cosines<'m>(dyad: &Dyad<'m>, d2: Expr<'m>) -> Option<Expr<'m>> {
+    let [r1, r2] = dyad.lengths();
+    constant_lengths(r1, r2).filter(|_| ratio_is_at_most(2, r1, r2))?;
+    let area = 2 * (r1 * r2);
+    let joint = dyad.joint_name(dyad.inner);
+    let [first, second] = dyad.legs.each_ref().map(|leg| dyad.length_name(leg));
+    let equation = format!("cos μ at {joint} = ({first}² + {second}² − D2_{joint})/{}", dyad.area_name());
+    Some(((r1.squared() + r2.squared()) / area - d2 / area).named(dyad.cosine_name(), equation))
 }
 
 /// The failure to assemble, with the gap: how much too far apart (`p < 0`) or too close together (`q < 0`) the outer pins are.
@@ -571,7 +583,7 @@ fn by_driven_length<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>, driven: 
     } else {
         [square + x.squared(), x.squared() - constant]
     };
-    Closing { d, d2, sums: Some(sums), k: sign.of(root), of_angle: None, sign, significant }
+    Closing { d, d2, sums: Some(sums), k: sign.of(root), of_angle: None, cosine: None, sign, significant }
 }
 
 /// The least and the largest distance that constant parts of a way can make up.

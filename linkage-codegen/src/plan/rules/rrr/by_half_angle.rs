@@ -57,11 +57,11 @@ pub(super) fn by_half_angle<'m>(
     let margins = opening.assembled(margins);
     let (root, equation) = opening.root(margins, smooth);
     let sign = side_sign(dyad, (closure, side), arms, folds)?;
-    let (k, of_angle) = if opening.gives_sine {
+    let (k, of_angle, cosine) = if opening.gives_sine {
         let equation = format!("{}{equation}", sign.text());
-        (name_sine(dyad, sign.of(root), &equation), Some(opening.of_angle()))
+        (name_sine(dyad, sign.of(root), &equation), Some(opening.of_angle()), opening.cosine())
     } else {
-        (sign.of(root.named(format!("K_{joint}"), equation)), None)
+        (sign.of(root.named(format!("K_{joint}"), equation)), None, None)
     };
     Ok(Closing {
         d: opening.d,
@@ -69,6 +69,7 @@ pub(super) fn by_half_angle<'m>(
         sums: None,
         k,
         of_angle,
+        cosine,
         sign,
         significant: opening.significant(margins),
     })
@@ -212,25 +213,33 @@ impl<'a, 'm> Opening<'a, 'm> {
         vec![above(p, self.arms.half.x), above(q, self.arms.half.y)]
     }
 
-    /// `±(D² + r² − r'²)/(2 r r')` of the shorter leg, and cos μ by the law of cosines, both from `spread = 4ab sin²(ψ/2)/(2 r r')`.
-    ///
-    /// Where the driver goes all round, the spread is at most two. The more it may be, the more its rounding tells in the cosine, which then is
-    /// that between the directions.
+    /// `±(D² + r² − r'²)/(2 r r')` of the shorter leg, from `spread = 4ab sin²(ψ/2)/(2 r r')`.
     fn of_angle(&self) -> OfAngle<'m> {
-        let Self { dyad, arms, span, area, spread, ref divided, .. } = *self;
+        let Self { dyad, arms, area, spread, ref divided, .. } = *self;
         let (lengths, apart) = (dyad.lengths(), arms.b - arms.a);
         let [short, long] = by_length(lengths);
         let (r, other) = (lengths[short], lengths[long]);
-        let joint = dyad.joint_name(dyad.inner);
-        let [mine, its] = [short, long].map(|index| dyad.length_name(&dyad.legs[index]));
         let constant = (apart.squared() + (r - other) * (r + other)) / area;
         let sum = if short == 0 { constant + spread } else { -constant - spread };
         let sum = dyad.name_sum(&dyad.legs[short], sum, divided);
-        let cosine = (r.squared() + other.squared() - apart.squared()) / area - spread;
+        let far = (r - 8 * (arms.a + arms.b)).sign() == Some(1);
+        OfAngle { sum, far }
+    }
+
+    /// cos μ by the law of cosines, from the spread.
+    ///
+    /// Where the driver goes all round, the spread is at most two. The more it may be, the more its rounding tells in the cosine, which then is
+    /// that between the directions.
+    fn cosine(&self) -> Option<Expr<'m>> {
+        let Self { dyad, arms, span, area, spread, ref divided, .. } = *self;
+        let [short, long] = by_length(dyad.lengths());
+        let [r, other] = [short, long].map(|index| dyad.lengths()[index]);
+        let [mine, its] = [short, long].map(|index| dyad.length_name(&dyad.legs[index]));
+        let joint = dyad.joint_name(dyad.inner);
+        let cosine = (r.squared() + other.squared() - (arms.b - arms.a).squared()) / area - spread;
         let cosine =
             cosine.named(dyad.cosine_name(), format!("cos μ at {joint} = ({mine}² + {its}²){divided} − D2_{joint}"));
-        let far = (r - 8 * (arms.a + arms.b)).sign() == Some(1);
-        OfAngle { sum, cosine: ((2 * area - span).sign() != Some(-1)).then_some(cosine), far }
+        ((2 * area - span).sign() != Some(-1)).then_some(cosine)
     }
 
     fn does_not_fold(&self, closure: &Closure) -> Diagnostic {
