@@ -18,7 +18,7 @@
 //! | 3 folds | here: dimensions with which pivots meet or links lie on each other, 1 to 10⁻⁷ from there; blocks and cascades with a loop in them that folds; digits of four-bars in `families.rs` | those that fold: pins and slides in closed loops of equal lengths |
 //! | 4 lengths that differ by 10² to 10⁸ | here, each set of lengths small; of blocks and cascades some joints next to others, 10² to 10⁴; of three-pin dyads in `families.rs` too; triads under 9 | all; f32 as far as it tells lengths apart, 10⁴ |
 //! | 5, 14 along the axes, collinear, in line | here: directions by quarter turns, drives too; joints of blocks and cascades on a lattice; `families.rs` | all |
-//! | 6 far from the origin, a slide's point far along its line: the same bits | here | all; the slides of dyads |
+//! | 6 far from the origin, the point of a slide or a slot far along its line: the same bits | here | all; of lines all but those of cascades |
 //! | 7 loads 10⁸ apart, a single load | here | all |
 //! | 8 units of length and of force that differ by powers of two: the same bits | here | all |
 //! | 9 triads nearly concurrent, nearly parallel, third pin on the first line, tiny or huge ternary | here | triads |
@@ -1107,15 +1107,16 @@ fn shifted(text: &str, offset: &str) -> String {
     format!("{}{places}{}", &text[..start], starts.collect::<Vec<_>>().join("start "))
 }
 
-/// 6: the point from which a slide's travel counts may be anywhere on its line. Only couples, and what is found from them, have the rounding
-/// of a travel that is so large.
+/// 6: the point by which a slide's or a slot's line is given, from which its travel counts, may be anywhere on it, in Newton blocks that of
+/// a slide's runner, too. Only couples, and what is found from them, have the rounding of a travel that is so large.
 fn datum_moved<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     let mut random = Random(19);
-    for distance in [1e3, -123_456.0, 1e8] {
+    let moves = [(1e3, false), (-123_456.0, false), (1e8, false), (-1e3, true), (1e8, true)];
+    for (distance, runner) in moves.into_iter().filter(|(_, runner)| !runner || kind.is_by_places()) {
         for _ in 0..members {
             let member = kind.drawn(&mut random);
             let text = computed_in::<T>(&member.text, fused);
-            let Some(moved) = with_datum_moved(&text, distance) else { continue };
+            let Some(moved) = with_datum_moved(&text, distance, runner) else { continue };
             let both = [&moved, &text].map(|text| compile_if_it_closes(text));
             assert_eq!(both[0].is_some(), both[1].is_some(), "{moved}");
             let [Some(far), Some(near)] = both else { continue };
@@ -1140,33 +1141,51 @@ fn directions<T: Scalar>(linkage: &Linkage, arguments: &Arguments) -> Option<Vec
     Some(directions.map(|found| (found.name.clone(), kept[&found.node].to_f64().to_bits())).collect())
 }
 
-/// The declaration with the line of its first slide given by a point so far from the one that it has. The travel of a driven one is an
-/// argument: it stays.
-fn with_datum_moved(text: &str, distance: f64) -> Option<String> {
-    let slide = text.split_once("prismatic ")?.1.split_once(';')?.0;
+/// The declaration with a point of its first slide or slot so far along the line from where it is: that of the link in whose frame the line is given,
+/// or that of the runner. The travel of a driven one is an argument: it stays.
+fn with_datum_moved(text: &str, distance: f64, runner: bool) -> Option<String> {
+    let slide = text.split_once("prismatic ").or_else(|| text.split_once("slot ").filter(|_| !runner))?;
+    let slide = slide.1.split_once(';')?.0;
     let (name, ends_and_line) = slide.split_once(": ")?;
     let (ends, line) = ends_and_line.split_once(" along ")?;
     let (from, to) = ends.split_once(" -> ")?;
-    let line = line.split_once(',').map_or(line, |(line, _)| line);
+    let (line, turn) = line.split_once(", angle ").unwrap_or((line, "0deg"));
     let (angle, carrier) = line.split_once(" of ").unwrap_or((line, "ground"));
-    let of_carrier = |end: &&str| end.split('.').next() == Some(carrier);
-    let end = [from, to].into_iter().find(of_carrier).filter(|_| !text.contains(&[": ", name, ";"].concat()))?;
-    let point = end.split_once('.').map_or(name, |(_, point)| point);
-    let opening = if carrier == "ground" { "ground { ".to_owned() } else { ["link ", carrier, " { "].concat() };
+    let is_of_carrier = |end: &&str| end.split('.').next() == Some(carrier);
+    let is_driven = text.contains(&[": ", name, ";"].concat());
+    let end = [from, to].into_iter().find(|end| is_of_carrier(end) != runner).filter(|_| !is_driven)?;
+    let angle = match (runner, end == to) {
+        (false, _) => angle.to_owned(),
+        (true, true) => format!("({angle} - ({turn}))"),
+        (true, false) => format!("({angle} + {turn})"),
+    };
+    let (link, point) = end.split_once('.').unwrap_or((end, name));
+    let opening = if link == "ground" { "ground { ".to_owned() } else { ["link ", link, " { "].concat() };
     let (before, after) = text.split_once(&opening)?;
     let (points, behind) = after.split_once(" }")?;
-    let place = points.split_once(&[point, ": "].concat())?.1;
-    let (x, y) = if let Some(rest) = place.strip_prefix('(') {
-        let (x, y) = rest.split_once(')')?.0.split_once(", ")?;
-        (x.to_owned(), y.to_owned())
-    } else {
-        let (size, angle) = place.split(',').next()?.split_once(" @ ")?;
-        (format!("{size}*cos({angle})"), format!("{size}*sin({angle})"))
-    };
+    let [x, y] = declared_place(points, point)?;
     let moved = format!(", Datum: ({x} + {distance:?}m*cos({angle}), {y} + {distance:?}m*sin({angle})) }}");
     let text = [before, &opening, points, &moved, behind].concat();
-    let by_datum = ends_and_line.replacen(end, &[carrier, ".Datum"].concat(), 1);
+    let by_datum = ends_and_line.replacen(end, &[link, ".Datum"].concat(), 1);
     Some(text.replacen(ends_and_line, &by_datum, 1))
+}
+
+/// The coordinates of a point among those that a link declares, as they are written.
+fn declared_place(points: &str, point: &str) -> Option<[String; 2]> {
+    let zero = || "0m".to_owned();
+    if points.starts_with(&[point, " -> "].concat()) {
+        return Some([zero(), zero()]);
+    }
+    let place = points.split_once(&[point, ": "].concat())?.1;
+    if points.contains(&["-> ", point, ": "].concat()) {
+        return Some([place.split(',').next()?.trim().to_owned(), zero()]);
+    }
+    if let Some(rest) = place.strip_prefix('(') {
+        let (x, y) = rest.split_once(')')?.0.split_once(", ")?;
+        return Some([x.to_owned(), y.to_owned()]);
+    }
+    let (size, angle) = place.split(',').next()?.split_once(" @ ")?;
+    Some([format!("{size}*cos({angle})"), format!("{size}*sin({angle})")])
 }
 
 /// 8: in units that differ by a power of two the same linkage has the same digits.
@@ -1361,7 +1380,7 @@ macro_rules! kinds {
 
 fn each_by_itself<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     moved::<T>(kind, members.div_ceil(5), fused);
-    if matches!(kind.drawn, Drawn::ByDimensions { .. }) {
+    if !kind.is_cascade() {
         datum_moved::<T>(kind, members.div_ceil(5), fused);
     }
     in_other_units::<T>(kind, members.div_ceil(5), fused);

@@ -46,6 +46,9 @@ impl Graph {
                 Op::Sub(c, y) if self.constant_value(c).is_some() => {
                     return (self.constant(&x) - self.expr(c)) + self.expr(y);
                 }
+                Op::Sub(y, c) if self.constant_value(c).is_some() => {
+                    return (self.constant(&x) + self.expr(c)) - self.expr(y);
+                }
                 _ => {}
             },
             _ => {}
@@ -107,6 +110,7 @@ impl Graph {
         match x.op() {
             Op::Add(y, c) if self.constant_value(c).is_some() => self.expr(y) + (self.expr(c) + self.constant(k)),
             Op::Sub(c, y) if self.constant_value(c).is_some() => (self.expr(c) + self.constant(k)) - self.expr(y),
+            Op::Sub(y, c) if self.constant_value(c).is_some() => self.expr(y) + (self.constant(k) - self.expr(c)),
             Op::Neg(y) => self.constant(k) - self.expr(y),
             _ if k.signum() < 0 => {
                 let k = self.constant(&k.neg());

@@ -174,6 +174,16 @@ impl Joint {
         self.ends().into_iter().find(|end| end.link == link)
     }
 
+    /// Whether it may have been declared by any point of a line of this link.
+    #[must_use]
+    pub fn is_line_on(&self, link: LinkId) -> bool {
+        match self.kind {
+            JointKind::Prismatic { .. } => self.end_on(link).is_some(),
+            JointKind::Slot { carrier, .. } => carrier == link,
+            JointKind::Revolute | JointKind::Weld { .. } | JointKind::Gear(_) => false,
+        }
+    }
+
     /// Where the joint is: of a slide its runner, the point on the line that the other link carries, of a slot its pin, of a gear pair
     /// the second centre. The couple of the reaction is about this point.
     #[must_use]
@@ -1018,6 +1028,13 @@ impl Model {
     /// All joints.
     pub fn joint_ids(&self) -> impl Iterator<Item = JointId> + use<> {
         (0..self.joints.len()).map(JointId::new)
+    }
+
+    /// The first pin, or weld, of a link beside this joint.
+    #[must_use]
+    pub fn pin_beside(&self, joint: JointId, link: LinkId) -> Option<End> {
+        let others = self.joint_ids().filter(|other| *other != joint).map(|other| self.joint(other));
+        others.filter(|other| !other.is_line_on(link)).find_map(|other| other.end_on(link))
     }
 
     /// The drive of a joint's angle, or of its travel.

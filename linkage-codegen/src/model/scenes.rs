@@ -853,8 +853,10 @@ fn check_values(model: &Model, sink: &Sink) {
         if matches!(joint.kind, JointKind::Slot { .. }) {
             values.insert(format!("arm_{}", joint.name), format!("is the lever arm of `{}`", joint.name));
         }
-        values.insert(format!("travel_{}", joint.name), format!("is the travel of `{}`", joint.name));
-        values.insert(format!("travel_{}_before", joint.name), format!("is a travel of `{}`", joint.name));
+        for travel in ["travel", "run"] {
+            values.insert(format!("{travel}_{}", joint.name), format!("is the travel of `{}`", joint.name));
+            values.insert(format!("{travel}_{}_before", joint.name), format!("is a travel of `{}`", joint.name));
+        }
     }
     for drive in model.drives.iter().filter(|_| !model.starts.is_empty()) {
         values.insert(format!("{}_before", drive.name), format!("is where `{}` comes from", drive.name));

@@ -3,6 +3,7 @@
 //! A link is placed by a direction, a unit vector, never by an angle. Places are not kept as coordinates of the plane: the way from a
 //! point to another goes through the links between them, so that nothing depends on where the origin is.
 
+use core::ops::Neg;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use crate::graph::{Expr, Graph, Symbol, Vector};
@@ -50,8 +51,54 @@ pub struct Segment<'m> {
     pub direction: Vector<'m>,
     /// Its components along and across that direction.
     pub along: Vector<'m>,
-    /// Its length.
-    pub size: Expr<'m>,
+    /// What of them is constant, in one sum that is exact.
+    constant: Vector<'m>,
+    /// The lengths of the other parts together.
+    rest: Expr<'m>,
+}
+
+impl<'m> Segment<'m> {
+    /// A part of this length.
+    fn new(direction: Vector<'m>, along: Vector<'m>, size: Expr<'m>) -> Self {
+        let zero = size.graph().zero();
+        let is_constant = along.x.value().is_some() && along.y.value().is_some();
+        let (constant, rest) = if is_constant { (along, zero) } else { (Vector::new(zero, zero), size) };
+        Self { direction, along, constant, rest }
+    }
+
+    /// Its components along and across a direction: constant if it turns with the link that carries the line.
+    #[must_use]
+    pub fn resolved_along(&self, line: &Line<'m>) -> Vector<'m> {
+        if self.direction == line.carrier {
+            self.along.resolved_along(line.axis)
+        } else {
+            self.along.turned_by(self.direction.resolved_along(line.direction))
+        }
+    }
+
+    /// Its length, or the lengths together of which it is made up.
+    #[must_use]
+    pub fn size(&self) -> Expr<'m> {
+        self.constant.size() + self.rest
+    }
+}
+
+/// The direction of a line that a link carries.
+#[derive(Clone, Copy, Debug)]
+pub struct Line<'m> {
+    /// In ground axes.
+    pub direction: Vector<'m>,
+    /// The direction of the link.
+    carrier: Vector<'m>,
+    /// Along and across that.
+    axis: Vector<'m>,
+}
+
+impl<'m> From<Vector<'m>> for Line<'m> {
+    fn from(direction: Vector<'m>) -> Self {
+        let graph = direction.x.graph();
+        Self { direction, carrier: direction, axis: Vector::new(graph.one(), graph.zero()) }
+    }
 }
 
 /// The way from a point to another.
@@ -72,17 +119,42 @@ impl<'m> Way<'m> {
 
     /// Its components along and across a direction: each part by itself, so that constant parts fold exactly.
     #[must_use]
-    pub fn resolved_along(&self, direction: Vector<'m>) -> Vector<'m> {
-        let part = |s: &Segment<'m>| {
-            if s.direction == direction { s.along } else { s.along.turned_by(s.direction.resolved_along(direction)) }
-        };
-        self.segments.iter().map(part).reduce(|sum, part| sum + part).unwrap_or_else(|| self.graph.zero_vector())
+    pub fn resolved_along(&self, line: impl Into<Line<'m>>) -> Vector<'m> {
+        let line = line.into();
+        let parts = self.segments.iter().map(|segment| segment.resolved_along(&line));
+        parts.reduce(|sum, part| sum + part).unwrap_or_else(|| self.graph.zero_vector())
     }
 
     /// The sum of the lengths of its parts: the size of the rounding in its vector, in epsilons.
     #[must_use]
     pub fn length(&self) -> Expr<'m> {
-        self.segments.iter().fold(self.graph.zero(), |sum, s| sum + s.size)
+        self.segments.iter().fold(self.graph.zero(), |sum, s| sum + s.size())
+    }
+}
+
+/// The travel of a slide or a slot, from the joint's first point to its second one along its direction.
+#[derive(Clone, Copy, Debug)]
+struct Travel<'m> {
+    /// What was found.
+    found: Expr<'m>,
+    /// What the declared points add to it, a constant: they may lie far away, where a sum of both has no digits left of what was found.
+    datum: Expr<'m>,
+    /// Both together.
+    whole: Expr<'m>,
+}
+
+impl<'m> Travel<'m> {
+    /// The travel along a direction, each part by itself.
+    fn along(self, direction: Vector<'m>) -> Vector<'m> {
+        direction.scaled(self.found) + direction.scaled(self.datum)
+    }
+}
+
+impl Neg for Travel<'_> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self { found: -self.found, datum: -self.datum, whole: -self.whole }
     }
 }
 
@@ -92,7 +164,7 @@ pub struct Placement<'m> {
     /// The linkage.
     pub model: &'m Model,
     orientations: Vec<Option<Orientation<'m>>>,
-    travels: BTreeMap<JointId, Expr<'m>>,
+    travels: BTreeMap<JointId, Travel<'m>>,
     angles: BTreeMap<LinkId, Expr<'m>>,
     arms: BTreeMap<[JointId; 2], Expr<'m>>,
     placed: BTreeSet<JointId>,
@@ -146,15 +218,62 @@ impl<'m> Placement<'m> {
 
     /// The travel of a slide, or of the pin in a slot, is known. A pose keeps it.
     pub fn set_travel(&mut self, joint: JointId, travel: Expr<'m>) {
-        self.travels.insert(joint, travel.held());
-        self.placed.insert(joint);
+        self.know_travel(joint, travel);
+        self.connect(joint);
+    }
+
+    /// The same of one through which no ways go yet.
+    pub fn know_travel(&mut self, joint: JointId, travel: Expr<'m>) {
+        let found = travel.held();
+        self.travels.insert(joint, Travel { found, datum: self.graph().zero(), whole: found });
+    }
+
+    /// The same of one that is counted from where the links have pins: without [`Self::datum`].
+    pub fn know_run(&mut self, joint: JointId, run: Expr<'m>) {
+        let (found, datum, name) = (run.held(), self.datum(joint), &self.model.joint(joint).name);
+        let whole = (found + datum).named(format!("travel_{name}"), format!("travel of {name}"));
+        self.travels.insert(joint, Travel { found, datum, whole: whole.held() });
     }
 
     /// The travel of a slide or a slot: of its second point from its first, along its direction. Where it is not known yet, zero.
     #[must_use]
     pub fn travel(&self, joint: JointId) -> Expr<'m> {
+        self.travel_in_parts(joint).whole
+    }
+
+    fn travel_in_parts(&self, joint: JointId) -> Travel<'m> {
         let driven = || self.model.drive_of(joint, false).map(|drive| self.graph().symbol(Symbol::Drive(drive)));
-        self.travels.get(&joint).copied().or_else(driven).unwrap_or_else(|| self.graph().zero())
+        self.travels.get(&joint).copied().unwrap_or_else(|| {
+            let whole = driven().unwrap_or_else(|| self.graph().zero());
+            Travel { found: whole, datum: self.graph().zero(), whole }
+        })
+    }
+
+    /// How far the second point of a slide or a slot is from its first one, along its direction, where [`Self::counted_between`] lie beside
+    /// each other.
+    #[must_use]
+    pub fn datum(&self, joint: JointId) -> Expr<'m> {
+        let ends = self.model.joint(joint).ends().into_iter().zip(self.counted_between(joint));
+        let [from, to] = [0, 1].map(|index| ends.clone().nth(index).map(|(own, pin)| self.along_line(joint, own, pin)));
+        let zero = || self.graph().zero();
+        from.unwrap_or_else(zero) - to.unwrap_or_else(zero)
+    }
+
+    /// Between what the travel of a slide or a slot is counted while it is sought: a pin of either link, if there is one and its distance
+    /// along the line is a constant, or else the joint's own point. A pin in a slot is a place of its link; all other points of these joints
+    /// may be declared anywhere on the line, far from where anything is.
+    #[must_use]
+    pub fn counted_between(&self, joint: JointId) -> [End; 2] {
+        let data = self.model.joint(joint);
+        data.ends().map(|own| {
+            let near = self.model.pin_beside(joint, own.link).filter(|_| data.is_line_on(own.link));
+            near.filter(|pin| self.along_line(joint, own, *pin).value().is_some()).unwrap_or(own)
+        })
+    }
+
+    /// How far a point of a link of a slide or a slot is ahead of another one, along the line.
+    fn along_line(&self, joint: JointId, from: End, to: End) -> Expr<'m> {
+        self.slide_axis(joint, from.link).dot(self.model.local(to) - self.model.local(from))
     }
 
     /// The angle of a joint's second link from its first, if it is fixed, or driven in a slot: as a direction and as an angle.
@@ -177,7 +296,13 @@ impl<'m> Placement<'m> {
 
     /// All slides and slots with their travels.
     pub fn travels(&self) -> impl Iterator<Item = (JointId, Expr<'m>)> {
-        self.travels.iter().map(|(joint, travel)| (*joint, *travel))
+        self.travels.iter().map(|(joint, travel)| (*joint, travel.whole))
+    }
+
+    /// Those slides and slots of which the travel was not counted from their own points, with what was found.
+    pub fn runs(&self) -> impl Iterator<Item = (JointId, Expr<'m>)> {
+        let apart = self.travels.iter().filter(|(_, travel)| !travel.datum.is_zero());
+        apart.map(|(joint, travel)| (*joint, travel.found))
     }
 
     /// The lever arm of a slot's normal about a pin of the same link is known, zero where it is no larger than its rounding: made of
@@ -260,6 +385,13 @@ impl<'m> Placement<'m> {
         line.map_or(self.direction(GROUND), |(carrier, axis)| self.turned(carrier, axis.vector(self.graph())))
     }
 
+    /// The same with what is known of it on the link that carries it.
+    #[must_use]
+    pub fn line(&self, joint: JointId) -> Line<'m> {
+        let (direction, axis) = (self.slide_direction(joint), self.slide_along(joint));
+        Line { direction, carrier: self.carrier_direction(joint), axis }
+    }
+
     /// The direction from the centre of a gear pair's first wheel to that of the second, in ground axes.
     #[must_use]
     pub fn centre_line(&self, gear: &Gear) -> Vector<'m> {
@@ -291,15 +423,15 @@ impl<'m> Placement<'m> {
             Some((carrier, axis)) if carrier == link => {
                 let along = self.carried(carrier, axis.vector(self.graph()));
                 let own = data.end_on(link).unwrap_or(data.to);
-                self.point(own) + along.scaled(self.travel_on(joint, link))
+                self.point(own) + self.travel_on(joint, link).along(along)
             }
             _ => self.point(data.end_on(link).unwrap_or(data.to)),
         }
     }
 
     /// How far the other link's point is ahead of that of the link that carries the line.
-    fn travel_on(&self, joint: JointId, carrier: LinkId) -> Expr<'m> {
-        let travel = self.travel(joint);
+    fn travel_on(&self, joint: JointId, carrier: LinkId) -> Travel<'m> {
+        let travel = self.travel_in_parts(joint);
         if self.model.joint(joint).from.link == carrier { travel } else { -travel }
     }
 
@@ -311,7 +443,7 @@ impl<'m> Placement<'m> {
             Some(start) if end.link != GROUND => {
                 let mut way = self.way(start, end);
                 let ground = self.direction(GROUND);
-                let start = Segment { direction: ground, along: self.model.local(start), size: self.graph().zero() };
+                let start = Segment::new(ground, self.model.local(start), self.graph().zero());
                 let mut segments = vec![start];
                 way.segments.drain(..).for_each(|segment| push_segment(&mut segments, segment));
                 Way { segments, ..way }.vector()
@@ -408,19 +540,17 @@ impl<'m> Placement<'m> {
         Orientation { direction: turned.turned_by(self.frame(other)), axis: x_axis }
     }
 
-    /// The direction of a slide in the frame of one of its links.
+    /// The direction of a slide or a slot in the frame of a link that it is constant in, of which the carrier is one.
     #[must_use]
     pub fn slide_axis(&self, joint: JointId, link: LinkId) -> Vector<'m> {
-        let x_axis = Vector::new(self.graph().one(), self.graph().zero());
         let data = self.model.joint(joint);
-        let (Some((carrier, axis)), Some((turn, _))) = (data.kind.line(), self.turn(joint)) else { return x_axis };
-        let axis = axis.vector(self.graph());
-        if carrier == link {
-            axis
-        } else if data.to.link == link {
-            axis.resolved_along(turn)
-        } else {
-            axis.turned_by(turn)
+        match (data.kind.line(), self.turn(joint)) {
+            (Some((carrier, axis)), _) if carrier == link => axis.vector(self.graph()),
+            (Some((_, axis)), Some((turn, _))) if data.to.link == link => {
+                axis.vector(self.graph()).resolved_along(turn)
+            }
+            (Some((_, axis)), Some((turn, _))) => axis.vector(self.graph()).turned_by(turn),
+            _ => Vector::new(self.graph().one(), self.graph().zero()),
         }
     }
 
@@ -458,18 +588,17 @@ impl<'m> Placement<'m> {
         let mut segments: Vec<Segment<'m>> = Vec::new();
         let mut at = from.end;
         if let Some(slot) = from.slot {
-            push_segment(&mut segments, self.slid(slot, -self.travel_on(slot, at.link)));
+            self.push_slid(&mut segments, slot, -self.travel_on(slot, at.link));
         }
-        let to_slot = to.slot.map(|slot| self.slid(slot, self.travel_on(slot, to.end.link)));
-        let to = to.end;
+        let (to, to_slot) = (to.end, to.slot);
         for joint in self.route(from.end, to) {
             let joint_data = self.model.joint(joint);
             let (Some(near), Some(far)) = (joint_data.end_on(at.link), joint_data.end_off(at.link)) else { continue };
             push_segment(&mut segments, self.within(at, near));
             if joint_data.kind.line().is_some() {
-                let travel = self.travel(joint);
+                let travel = self.travel_in_parts(joint);
                 let signed = if joint_data.from == near { travel } else { -travel };
-                push_segment(&mut segments, self.slid(joint, signed));
+                self.push_slid(&mut segments, joint, signed);
             }
             at = far;
         }
@@ -478,9 +607,11 @@ impl<'m> Placement<'m> {
         } else {
             // A group between has an error: nothing is known of the way.
             let (along, size) = (self.model.unread_vector(), self.model.unread());
-            push_segment(&mut segments, Segment { direction: self.direction(GROUND), along, size });
+            push_segment(&mut segments, Segment::new(self.direction(GROUND), along, size));
         }
-        to_slot.into_iter().for_each(|segment| push_segment(&mut segments, segment));
+        if let Some(slot) = to_slot {
+            self.push_slid(&mut segments, slot, self.travel_on(slot, to.link));
+        }
         segments.retain(|s| !s.along.is_zero());
         Way { segments, graph: self.graph() }
     }
@@ -488,11 +619,11 @@ impl<'m> Placement<'m> {
     /// The way from the first point of a joint to its second that does not go through it; less its travel, if it is a slide: nothing
     /// stays of it where the joint is closed.
     #[must_use]
-    pub fn round(&self, joint: JointId, travel: Option<Expr<'m>>) -> Way<'m> {
+    pub fn round(&self, joint: JointId) -> Way<'m> {
         let data = self.model.joint(joint);
         let mut way = self.way(data.from, data.to);
-        if let Some(travel) = travel {
-            push_segment(&mut way.segments, self.slid(joint, -travel));
+        if self.travels.contains_key(&joint) {
+            self.push_slid(&mut way.segments, joint, -self.travel_in_parts(joint));
         }
         way
     }
@@ -500,24 +631,16 @@ impl<'m> Placement<'m> {
     /// From a point to another of the same link.
     fn within(&self, from: End, to: End) -> Segment<'m> {
         let along = self.point(to) - self.point(from);
-        Segment {
-            direction: self.direction(from.link),
-            along,
-            size: self.model.distance(from.link, from.point, to.point),
-        }
+        Segment::new(self.direction(from.link), along, self.model.distance(from.link, from.point, to.point))
     }
 
-    /// Along a slide or a slot.
-    fn slid(&self, joint: JointId, travel: Expr<'m>) -> Segment<'m> {
-        let Some((carrier, axis)) = self.model.joint(joint).kind.line() else {
-            return Segment {
-                direction: self.direction(GROUND),
-                along: self.graph().zero_vector(),
-                size: self.graph().zero(),
-            };
-        };
-        let along = self.carried(carrier, axis.vector(self.graph())).scaled(travel);
-        Segment { direction: self.direction(carrier), along, size: travel.abs() }
+    /// Adds a part along a slide or a slot.
+    fn push_slid(&self, segments: &mut Vec<Segment<'m>>, joint: JointId, travel: Travel<'m>) {
+        let Some((carrier, axis)) = self.model.joint(joint).kind.line() else { return };
+        let (direction, along) = (self.direction(carrier), self.carried(carrier, axis.vector(self.graph())));
+        for part in [travel.datum, travel.found] {
+            push_segment(segments, Segment::new(direction, along.scaled(part), part.abs()));
+        }
     }
 
     /// The joints on the shortest route between two places on placed links. Of several routes through as few joints, that with the fewest parts:
@@ -566,8 +689,8 @@ fn push_segment<'m>(segments: &mut Vec<Segment<'m>>, segment: Segment<'m>) {
         Some(_) if segment.along.is_zero() => {}
         Some(same) => {
             same.along = same.along + segment.along;
-            let constant = same.along.x.value().is_some() && same.along.y.value().is_some();
-            same.size = if constant { same.along.size() } else { same.size + segment.size };
+            same.constant = same.constant + segment.constant;
+            same.rest = same.rest + segment.rest;
         }
         None => segments.push(segment),
     }

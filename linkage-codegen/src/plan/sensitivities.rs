@@ -119,6 +119,9 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
         for (joint, travel) in placement.travels() {
             tangent.state(travel, motion.of_travel(joint));
         }
+        for (joint, run) in placement.runs() {
+            tangent.state(run, motion.of_travel(joint));
+        }
         for (from, to, sine, cosine) in pivots.stated() {
             let turning = |vector: Vector<'m>| {
                 let own = model.moving_links().find(|link| {

@@ -24,7 +24,8 @@ use crate::topology::{Group, Input};
 enum Place {
     Direction(LinkId),
     Angle(LinkId),
-    Travel(JointId),
+    /// The travel of a slide or a slot, from where its links have pins.
+    Run(JointId),
 }
 
 /// Places the links of a group.
@@ -44,7 +45,7 @@ pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
         numbers = numbers.saturating_add(if matches!(place, Place::Direction(_)) { 2 } else { 1 });
         match place {
             Place::Direction(_) => sought_direction(graph, id, first),
-            Place::Travel(_) | Place::Angle(_) => {
+            Place::Run(_) | Place::Angle(_) => {
                 let travel = graph.symbol(Symbol::Sought(id, first));
                 Vector::new(travel, travel)
             }
@@ -106,12 +107,11 @@ pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
             let angle = angle.held();
             Vector::new(angle, angle)
         }
-        Place::Travel(joint) => {
-            let name = &model.joint(joint).name;
-            let what = model.joint(joint).kind.noun();
-            let travel = next().named(format!("travel_{name}"), format!("travel of the {what} {name}"));
-            unknowns.push(Unknown::Travel { travel, scale });
-            Vector::new(travel, travel)
+        Place::Run(joint) => {
+            let what = format!("travel of the {} {}", model.joint(joint).kind.noun(), model.joint(joint).name);
+            let run = next().named(run_name(model, joint), what);
+            unknowns.push(Unknown::Travel { travel: run, scale });
+            Vector::new(run, run)
         }
     });
     assembly.placed_together(|| placed_together(graph, id, unknowns, 2 * loops.len()));
@@ -216,19 +216,12 @@ fn lay_out<'m>(
         }
         open.retain(|other| *other != link);
     }
-    let mut travels: Vec<(JointId, Expr<'m>)> = Vec::new();
-    let mut travel_of = |joint: JointId| {
-        let along = driven(group, model, joint, false);
-        let known = along.map(|drive| placement.graph().symbol(Symbol::Drive(drive)));
-        let has_line = model.joint(joint).kind.line().is_some();
-        has_line.then(|| known.unwrap_or_else(|| seek(Place::Travel(joint)).x))
-    };
-    for joint in &joints {
-        if let Some(travel) = travel_of(*joint) {
-            travels.push((*joint, travel));
+    for joint in joints.iter().copied().filter(|joint| model.joint(*joint).kind.line().is_some()) {
+        match driven(group, model, joint, false) {
+            Some(drive) => placement.know_travel(joint, placement.graph().symbol(Symbol::Drive(drive))),
+            None => placement.know_run(joint, seek(Place::Run(joint)).x),
         }
     }
-    let travel_of = |joint: JointId| travels.iter().find(|(slide, _)| *slide == joint).map(|(_, travel)| *travel);
     let mut open = group.links.clone();
     let mut closing = joints;
     while let Some(index) = closing.iter().position(|joint| {
@@ -237,19 +230,10 @@ fn lay_out<'m>(
     }) {
         let joint = closing.remove(index);
         open.retain(|link| model.joint(joint).end_on(*link).is_none());
-        match travel_of(joint) {
-            Some(travel) => placement.set_travel(joint, travel),
-            None => placement.connect(joint),
-        }
+        placement.connect(joint);
     }
-    let loops: Vec<(JointId, Way<'m>)> =
-        closing.iter().map(|joint| (*joint, placement.round(*joint, travel_of(*joint)))).collect();
-    for joint in closing {
-        match travel_of(joint) {
-            Some(travel) => placement.set_travel(joint, travel),
-            None => placement.connect(joint),
-        }
-    }
+    let loops = closing.iter().map(|joint| (*joint, placement.round(*joint))).collect();
+    closing.into_iter().for_each(|joint| placement.connect(joint));
     loops
 }
 
@@ -329,19 +313,37 @@ fn driven(group: &Group, model: &Model, joint: JointId, turns: bool) -> Option<D
     })
 }
 
-/// The direction that a link carries, in its own frame: from its first joint to its second, if that is a constant.
+/// The direction that a link carries, in its own frame: from its first pin to its second, or else along its slide, if that is a constant.
 fn axis<'m>(placement: &Placement<'m>, group: &Group, link: LinkId) -> Vector<'m> {
-    let (model, graph) = (placement.model, placement.graph());
-    let x_axis = x_axis(graph);
-    let mut ends = group.outer.iter().chain(&group.inner).filter_map(|joint| model.joint(*joint).end_on(link));
-    let (Some(first), Some(second)) = (ends.next(), ends.next()) else { return x_axis };
+    let (model, x_axis) = (placement.model, x_axis(placement.graph()));
+    let [Some(first), Some(second)] = pins_of(model, group, link) else {
+        return line_of(model, group, link).map(|(_, line)| line).filter(is_constant).unwrap_or(x_axis);
+    };
     let length = model.distance(link, first.point, second.point);
     if length.is_zero() {
         return x_axis;
     }
     let arm = model.local(second) - model.local(first);
     let axis = Vector::new(arm.x / length, arm.y / length);
-    if axis.x.value().is_some() && axis.y.value().is_some() { axis } else { x_axis }
+    if is_constant(&axis) { axis } else { x_axis }
+}
+
+fn is_constant(vector: &Vector<'_>) -> bool {
+    vector.x.value().is_some() && vector.y.value().is_some()
+}
+
+/// The first two points of a link at joints of the group, but for those that may lie anywhere on a line.
+fn pins_of(model: &Model, group: &Group, link: LinkId) -> [Option<End>; 2] {
+    let joints = group.outer.iter().chain(&group.inner).map(|joint| model.joint(*joint));
+    let mut ends = joints.filter(|joint| !joint.is_line_on(link)).filter_map(|joint| joint.end_on(link));
+    [ends.next(), ends.next()]
+}
+
+/// The first line of a link at a joint of the group: a point of it, and its direction in the link's frame.
+fn line_of<'m>(model: &'m Model, group: &Group, link: LinkId) -> Option<(End, Vector<'m>)> {
+    let mut joints = group.outer.iter().chain(&group.inner);
+    let joint = joints.find(|joint| model.joint(**joint).is_line_on(link))?;
+    Some((model.joint(*joint).end_on(link)?, Placement::of_ground(model).slide_axis(*joint, link)))
 }
 
 /// What is zero where the group is closed.
@@ -373,7 +375,7 @@ fn closure<'m>(placement: &Placement<'m>, joint: JointId, way: &Way<'m>) -> [Equ
                 let what = format!("what {link_name} contributes to the loop through {name}");
                 // A direction of a large angle is as uncertain as the angle.
                 if let Some(angle) = placement.unwrapped_angle(link).filter(|angle| angle.stage() == Stage::Iterated) {
-                    size = size + segment.size * angle.abs();
+                    size = size + segment.size() * angle.abs();
                 }
                 part.named(&format!("{link_name}_to_{name}"), &what)
             }
@@ -399,7 +401,7 @@ fn closure<'m>(placement: &Placement<'m>, joint: JointId, way: &Way<'m>) -> [Equ
 fn rounded_size<'m>(segment: &Segment<'m>) -> Expr<'m> {
     let Vector { x, y } = segment.along;
     let half = x.graph().constant(&Number::ratio(1, 2));
-    if x.is_zero() || y.is_zero() { segment.size } else { segment.size + half * (x.abs() + y.abs()) }
+    if x.is_zero() || y.is_zero() { segment.size() } else { segment.size() + half * (x.abs() + y.abs()) }
 }
 
 /// The equation of a gear pair: linear in angles, which count their turns.
@@ -447,14 +449,15 @@ fn change<'m>(equation: &Equation<'m>, id: SearchId, sought: &[Sought], unknown:
     }
 }
 
-/// The length that counts like a turn of one radian: the links' lengths together.
+/// The length that counts like a turn of one radian: of all links together how far apart their joints are, lines taken as a whole.
 fn scale_of<'m>(model: &'m Model, group: &Group) -> Expr<'m> {
     let graph = &model.graph;
-    let length = |link: &LinkId| {
-        let mut ends = group.outer.iter().chain(&group.inner).filter_map(|joint| model.joint(*joint).end_on(*link));
-        ends.next().zip(ends.next()).map(|(a, b)| model.distance(*link, a.point, b.point))
+    let length = |link: &LinkId| match (pins_of(model, group, *link), line_of(model, group, *link)) {
+        ([Some(a), Some(b)], _) => model.distance(*link, a.point, b.point),
+        ([Some(pin), None], Some((point, line))) => (model.local(pin) - model.local(point)).cross(line).abs(),
+        _ => graph.zero(),
     };
-    let sum = group.links.iter().filter_map(length).fold(graph.zero(), |sum, length| sum + length);
+    let sum = group.links.iter().map(length).fold(graph.zero(), |sum, length| sum + length);
     if sum.is_zero() { graph.one() } else { sum }
 }
 
@@ -464,10 +467,14 @@ fn sought(model: &Model, place: Place, scale: Expr<'_>) -> Sought {
         Place::Angle(link) => {
             Sought::Travel { name: format!("angle_{}", model.link(link).name), scale: model.graph.one().id() }
         }
-        Place::Travel(joint) => {
-            Sought::Travel { name: format!("travel_{}", model.joint(joint).name), scale: scale.id() }
-        }
+        Place::Run(joint) => Sought::Travel { name: run_name(model, joint), scale: scale.id() },
     }
+}
+
+/// The name of a travel that is sought.
+fn run_name(model: &Model, joint: JointId) -> String {
+    let is_travel = Placement::of_ground(model).datum(joint).is_zero();
+    format!("{}_{}", if is_travel { "travel" } else { "run" }, model.joint(joint).name)
 }
 
 fn declared(model: &Model, link: LinkId) -> Option<&Start> {
@@ -499,15 +506,14 @@ fn start_of<'m>(assembly: &Assembly<'m>, group: &Group, place: Place) -> Vec<Exp
         Place::Angle(link) => {
             vec![declared(model, link).map_or(graph.zero(), |start| at_start(model, graph.expr(start.angle)))]
         }
-        Place::Travel(joint) => {
-            let data = model.joint(joint);
-            let Some((carrier, axis)) = data.kind.line() else { return vec![graph.zero()] };
-            let at = |end: End| {
+        Place::Run(joint) => {
+            let Some((carrier, axis)) = model.joint(joint).kind.line() else { return vec![graph.zero()] };
+            let [from, to] = placement.counted_between(joint).map(|end| {
                 let (origin, direction) = frame(end.link);
                 origin + model.local(end).turned_by(direction)
-            };
+            });
             let along = axis.vector(graph).turned_by(frame(carrier).1);
-            vec![at_start(model, along.dot(at(data.to) - at(data.from)))]
+            vec![at_start(model, along.dot(to - from))]
         }
     }
 }

@@ -58,9 +58,10 @@ impl Rule for Prp {
         let (cosine, sine) = dyad.state_slides(assembly, slides(&dyad))?;
         let pin = dyad.joint_name(dyad.inner);
         let [first_name, second_name] = [first, second].map(|leg| dyad.link_name(leg));
-        let e = assembly.placement.slide_direction(second.outer);
+        let line = assembly.placement.line(second.outer);
+        let e = line.direction;
         let way = assembly.placement.way(first.tip, second.tip);
-        let gap = way.resolved_along(e);
+        let gap = way.resolved_along(line);
         let gap = gap.named(
             &format!("g_{pin}"),
             &format!(

@@ -62,9 +62,10 @@ impl Rule for Rpp {
         let (cosine, sine) = dyad.state_slides(assembly, slides(&dyad))?;
         let [outer, inner] = slides(&dyad).map(|slide| dyad.joint_name(slide));
         let pin = dyad.joint_name(pinned.outer);
-        let e = assembly.placement.slide_direction(dyad.inner);
+        let line = assembly.placement.line(dyad.inner);
+        let e = line.direction;
         let way = assembly.placement.way(pinned.near, pinned.far);
-        let gap = way.resolved_along(e);
+        let gap = way.resolved_along(line);
         let gap = gap.named(
             &format!("g_{pin}"),
             &format!(

@@ -22,7 +22,7 @@ use crate::model::{Model, Side};
 use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Pivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
-use crate::plan::placement::Way;
+use crate::plan::placement::{Line, Way};
 use crate::plan::velocities::Motion;
 use crate::topology::Group;
 
@@ -141,11 +141,12 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let ahead = ahead(assembly, group, dyad.inner, rod_leg.outer, lies)?;
     assembly.placement.orient_along(slide, slider_leg.link());
     dyad.place_rest(assembly, slider_leg, slider_leg.link())?;
-    let e = assembly.placement.slide_direction(slide);
+    let line = assembly.placement.line(slide);
+    let e = line.direction;
     // With the travel still zero, the way goes from A over the guide to B.
     assembly.placement.connect(slide);
     let way = assembly.placement.way(rod_leg.far, slider_leg.tip);
-    let meeting = meet((r, dyad.slack(rod_leg)), &way, e, ahead, [inner, outer], dyad.group_name());
+    let meeting = meet((r, dyad.slack(rod_leg)), &way, line, ahead, [inner, outer], dyad.group_name());
     let Meeting { q, h, cosine, sine, pivot } = meeting;
     let name = dyad.link_name(rod_leg);
     let direction = Vector::new(cosine, sine).turned_by(e);
@@ -227,17 +228,17 @@ pub(super) struct Meeting<'m> {
 pub(super) fn meet<'m>(
     (r, slack): (Expr<'m>, Expr<'m>),
     way: &Way<'m>,
-    e: Vector<'m>,
+    line: Line<'m>,
     ahead: Sign<'m>,
     [inner, outer]: [&str; 2],
     group: String,
 ) -> Meeting<'m> {
     let graph = r.graph();
     let pivot_name = format!("sin_mu_{inner}");
-    let q = way.resolved_along(e);
+    let q = way.resolved_along(line);
     let g = q.y.named(format!("g_{inner}"), format!("g = e × Q, Q from {outer} to {inner} at no travel"));
     let h2 = ((r - g) * (r + g)).named(format!("h2_{inner}"), "h² = (r − g)(r + g)");
-    let reach = reach_across(way, e);
+    let reach = reach_across(way, &line);
     let (h2, rounding) = if (r - reach).sign() == Some(1) {
         (h2.known_positive(), graph.zero())
     } else {
@@ -263,11 +264,11 @@ pub(super) fn meet<'m>(
 }
 
 /// How far across the slide the parts of a way reach together.
-fn reach_across<'m>(way: &Way<'m>, e: Vector<'m>) -> Expr<'m> {
-    let graph = e.graph();
+fn reach_across<'m>(way: &Way<'m>, line: &Line<'m>) -> Expr<'m> {
+    let graph = line.direction.graph();
     way.segments.iter().fold(graph.zero(), |sum, segment| {
-        let constant = segment.along.turned_by(segment.direction.resolved_along(e)).y;
-        let size = if constant.value().is_some() { constant.abs() } else { segment.size };
+        let constant = segment.resolved_along(line).y;
+        let size = if constant.value().is_some() { constant.abs() } else { segment.size() };
         sum + size
     })
 }

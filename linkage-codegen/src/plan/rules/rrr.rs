@@ -588,7 +588,7 @@ fn by_driven_length<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>, driven: 
 
 /// The least and the largest distance that constant parts of a way can make up.
 fn reach<'m>(way: &Way<'m>) -> (Option<Expr<'m>>, Option<Expr<'m>>) {
-    let sizes: Option<Vec<Number>> = way.segments.iter().map(|s| s.size.value()).collect();
+    let sizes: Option<Vec<Number>> = way.segments.iter().map(|s| s.size().value()).collect();
     let Some(sizes) = sizes else { return (None, None) };
     let sum = sizes.iter().fold(Number::zero(), |sum, size| sum.add(size));
     let longest = sizes

@@ -292,9 +292,10 @@ fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<
         super::length_between(model, link, [held, slot])
     };
     let (name, at, about) = (parts.name(), parts.joint_name(slot), parts.joint_name(held));
-    let e = assembly.placement.slide_direction(slot);
+    let line = assembly.placement.line(slot);
+    let e = line.direction;
     let way = assembly.placement.way(from, to);
-    let Meeting { q, h, cosine, sine, pivot } = meet((r, slack), &way, e, ahead, [at, about], name.into());
+    let Meeting { q, h, cosine, sine, pivot } = meet((r, slack), &way, line, ahead, [at, about], name.into());
     let mut direction = Vector::new(cosine, sine).turned_by(e);
     let axis = Vector::new(arm.x / r, arm.y / r);
     let orientation = if moves {
@@ -352,7 +353,7 @@ impl Rule for SlotAndSlide {
         let (line, pin) = if carried_by_first { (data.from, data.to) } else { (data.to, data.from) };
         let way = assembly.placement.way(line, pin);
         let [e, m] = [slot, slide].map(|joint| assembly.placement.slide_direction(joint));
-        let q = way.resolved_along(e);
+        let q = way.resolved_along(assembly.placement.line(slot));
         let (sine, cosine) = inclination(&assembly.placement, &assembly.pivots, &parts);
         let (at, along) = (parts.joint_name(slot), parts.joint_name(slide));
         // Sliding forwards, the link takes the pin along, or the slot from under it.
