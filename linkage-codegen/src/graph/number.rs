@@ -320,11 +320,17 @@ impl Number {
     /// Whether the nearest number of a scalar is finite, and zero only for zero.
     #[must_use]
     pub fn fits(&self, scalar: Scalar) -> bool {
-        let nearest = match scalar {
+        let nearest = self.nearest(scalar);
+        nearest.is_finite() && (nearest != 0.0 || self.is_zero())
+    }
+
+    /// Nearest number of a scalar, ties to even; infinite beyond the range.
+    #[must_use]
+    pub fn nearest(&self, scalar: Scalar) -> f64 {
+        match scalar {
             Scalar::F64 => self.to_f64(),
             Scalar::F32 => f64::from(self.to_f32()),
-        };
-        nearest.is_finite() && (nearest != 0.0 || self.is_zero())
+        }
     }
 
     /// Whether it is so large or so small that its exponent alone would be a burden.

@@ -32,8 +32,8 @@
 //! The solution of linear equations is known by what it leaves open of them (see `solutions`).
 //!
 //! A quotient counts twice, because it may become a product with a reciprocal. What is given (drives, parameters, loads) is exact; constants
-//! are rounded once. Shares and bounds are rounded as well: what all of them lack is of second order, and made up for where a result takes its
-//! bound.
+//! are rounded once, by what is known when compiled. Shares and bounds are rounded as well: what all of them lack is of second order, and
+//! made up for where a result takes its bound.
 
 mod solutions;
 
@@ -41,7 +41,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::elimination::Equation;
 use super::number::Number;
-use super::{Expr, Graph, Kernel, NodeId, Op, Scalar, Vector};
+use super::{Expr, Graph, Kernel, NodeId, Op, Vector};
 
 pub(crate) use solutions::Inverse;
 
@@ -424,7 +424,7 @@ impl<'g> Rounding<'g> {
         let graph = self.graph;
         let value = graph.expr(of);
         match graph.op(of) {
-            Op::Constant(_) => Deviation::within(if self.is_exact(value) { graph.zero() } else { self.rounded(value) }),
+            Op::Constant(_) => Deviation::within(self.rounding_of_constant(value)),
             Op::Symbol(_) => Deviation::within(graph.zero()),
             Op::Neg(a) => self.deviation(a).opposite(),
             // No further than the value, but which way is open where that may change its sign.
@@ -625,14 +625,15 @@ impl<'g> Rounding<'g> {
         self.graph.constant(&unit) * value.abs()
     }
 
-    /// Whether a constant is a number of the scalar.
-    fn is_exact(&self, constant: Expr<'g>) -> bool {
-        let Some(number) = constant.value() else { return false };
-        let nearest = match self.graph.scalar() {
-            Scalar::F64 => number.to_f64(),
-            Scalar::F32 => f64::from(number.to_f32()),
-        };
-        Number::from_f64(nearest).is_some_and(|nearest| nearest.compare(&number).is_eq())
+    /// How far a constant is from the number of the scalar that stands for it: known when compiled. Of one that is all but such a number
+    /// a thousandth of what it could be, lest the scalar cannot hold it.
+    fn rounding_of_constant(&self, constant: Expr<'g>) -> Expr<'g> {
+        let scalar = self.graph.scalar();
+        let Some(number) = constant.value() else { return self.rounded(constant) };
+        let Some(nearest) = Number::from_f64(number.nearest(scalar)) else { return self.rounded(constant) };
+        let [off, least] = [nearest.sub(&number), scalar.epsilon().mul(&number).mul(&Number::power_of_two(-11))]
+            .map(|number| number.abs());
+        self.graph.constant(if off.is_zero() || off.compare(&least).is_gt() { &off } else { &least })
     }
 }
 
