@@ -253,10 +253,9 @@ impl<'m> Placement<'m> {
     /// each other.
     #[must_use]
     pub fn datum(&self, joint: JointId) -> Expr<'m> {
-        let ends = self.model.joint(joint).ends().into_iter().zip(self.counted_between(joint));
-        let [from, to] = [0, 1].map(|index| ends.clone().nth(index).map(|(own, pin)| self.along_line(joint, own, pin)));
-        let zero = || self.graph().zero();
-        from.unwrap_or_else(zero) - to.unwrap_or_else(zero)
+        let [from, to] = self.model.joint(joint).ends();
+        let [near_from, near_to] = self.counted_between(joint);
+        self.along_line(joint, from, near_from) - self.along_line(joint, to, near_to)
     }
 
     /// Between what the travel of a slide or a slot is counted while it is sought: a pin of either link, if there is one and its distance
