@@ -319,13 +319,13 @@ impl<'g> Rounding<'g> {
     pub fn bound(&mut self, of: Expr<'g>) -> Expr<'g> {
         let graph = self.graph;
         let error = self.deviation(of.id()).total();
-        if error.value().is_some() {
-            return error;
-        }
         // More than thousands of operations on bounds can lose, and more than what signs may cancel in the shares: of a share's roundings
         // each is 2u of an error, where the value's own are u of the value.
         let generous = Number::one().add(&Number::power_of_two(-7));
         let (bound, largest) = (graph.constant(&generous) * error, graph.largest());
+        if bound.value().is_some() {
+            return bound;
+        }
         let known = graph.one().where_above(largest, bound);
         bound.where_above(largest, bound) + largest * (graph.one() - known)
     }
