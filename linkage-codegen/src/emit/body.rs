@@ -415,7 +415,7 @@ impl<'a> Body<'a> {
             statements.push(match step {
                 Step::Let(value) => self.let_statement(*value, &mut calls),
                 _ if self.checks == Checks::Gathered => TokenStream::new(),
-                Step::Check { guard, .. } => self.check(guard),
+                Step::Check { guard, weaker, .. } => self.check(guard, weaker.as_ref()),
                 Step::FiniteInput(value) => {
                     let name = self.value(*value);
                     let text = name.to_string();
@@ -490,8 +490,12 @@ impl<'a> Body<'a> {
         }
     }
 
-    fn check(&self, guard: &Guard<ValueId>) -> TokenStream {
+    fn check(&self, guard: &Guard<ValueId>, weaker: Option<&Guard<ValueId>>) -> TokenStream {
         let condition = self.condition(guard);
+        if self.checks == Checks::Silent {
+            return quote!(if !(#condition) { return None; });
+        }
+        let weaker = weaker.map(|weaker| self.check(weaker, None));
         let failure = match &guard.failure {
             Failure::CannotAssemble { group, joint, gap } => {
                 let gap = self.value(*gap);
@@ -510,11 +514,7 @@ impl<'a> Body<'a> {
             Failure::CoincidentEnds { of } => quote!(Error::CoincidentEnds { of: #of }),
             Failure::Parameter { requirement } => quote!(Error::Parameter { requirement: #requirement }),
         };
-        if self.checks == Checks::Silent {
-            quote!(if !(#condition) { return None; })
-        } else {
-            quote!(if !(#condition) { return Err(#failure); })
-        }
+        quote!(if !(#condition) { #weaker return Err(#failure); })
     }
 
     /// What is checked to be finite, as an array.

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::Linkage;
-use crate::graph::Search;
+use crate::graph::{Failure, Search};
 use crate::model::Method;
 use crate::program::{Program, Step};
 use crate::topology::Group;
@@ -164,7 +164,6 @@ pub(super) fn on_the_way(search: &Search, program: &Program) -> TokenStream {
 }
 
 fn errors(program: &Program) -> Vec<String> {
-    use crate::graph::Failure;
     let mut all: Vec<String> = Vec::new();
     let mut add = |line: String| {
         if !all.contains(&line) {
@@ -173,30 +172,9 @@ fn errors(program: &Program) -> Vec<String> {
     };
     for step in &program.steps {
         match step {
-            Step::Check { guard, .. } => match &guard.failure {
-                Failure::CannotAssemble { group, joint, .. } => {
-                    add(format!("* [`Error::CannotAssemble`]: {group} cannot be closed at `{joint}`."));
-                }
-                Failure::CoincidentPivots { group, joint } => {
-                    add(format!(
-                        "* [`Error::CoincidentPivots`]: the outer joints of {group} coincide, the place of `{joint}` is open."
-                    ));
-                }
-                Failure::NoConvergence { group, .. } => {
-                    add(format!("* [`Error::NoConvergence`]: the search for the places of {group} does not arrive."));
-                }
-                Failure::DeadCentre { group, pivot } => {
-                    add(format!("* [`Error::DeadCentre`]: {group} is at a dead centre, `{pivot}` vanishes."));
-                }
-                Failure::OtherSide { joint } => add(format!(
-                    "* [`Error::OtherSide`]: only with `{joint}` on the other side than is chosen does it have these coordinates."
-                )),
-                Failure::NoDirection { of } => add(format!("* [`Error::NoDirection`]: {of} vanishes.")),
-                Failure::CoincidentEnds { of } => {
-                    add(format!("* [`Error::CoincidentEnds`]: the points between which `{of}` acts coincide."));
-                }
-                Failure::Parameter { requirement } => add(format!("* [`Error::Parameter`]: {requirement}.")),
-            },
+            Step::Check { guard, weaker, .. } => {
+                weaker.iter().chain([guard]).for_each(|guard| add(of_failure(&guard.failure)));
+            }
             Step::FiniteInput(_) => add("* [`Error::NotFinite`]: a drive is not a finite number.".into()),
             Step::FiniteResults(_) => {
                 let read = match (program.reads_motion(), program.reads_loads()) {
@@ -214,4 +192,29 @@ fn errors(program: &Program) -> Vec<String> {
         all.push("None: what it computes is always defined.".into());
     }
     all
+}
+
+fn of_failure<T>(failure: &Failure<T>) -> String {
+    match failure {
+        Failure::CannotAssemble { group, joint, .. } => {
+            format!("* [`Error::CannotAssemble`]: {group} cannot be closed at `{joint}`.")
+        }
+        Failure::CoincidentPivots { group, joint } => format!(
+            "* [`Error::CoincidentPivots`]: the outer joints of {group} coincide, the place of `{joint}` is open."
+        ),
+        Failure::NoConvergence { group, .. } => {
+            format!("* [`Error::NoConvergence`]: the search for the places of {group} does not arrive.")
+        }
+        Failure::DeadCentre { group, pivot } => {
+            format!("* [`Error::DeadCentre`]: {group} is at a dead centre, `{pivot}` vanishes.")
+        }
+        Failure::OtherSide { joint } => format!(
+            "* [`Error::OtherSide`]: only with `{joint}` on the other side than is chosen does it have these coordinates."
+        ),
+        Failure::NoDirection { of } => format!("* [`Error::NoDirection`]: {of} vanishes."),
+        Failure::CoincidentEnds { of } => {
+            format!("* [`Error::CoincidentEnds`]: the points between which `{of}` acts coincide.")
+        }
+        Failure::Parameter { requirement } => format!("* [`Error::Parameter`]: {requirement}."),
+    }
 }

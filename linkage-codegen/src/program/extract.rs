@@ -227,7 +227,7 @@ impl Building<'_> {
         let repeated =
             self.program.steps.iter().any(|step| matches!(step, Step::Check { guard: other, .. } if *other == guard));
         if !repeated {
-            self.program.steps.push(Step::Check { guard, report });
+            self.program.steps.push(Step::Check { guard, weaker: None, report });
         }
     }
 }

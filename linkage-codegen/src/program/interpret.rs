@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::{Definition, Input, Program, Step, ValueId};
 use crate::graph::real::Real;
-use crate::graph::{Condition, Failure, Graph, Kernel, Op};
+use crate::graph::{Failure, Graph, Guard, Kernel, Op};
 
 /// Why a program stopped.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,18 +41,14 @@ impl Run<'_> {
         for step in &self.program.steps {
             match step {
                 Step::Let(value) => drop(self.value(*value, inputs, &mut values)),
-                Step::Check { guard, .. } => {
-                    let passes = match guard.condition {
-                        Condition::Above { value, limit } => {
-                            let limit = self.value(limit, inputs, &mut values);
-                            self.value(value, inputs, &mut values).above(&limit)
-                        }
-                        Condition::AtLeast { value, limit } => {
-                            let limit = self.value(limit, inputs, &mut values);
-                            self.value(value, inputs, &mut values).at_least(&limit)
-                        }
+                Step::Check { guard, weaker, .. } => {
+                    let mut fails = |guard: &Guard<ValueId>| {
+                        let [value, limit] =
+                            guard.condition.operands().map(|side| self.value(side, inputs, &mut values));
+                        !guard.condition.holds(&value, &limit)
                     };
-                    if !passes {
+                    if fails(guard) {
+                        let guard = weaker.as_ref().filter(|weaker| fails(weaker)).unwrap_or(guard);
                         return Err(Fault::Failed(guard.failure.map(|_| ())));
                     }
                 }

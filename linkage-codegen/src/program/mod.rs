@@ -18,6 +18,8 @@ pub use interpret::{Fault, Run};
 pub use range::check_range;
 pub use start::check_start;
 
+use core::iter;
+
 use crate::graph::{Guard, Label, NodeId, Op, Symbol};
 
 /// A value of a program.
@@ -80,6 +82,8 @@ pub enum Step {
     Check {
         /// What must hold, and what is reported otherwise.
         guard: Guard<ValueId>,
+        /// What holds wherever this does: asked only where this does not, to tell why.
+        weaker: Option<Guard<ValueId>>,
         /// What is computed only to be reported.
         report: Vec<ValueId>,
     },
@@ -163,9 +167,11 @@ impl Program {
     pub fn operands_of(&self, step: &Step) -> Vec<ValueId> {
         match step {
             Step::Let(value) => self.op(*value).map(Op::operands).unwrap_or_default(),
-            Step::Check { guard, .. } => {
-                let reported = guard.failure.operand();
-                guard.condition.operands().into_iter().chain(reported).collect()
+            Step::Check { guard, weaker, .. } => {
+                let read = |guard: &Guard<ValueId>| {
+                    guard.condition.operands().into_iter().chain(guard.failure.operand()).collect::<Vec<_>>()
+                };
+                iter::once(guard).chain(weaker).flat_map(read).collect()
             }
             Step::FiniteInput(value) => vec![*value],
             // Results are counted as such.

@@ -1,6 +1,7 @@
 //! What is improved in a program after it is taken out of the graph. Each pass keeps the results up to rounding; tests run every
 //! program before and after each of them.
 
+mod checks;
 mod common;
 mod constants;
 mod cycles;
@@ -23,8 +24,9 @@ use crate::graph::{Graph, Guard, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 12] = [
+pub const PASSES: [(&str, Pass); 13] = [
     ("pivots", pivots::compare_directly),
+    ("checks", checks::ask_once),
     ("reciprocals", reciprocals::share),
     ("constants", constants::merge),
     ("unused", unused::remove),
@@ -65,9 +67,12 @@ impl Program {
             }
         }
         match step {
-            Step::Check { guard, report } => {
-                let failure = guard.failure.map(name);
-                Step::Check { guard: Guard { condition: guard.condition.map(name), failure }, report }
+            Step::Check { guard, weaker, report } => {
+                let renamed = |guard: Guard<ValueId>| Guard {
+                    condition: guard.condition.map(name),
+                    failure: guard.failure.map(name),
+                };
+                Step::Check { guard: renamed(guard), weaker: weaker.map(renamed), report }
             }
             step => step,
         }

@@ -13,23 +13,23 @@ pub(super) fn compare_directly(mut program: Program, graph: &Graph) -> Program {
     let mut steps = Vec::new();
     for step in core::mem::take(&mut program.steps) {
         let step = program.reading(step, &replaced);
-        let Step::Check { guard, report } = step else {
+        let Step::Check { guard, weaker: None, report } = step else {
             steps.push(step);
             continue;
         };
         let Some(mut pivot) = not_zero(&program, graph, &guard) else {
-            steps.push(Step::Check { guard, report });
+            steps.push(Step::Check { guard, weaker: None, report });
             continue;
         };
         let first = pivot;
         while let Some(Op::Where { value, limit, then }) = program.op(pivot).cloned() {
             let condition = Condition::Above { value, limit };
             let guard = Guard { condition, failure: guard.failure.clone() };
-            steps.push(Step::Check { guard, report: Vec::new() });
+            steps.push(Step::Check { guard, weaker: None, report: Vec::new() });
             pivot = then;
         }
         if pivot == first {
-            steps.push(Step::Check { guard, report });
+            steps.push(Step::Check { guard, weaker: None, report });
         } else {
             replaced.insert(first, pivot);
         }
