@@ -460,7 +460,11 @@ impl<'g> Rounding<'g> {
                 let (a, b) = (graph.expr(a), graph.expr(b));
                 let both = if da.is_zero() || db.is_zero() { graph.zero() } else { da.total() * db.total() };
                 let passed = db.scaled(a).plus(&da.scaled(b)).and(both);
-                if is_power_of_two(a) || is_power_of_two(b) { passed } else { passed.and(self.rounded(value)) }
+                if is_power_of_two(a) || is_power_of_two(b) {
+                    passed
+                } else {
+                    passed.and(self.rounded(value) + self.of_multiplied_terms(value))
+                }
             }
             Op::Div(a, b) => {
                 let (da, db) = (self.deviation(a), self.deviation(b));
@@ -487,6 +491,30 @@ impl<'g> Rounding<'g> {
                 da.scaled(factor).and(half * (value * (part * part)) + self.rounded(value))
             }
             Op::Kernel { kernel, args, part } => self.of_kernel(value, kernel, &args, part),
+        }
+    }
+
+    /// What is rounded more where `k(a x ± b y)` becomes `(ka) x ± (kb) y`: of ka and kb it is not what they are off, and each product counts
+    /// by itself, however little is left of the sum.
+    fn of_multiplied_terms(&self, product: Expr<'g>) -> Expr<'g> {
+        let graph = self.graph;
+        let terms = |k: NodeId, sum: NodeId| match graph.op(sum) {
+            Op::Add(a, b) | Op::Sub(a, b) if graph.expr(k).value().is_some() && graph.label(sum).is_none() => {
+                let is_multiple = |term: &NodeId| match graph.op(*term) {
+                    Op::Constant(_) => true,
+                    Op::Mul(a, b) => [a, b].iter().any(|factor| graph.expr(*factor).value().is_some()),
+                    _ => false,
+                };
+                [a, b]
+                    .iter()
+                    .all(is_multiple)
+                    .then(|| graph.expr(k).abs() * (graph.expr(a).abs() + graph.expr(b).abs()))
+            }
+            _ => None,
+        };
+        match product.op() {
+            Op::Mul(a, b) => terms(a, b).or_else(|| terms(b, a)).map_or(graph.zero(), |terms| self.rounded(terms)),
+            _ => graph.zero(),
         }
     }
 

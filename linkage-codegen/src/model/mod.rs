@@ -1030,13 +1030,6 @@ impl Model {
         (0..self.joints.len()).map(JointId::new)
     }
 
-    /// The first pin, or weld, of a link beside this joint.
-    #[must_use]
-    pub fn pin_beside(&self, joint: JointId, link: LinkId) -> Option<End> {
-        let others = self.joint_ids().filter(|other| *other != joint).map(|other| self.joint(other));
-        others.filter(|other| !other.is_line_on(link)).find_map(|other| other.end_on(link))
-    }
-
     /// The drive of a joint's angle, or of its travel.
     #[must_use]
     pub fn drive_of(&self, joint: JointId, turns: bool) -> Option<DriveId> {

@@ -346,10 +346,11 @@ fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
         let what = model.joint(joint).kind.noun();
         keep(format!("travel_{name}"), format!("travel of the {what} `{name}`, {unit}"), travel);
     }
-    for (joint, run) in assembly.placement.runs() {
+    for (joint, run, between) in assembly.placement.runs() {
         let (name, unit) = (&model.joint(joint).name, Kind::Length.unit(&model.units));
-        let [from, to] = assembly.placement.counted_between(joint).map(|end| model.end_name(end));
-        keep(format!("run_{name}"), format!("the same from `{from}` to `{to}`, {unit}"), run);
+        let [from, to] = between.map(|end| model.end_name(end));
+        let what = model.joint(joint).kind.noun();
+        keep(format!("run_{name}"), format!("travel of the {what} `{name}` from `{from}` to `{to}`, {unit}"), run);
     }
     for (slot, arm) in assembly.placement.arms() {
         let (name, unit) = (&model.joint(slot).name, Kind::Length.unit(&model.units));

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::placement::{Placement, Way};
+use super::placement::{Line, Placement, Way};
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::JointId;
 
@@ -47,9 +47,9 @@ impl<'m> Pivots<'m> {
 
     /// The distance of two pins along the slide between them as a divisor: what is known of it, or the sum of the way.
     #[must_use]
-    pub fn dividing_reach(&self, slide: JointId, way: &Way<'m>, e: Vector<'m>, name: &str, group: &str) -> Expr<'m> {
+    pub fn dividing_reach(&self, slide: JointId, way: &Way<'m>, line: Line<'m>, name: &str, group: &str) -> Expr<'m> {
         let of_way = || {
-            let reach = way.resolved_along(e).x.named(name, "from pin to pin, along the slide");
+            let reach = way.resolved_along(line).x.named(name, "from pin to pin, along the slide");
             reach.where_above(reach.abs(), reach.graph().epsilons(ROUNDING) * way.length())
         };
         divisor(self.reaches.get(&slide).copied().unwrap_or_else(of_way), name, group)

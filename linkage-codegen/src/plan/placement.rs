@@ -49,30 +49,38 @@ impl Spot {
 pub struct Segment<'m> {
     /// The direction with which it turns.
     pub direction: Vector<'m>,
-    /// Its components along and across that direction.
-    pub along: Vector<'m>,
-    /// What of them is constant, in one sum that is exact.
+    /// What of its components along and across that direction varies.
+    varying: Vector<'m>,
+    /// What of them is constant: one sum, which is exact.
     constant: Vector<'m>,
-    /// The lengths of the other parts together.
+    /// The lengths of the parts that vary.
     rest: Expr<'m>,
 }
 
 impl<'m> Segment<'m> {
     /// A part of this length.
     fn new(direction: Vector<'m>, along: Vector<'m>, size: Expr<'m>) -> Self {
-        let zero = size.graph().zero();
-        let is_constant = along.x.value().is_some() && along.y.value().is_some();
-        let (constant, rest) = if is_constant { (along, zero) } else { (Vector::new(zero, zero), size) };
-        Self { direction, along, constant, rest }
+        let graph = size.graph();
+        if along.x.value().is_some() && along.y.value().is_some() {
+            Self { direction, varying: graph.zero_vector(), constant: along, rest: graph.zero() }
+        } else {
+            Self { direction, varying: along, constant: graph.zero_vector(), rest: size }
+        }
+    }
+
+    /// Its components along and across its direction.
+    #[must_use]
+    pub fn along(&self) -> Vector<'m> {
+        self.varying + self.constant
     }
 
     /// Its components along and across a direction: constant if it turns with the link that carries the line.
     #[must_use]
     pub fn resolved_along(&self, line: &Line<'m>) -> Vector<'m> {
         if self.direction == line.carrier {
-            self.along.resolved_along(line.axis)
+            self.along().resolved_along(line.axis)
         } else {
-            self.along.turned_by(self.direction.resolved_along(line.direction))
+            self.along().turned_by(self.direction.resolved_along(line.direction))
         }
     }
 
@@ -113,7 +121,7 @@ impl<'m> Way<'m> {
     /// The vector from its start to its end.
     #[must_use]
     pub fn vector(&self) -> Vector<'m> {
-        let parts = self.segments.iter().map(|s| s.along.turned_by(s.direction));
+        let parts = self.segments.iter().map(|s| s.along().turned_by(s.direction));
         parts.reduce(|sum, part| sum + part).unwrap_or_else(|| self.graph.zero_vector())
     }
 
@@ -141,6 +149,8 @@ struct Travel<'m> {
     datum: Expr<'m>,
     /// Both together.
     whole: Expr<'m>,
+    /// From where to where the former counts.
+    between: [End; 2],
 }
 
 impl<'m> Travel<'m> {
@@ -154,7 +164,7 @@ impl Neg for Travel<'_> {
     type Output = Self;
 
     fn neg(self) -> Self {
-        Self { found: -self.found, datum: -self.datum, whole: -self.whole }
+        Self { found: -self.found, datum: -self.datum, whole: -self.whole, ..self }
     }
 }
 
@@ -224,15 +234,19 @@ impl<'m> Placement<'m> {
 
     /// The same of one through which no ways go yet.
     pub fn know_travel(&mut self, joint: JointId, travel: Expr<'m>) {
-        let found = travel.held();
-        self.travels.insert(joint, Travel { found, datum: self.graph().zero(), whole: found });
+        self.know_run(joint, travel, self.model.joint(joint).ends());
     }
 
-    /// The same of one that is counted from where the links have pins: without [`Self::datum`].
-    pub fn know_run(&mut self, joint: JointId, run: Expr<'m>) {
-        let (found, datum, name) = (run.held(), self.datum(joint), &self.model.joint(joint).name);
-        let whole = (found + datum).named(format!("travel_{name}"), format!("travel of {name}"));
-        self.travels.insert(joint, Travel { found, datum, whole: whole.held() });
+    /// The same of one that is counted between other points of its links.
+    pub fn know_run(&mut self, joint: JointId, run: Expr<'m>, between: [End; 2]) {
+        let (found, datum, name) = (run.held(), self.datum(joint, between), &self.model.joint(joint).name);
+        let whole = if datum.is_zero() {
+            found
+        } else {
+            let [from, to] = self.model.joint(joint).ends().map(|end| self.model.end_name(end));
+            (found + datum).named(format!("travel_{name}"), format!("travel of {name}, from {from} to {to}")).held()
+        };
+        self.travels.insert(joint, Travel { found, datum, whole, between });
     }
 
     /// The travel of a slide or a slot: of its second point from its first, along its direction. Where it is not known yet, zero.
@@ -245,33 +259,22 @@ impl<'m> Placement<'m> {
         let driven = || self.model.drive_of(joint, false).map(|drive| self.graph().symbol(Symbol::Drive(drive)));
         self.travels.get(&joint).copied().unwrap_or_else(|| {
             let whole = driven().unwrap_or_else(|| self.graph().zero());
-            Travel { found: whole, datum: self.graph().zero(), whole }
+            let between = self.model.joint(joint).ends();
+            Travel { found: whole, datum: self.graph().zero(), whole, between }
         })
     }
 
-    /// How far the second point of a slide or a slot is from its first one, along its direction, where [`Self::counted_between`] lie beside
+    /// How far the second point of a slide or a slot is from its first one, along its direction, where these points of its links lie beside
     /// each other.
     #[must_use]
-    pub fn datum(&self, joint: JointId) -> Expr<'m> {
+    pub fn datum(&self, joint: JointId, [near_from, near_to]: [End; 2]) -> Expr<'m> {
         let [from, to] = self.model.joint(joint).ends();
-        let [near_from, near_to] = self.counted_between(joint);
         self.along_line(joint, from, near_from) - self.along_line(joint, to, near_to)
     }
 
-    /// Between what the travel of a slide or a slot is counted while it is sought: a pin of either link, if there is one and its distance
-    /// along the line is a constant, or else the joint's own point. A pin in a slot is a place of its link; all other points of these joints
-    /// may be declared anywhere on the line, far from where anything is.
-    #[must_use]
-    pub fn counted_between(&self, joint: JointId) -> [End; 2] {
-        let data = self.model.joint(joint);
-        data.ends().map(|own| {
-            let near = self.model.pin_beside(joint, own.link).filter(|_| data.is_line_on(own.link));
-            near.filter(|pin| self.along_line(joint, own, *pin).value().is_some()).unwrap_or(own)
-        })
-    }
-
     /// How far a point of a link of a slide or a slot is ahead of another one, along the line.
-    fn along_line(&self, joint: JointId, from: End, to: End) -> Expr<'m> {
+    #[must_use]
+    pub fn along_line(&self, joint: JointId, from: End, to: End) -> Expr<'m> {
         self.slide_axis(joint, from.link).dot(self.model.local(to) - self.model.local(from))
     }
 
@@ -298,10 +301,10 @@ impl<'m> Placement<'m> {
         self.travels.iter().map(|(joint, travel)| (*joint, travel.whole))
     }
 
-    /// Those slides and slots of which the travel was not counted from their own points, with what was found.
-    pub fn runs(&self) -> impl Iterator<Item = (JointId, Expr<'m>)> {
+    /// Those slides and slots of which the travel was not counted between their own points, with what was found, and between which it counts.
+    pub fn runs(&self) -> impl Iterator<Item = (JointId, Expr<'m>, [End; 2])> {
         let apart = self.travels.iter().filter(|(_, travel)| !travel.datum.is_zero());
-        apart.map(|(joint, travel)| (*joint, travel.found))
+        apart.map(|(joint, travel)| (*joint, travel.found, travel.between))
     }
 
     /// The lever arm of a slot's normal about a pin of the same link is known, zero where it is no larger than its rounding: made of
@@ -387,8 +390,11 @@ impl<'m> Placement<'m> {
     /// The same with what is known of it on the link that carries it.
     #[must_use]
     pub fn line(&self, joint: JointId) -> Line<'m> {
-        let (direction, axis) = (self.slide_direction(joint), self.slide_along(joint));
-        Line { direction, carrier: self.carrier_direction(joint), axis }
+        Line {
+            direction: self.slide_direction(joint),
+            carrier: self.carrier_direction(joint),
+            axis: self.slide_along(joint),
+        }
     }
 
     /// The direction from the centre of a gear pair's first wheel to that of the second, in ground axes.
@@ -611,7 +617,7 @@ impl<'m> Placement<'m> {
         if let Some(slot) = to_slot {
             self.push_slid(&mut segments, slot, self.travel_on(slot, to.link));
         }
-        segments.retain(|s| !s.along.is_zero());
+        segments.retain(|s| !s.along().is_zero());
         Way { segments, graph: self.graph() }
     }
 
@@ -644,7 +650,8 @@ impl<'m> Placement<'m> {
 
     /// The joints on the shortest route between two places on placed links. Of several routes through as few joints, that with the fewest parts:
     /// one through a pin at the place itself does not go away along a link and come back along another one.
-    fn route(&self, from: End, to: End) -> Vec<JointId> {
+    #[must_use]
+    pub fn route(&self, from: End, to: End) -> Vec<JointId> {
         let mut reached = BTreeSet::from([from.link]);
         let mut front: Vec<(End, usize, Vec<JointId>)> = vec![(from, 0, Vec::new())];
         while !front.is_empty() {
@@ -684,10 +691,10 @@ impl<'m> Placement<'m> {
 /// Adds a segment; what turns together is added up in its own axes.
 fn push_segment<'m>(segments: &mut Vec<Segment<'m>>, segment: Segment<'m>) {
     match segments.iter_mut().find(|s| s.direction == segment.direction) {
-        Some(same) if same.along.is_zero() => *same = segment,
-        Some(_) if segment.along.is_zero() => {}
+        Some(same) if same.along().is_zero() => *same = segment,
+        Some(_) if segment.along().is_zero() => {}
         Some(same) => {
-            same.along = same.along + segment.along;
+            same.varying = same.varying + segment.varying;
             same.constant = same.constant + segment.constant;
             same.rest = same.rest + segment.rest;
         }

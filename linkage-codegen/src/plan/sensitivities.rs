@@ -116,11 +116,9 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
             tangent.state(direction.y, turning.y);
             tangent.state(placement.angle(link), motion.rate(link));
         }
-        for (joint, travel) in placement.travels() {
+        let runs = placement.runs().map(|(joint, run, _)| (joint, run));
+        for (joint, travel) in placement.travels().chain(runs) {
             tangent.state(travel, motion.of_travel(joint));
-        }
-        for (joint, run) in placement.runs() {
-            tangent.state(run, motion.of_travel(joint));
         }
         for (from, to, sine, cosine) in pivots.stated() {
             let turning = |vector: Vector<'m>| {

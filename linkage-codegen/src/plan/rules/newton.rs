@@ -6,6 +6,7 @@
 //! the equations are polynomials, and their Jacobian is exact without any trigonometry. Only wheels and their arms have angles, which
 //! count their turns, because a gear pair is linear in them.
 
+use core::iter;
 use std::collections::BTreeSet;
 
 use super::RuleResult;
@@ -24,8 +25,8 @@ use crate::topology::{Group, Input};
 enum Place {
     Direction(LinkId),
     Angle(LinkId),
-    /// The travel of a slide or a slot, from where its links have pins.
-    Run(JointId),
+    /// The travel of a slide or a slot, and between which points of its links it counts.
+    Run(JointId, [End; 2]),
 }
 
 /// Places the links of a group.
@@ -45,7 +46,7 @@ pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
         numbers = numbers.saturating_add(if matches!(place, Place::Direction(_)) { 2 } else { 1 });
         match place {
             Place::Direction(_) => sought_direction(graph, id, first),
-            Place::Run(_) | Place::Angle(_) => {
+            Place::Run(..) | Place::Angle(_) => {
                 let travel = graph.symbol(Symbol::Sought(id, first));
                 Vector::new(travel, travel)
             }
@@ -56,8 +57,8 @@ pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
     if equations.len() != places.len() || numbers == u8::MAX {
         return Err(crate::plan::unsupported(model, group, "place"));
     }
-    let scale = scale_of(model, group);
-    let sought: Vec<Sought> = places.iter().map(|place| sought(model, *place, scale)).collect();
+    let scale = scale_of(assembly, group, &places);
+    let sought: Vec<Sought> = places.iter().map(|place| sought(&trial, *place, scale)).collect();
     let jacobian = equations
         .iter()
         .map(|equation| (0..sought.len()).map(|unknown| change(equation, id, &sought, unknown).id()).collect())
@@ -107,9 +108,11 @@ pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
             let angle = angle.held();
             Vector::new(angle, angle)
         }
-        Place::Run(joint) => {
-            let what = format!("travel of the {} {}", model.joint(joint).kind.noun(), model.joint(joint).name);
-            let run = next().named(run_name(model, joint), what);
+        Place::Run(joint, between) => {
+            let [from, to] = between.map(|end| model.end_name(end));
+            let what = model.joint(joint).kind.noun();
+            let what = format!("travel of the {what} {}, from {from} to {to}", model.joint(joint).name);
+            let run = next().named(run_name(&trial, joint, between), what);
             unknowns.push(Unknown::Travel { travel: run, scale });
             Vector::new(run, run)
         }
@@ -219,7 +222,10 @@ fn lay_out<'m>(
     for joint in joints.iter().copied().filter(|joint| model.joint(*joint).kind.line().is_some()) {
         match driven(group, model, joint, false) {
             Some(drive) => placement.know_travel(joint, placement.graph().symbol(Symbol::Drive(drive))),
-            None => placement.know_run(joint, seek(Place::Run(joint)).x),
+            None => {
+                let between = counted_between(placement, group, joint);
+                placement.know_run(joint, seek(Place::Run(joint, between)).x, between);
+            }
         }
     }
     let mut open = group.links.clone();
@@ -329,7 +335,7 @@ fn axis<'m>(placement: &Placement<'m>, group: &Group, link: LinkId) -> Vector<'m
 }
 
 fn is_constant(vector: &Vector<'_>) -> bool {
-    vector.x.value().is_some() && vector.y.value().is_some()
+    is_known(vector.x) && is_known(vector.y)
 }
 
 /// The first two points of a link at joints of the group, but for those that may lie anywhere on a line.
@@ -362,7 +368,7 @@ fn closure<'m>(placement: &Placement<'m>, joint: JointId, way: &Way<'m>) -> [Equ
     let name = &model.joint(joint).name;
     let (mut known, mut parts, mut size) = (graph.zero_vector(), Vec::new(), graph.zero());
     for segment in &way.segments {
-        let part = segment.along.turned_by(segment.direction);
+        let part = segment.along().turned_by(segment.direction);
         size = size + rounded_size(segment);
         if part.x.stage().max(part.y.stage()) < Stage::Iterated {
             known = known + part;
@@ -399,7 +405,7 @@ fn closure<'m>(placement: &Placement<'m>, joint: JointId, way: &Way<'m>) -> [Equ
 
 /// The length of a part of a way, as much of it as is rounded: more where it is turned by two components instead of one.
 fn rounded_size<'m>(segment: &Segment<'m>) -> Expr<'m> {
-    let Vector { x, y } = segment.along;
+    let Vector { x, y } = segment.along();
     let half = x.graph().constant(&Number::ratio(1, 2));
     if x.is_zero() || y.is_zero() { segment.size() } else { segment.size() + half * (x.abs() + y.abs()) }
 }
@@ -449,32 +455,75 @@ fn change<'m>(equation: &Equation<'m>, id: SearchId, sought: &[Sought], unknown:
     }
 }
 
-/// The length that counts like a turn of one radian: of all links together how far apart their joints are, lines taken as a whole.
-fn scale_of<'m>(model: &'m Model, group: &Group) -> Expr<'m> {
-    let graph = &model.graph;
-    let length = |link: &LinkId| match (pins_of(model, group, *link), line_of(model, group, *link)) {
-        ([Some(a), Some(b)], _) => model.distance(*link, a.point, b.point),
-        ([Some(pin), None], Some((point, line))) => (model.local(pin) - model.local(point)).cross(line).abs(),
+/// The length that counts like a turn of one radian: of all links together how far apart their joints are, lines taken as a whole. Where
+/// that says nothing of one, because a slide goes through its only pin or it has only slides, those distances on the links around the group
+/// count as well; in want of any, how far the slides are out at the start.
+fn scale_of<'m>(assembly: &Assembly<'m>, group: &Group, places: &[Place]) -> Expr<'m> {
+    let (model, graph) = (assembly.model(), assembly.graph());
+    let total = |lengths: Vec<Expr<'m>>| lengths.into_iter().fold(graph.zero(), |sum, length| sum + length);
+    let between_pins = |link: LinkId| match pins_of(model, group, link) {
+        [Some(a), Some(b)] => model.distance(link, a.point, b.point),
         _ => graph.zero(),
     };
-    let sum = group.links.iter().map(length).fold(graph.zero(), |sum, length| sum + length);
-    if sum.is_zero() { graph.one() } else { sum }
+    let length = |link: LinkId| match (pins_of(model, group, link), line_of(model, group, link)) {
+        ([Some(pin), None], Some((point, line))) => (model.local(pin) - model.local(point)).cross(line).abs(),
+        _ => between_pins(link),
+    };
+    let own: Vec<Expr<'m>> = group.links.iter().map(|link| length(*link)).collect();
+    if own.iter().all(|length| !length.is_zero()) {
+        return total(own);
+    }
+    let around = group.outer.iter().flat_map(|joint| model.joint(*joint).ends()).map(|end| end.link);
+    let around: BTreeSet<LinkId> = around.filter(|link| !group.links.contains(link)).collect();
+    let sum = total(own) + total(around.into_iter().map(between_pins).collect());
+    let slides = places.iter().filter(|place| matches!(place, Place::Run(..)));
+    let out = || total(slides.flat_map(|place| start_of(assembly, group, *place)).map(Expr::abs).collect());
+    [sum].into_iter().chain(iter::once_with(out)).find(|sum| !sum.is_zero()).unwrap_or(graph.one())
 }
 
-fn sought(model: &Model, place: Place, scale: Expr<'_>) -> Sought {
+fn sought(placement: &Placement<'_>, place: Place, scale: Expr<'_>) -> Sought {
+    let model = placement.model;
     match place {
         Place::Direction(link) => Sought::Direction { name: model.link(link).name.text.clone() },
         Place::Angle(link) => {
             Sought::Travel { name: format!("angle_{}", model.link(link).name), scale: model.graph.one().id() }
         }
-        Place::Run(joint) => Sought::Travel { name: run_name(model, joint), scale: scale.id() },
+        Place::Run(joint, between) => Sought::Travel { name: run_name(placement, joint, between), scale: scale.id() },
     }
 }
 
 /// The name of a travel that is sought.
-fn run_name(model: &Model, joint: JointId) -> String {
-    let is_travel = Placement::of_ground(model).datum(joint).is_zero();
-    format!("{}_{}", if is_travel { "travel" } else { "run" }, model.joint(joint).name)
+fn run_name(placement: &Placement<'_>, joint: JointId, between: [End; 2]) -> String {
+    let what = if placement.datum(joint, between).is_zero() { "travel" } else { "run" };
+    format!("{what}_{}", placement.model.joint(joint).name)
+}
+
+/// Between what the travel of a slide or a slot is counted while it is sought: a pin near it on either link, if there is one and its distance
+/// along the line is a constant, or else the joint's own point. A pin in a slot is a place of its link; all other points of these joints may
+/// be declared anywhere on the line, far from where anything is.
+fn counted_between(placement: &Placement<'_>, group: &Group, joint: JointId) -> [End; 2] {
+    let data = placement.model.joint(joint);
+    data.ends().map(|own| {
+        let near = if data.is_line_on(own.link) { pin_near(placement, group, own) } else { None };
+        near.filter(|pin| is_known(placement.along_line(joint, own, *pin))).unwrap_or(own)
+    })
+}
+
+/// The first pin that a group has on a link of its own or around it, or else that by which loops of the group go on from the link.
+fn pin_near(placement: &Placement<'_>, group: &Group, own: End) -> Option<End> {
+    let model = placement.model;
+    let is_around = |end: &End| !group.links.contains(&end.link);
+    let [near, _] = pins_of(model, group, own.link);
+    near.or_else(|| {
+        let around = group.outer.iter().flat_map(|joint| model.joint(*joint).ends()).filter(is_around);
+        let ways = around.filter(|end| is_around(&own) && end.link != own.link).map(|end| placement.route(own, end));
+        let first = ways.filter_map(|way| way.first().map(|joint| model.joint(*joint)));
+        first.filter(|joint| !joint.is_line_on(own.link)).find_map(|joint| joint.end_on(own.link))
+    })
+}
+
+fn is_known(number: Expr<'_>) -> bool {
+    number.value().is_some()
 }
 
 fn declared(model: &Model, link: LinkId) -> Option<&Start> {
@@ -506,9 +555,9 @@ fn start_of<'m>(assembly: &Assembly<'m>, group: &Group, place: Place) -> Vec<Exp
         Place::Angle(link) => {
             vec![declared(model, link).map_or(graph.zero(), |start| at_start(model, graph.expr(start.angle)))]
         }
-        Place::Run(joint) => {
+        Place::Run(joint, between) => {
             let Some((carrier, axis)) = model.joint(joint).kind.line() else { return vec![graph.zero()] };
-            let [from, to] = placement.counted_between(joint).map(|end| {
+            let [from, to] = between.map(|end| {
                 let (origin, direction) = frame(end.link);
                 origin + model.local(end).turned_by(direction)
             });

@@ -50,8 +50,8 @@ fn pivot_name(dyad: &Dyad<'_>) -> String {
 /// s as a divisor. Where forces see another dyad than motion does, it is the way from the one pin to the other.
 fn reach<'m>(dyad: &Dyad<'m>, placement: &Placement<'m>, pivots: &Pivots<'m>) -> Expr<'m> {
     let [from, to] = dyad.legs.each_ref().map(|leg| leg.near);
-    let (way, e) = (placement.way(from, to), placement.slide_direction(dyad.inner));
-    pivots.dividing_reach(dyad.inner, &way, e, &pivot_name(dyad), &dyad.group_name())
+    let (way, line) = (placement.way(from, to), placement.line(dyad.inner));
+    pivots.dividing_reach(dyad.inner, &way, line, &pivot_name(dyad), &dyad.group_name())
 }
 
 impl Rule for Rpr {

@@ -533,7 +533,7 @@ fn driven<'m>(dyad: &Dyad<'m>, way: &Way<'m>) -> Option<Driven<'m>> {
     if others.iter().any(|segment| segment.direction != first.direction) {
         return None;
     }
-    let distance = others.iter().fold(first.along, |sum, segment| sum + segment.along).size();
+    let distance = others.iter().fold(first.along(), |sum, segment| sum + segment.along()).size();
     let other = dyad.lengths()[1 - leg];
     let constant = [distance, other, arm.y].iter().all(|size| size.value().is_some());
     (constant && !distance.is_zero()).then_some(Driven { leg, distance, other, along: arm.x, across: arm.y })
