@@ -90,7 +90,7 @@ pub fn coordinates(linkage: &Linkage) -> impl Iterator<Item = Vec<f64>> {
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
 /// cylinders, slots, welds, gears, inner slides, unknowns elsewhere than at the drives, equations of motion, inverse scenes,
 /// derivatives, fused arithmetic, a group of class IV.
-pub const OTHERS: [(&str, &str); 23] = [
+pub const OTHERS: [(&str, &str); 24] = [
     (
         "class_iv",
         "/// A group of class IV: two plates, on the crank and on the ground, joined by two rods.
@@ -107,6 +107,21 @@ pub const OTHERS: [(&str, &str); 23] = [
         load W: gravity = 9.81m/s^2 @ -90deg; load push: force(right.E);
         scene held: equilibrium; scene parts: superposition -> (T); scene torque: virtual_work -> (T);
         scene place: position -> (right.E, right.angle); scene speeds: velocity -> (right.angle);",
+    ),
+    (
+        "guided_plate",
+        "/// A triad one leg of which is guided: the points that give the slide's line lie beside the pins.
+        pub mod guided_plate; units { mm, N }
+        ground { O: (0, 0), D0: (260mm, 10mm), S: (131mm, 126mm) } link crank { O -> A: 40mm } link rod { A -> B: 121mm }
+        link plate { B -> D: 90mm, C: left(B -> D, 60mm, 60mm), Q: (45mm, 20mm) } link rocker { D0 -> D: 82mm }
+        link block { C: (0, 0), P: (10mm, 30mm) }
+        revolute O: ground -> crank; revolute A: crank -> rod; revolute B: rod -> plate; revolute D: plate -> rocker;
+        revolute D0: ground -> rocker; revolute C: plate -> block; prismatic S: ground -> block.P along 20deg;
+        drive theta: O; unknown T: torque(ground -> crank);
+        start theta: 50deg; start rod: (26mm, 31mm), angle 19deg; start plate: (140mm, 70mm), angle 10deg;
+        start rocker: (260mm, 10mm), angle 113deg; start block: (177mm, 117mm), angle 0deg;
+        load push: force(plate.Q); load along: force(block.P) in block = 40N @ 20deg;
+        scene held: equilibrium; scene place: position -> (block.C); scene speeds: velocity -> (S);",
     ),
     (
         "fused",
