@@ -9,7 +9,7 @@ use linkage_codegen::graph::real::Real;
 use linkage_codegen::graph::{Graph, Kernel, NodeId, Op, Symbol};
 use linkage_codegen::plan::Output;
 use linkage_codegen::program::passes::PASSES;
-use linkage_codegen::program::{Definition, Extract, Form, Input, Program, Run, Step, Value, ValueId};
+use linkage_codegen::program::{Definition, Extract, Fault, Form, Input, Program, Run, Step, Value, ValueId};
 use support::families::boom;
 use support::linkages::{Kind, Random, sample, sample_with_search};
 use support::numbers::{Double, Extended};
@@ -374,14 +374,7 @@ fn fewer_checks_find_the_same() {
                         None => arguments.loads[at / 2][at % 2] = value,
                         Some(at) => arguments.motion[at / 2][at % 2] = value,
                     }
-                    let run = |program| {
-                        let result = Run { program, graph }.with(&|input| match input {
-                            Input::Symbol(symbol) => Double(arguments.of(symbol)),
-                            Input::Kept(_) | Input::Prepared(_) | Input::Known(_) => Double(f64::NAN),
-                        });
-                        result.map(|values| values.iter().map(|x| x.0.to_bits()).collect::<Vec<_>>())
-                    };
-                    let (with_all, with_fewer) = (run(&before), run(&after));
+                    let [with_all, with_fewer] = [&before, &after].map(|program| bits(program, graph, &arguments));
                     refused += usize::from(with_all.is_err());
                     assert_eq!(with_all, with_fewer, "argument {at} = {value}\n{}", sample.text);
                 }
@@ -390,6 +383,46 @@ fn fewer_checks_find_the_same() {
     }
     assert!(refused > 100, "{refused} refused");
     assert!(3 * checks[1] < 2 * checks[0], "{checks:?}");
+}
+
+/// Where a loop cannot be closed the same is said as by two checks, and everywhere else the results have the same bits.
+#[test]
+fn the_weaker_of_two_checks_tells_why() {
+    let (mut refused, mut checks, mut limited) = (0, [0, 0], [0, 0]);
+    for seed in 0..40 {
+        let sample = sample(seed, KIND);
+        let linkage = compile(&sample.text);
+        let graph = &linkage.model.graph;
+        for output in &linkage.plan.scenes {
+            let both = before_and_after("checks", unoptimised(output, graph, Form::Direct), graph);
+            for ((program, checks), limited) in both.iter().zip(&mut checks).zip(&mut limited) {
+                *checks += program.steps.iter().filter(|step| matches!(step, Step::Check { .. })).count();
+                let reads_limited = |step: &Step| {
+                    let operands = program.operands_of(step);
+                    operands.iter().any(|value| matches!(program.op(*value), Some(Op::NonNegative(_))))
+                };
+                *limited += program.steps.iter().filter(|step| reads_limited(step)).count();
+            }
+            for step in 0..24 {
+                let mut arguments = sample.arguments.clone();
+                arguments.drives.iter_mut().for_each(|drive| *drive += 0.27 * f64::from(step));
+                let [before, after] = both.each_ref().map(|program| bits(program, graph, &arguments));
+                refused += usize::from(before.is_err());
+                assert_eq!(before, after, "{:?}\n{}", arguments.drives, sample.text);
+            }
+        }
+    }
+    assert!(refused > 100, "{refused} refused");
+    assert!(checks[1] < checks[0] && limited[1] < limited[0], "{checks:?}, {limited:?}");
+}
+
+/// The results of a program that starts from the drives, bit for bit.
+fn bits(program: &Program, graph: &Graph, arguments: &Arguments) -> Result<Vec<u64>, Fault> {
+    let results = Run { program, graph }.with(&|input| match input {
+        Input::Symbol(symbol) => Double(arguments.of(symbol)),
+        Input::Kept(_) | Input::Prepared(_) | Input::Known(_) => Double(f64::NAN),
+    });
+    results.map(|values| values.iter().map(|x| x.0.to_bits()).collect())
 }
 
 /// A program before and after a pass, behind all passes that come before it.

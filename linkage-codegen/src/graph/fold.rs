@@ -370,6 +370,10 @@ mod tests {
         assert_eq!((x - y) + tenth * x, (graph.one() + tenth) * x - y);
         assert_ne!((x - y) + hundredth * x, (graph.one() + hundredth) * x - y);
         assert_eq!((x - y) - hundredth * x, (graph.one() - hundredth) * x - y);
+        let [two, five] = [2, 5].map(|number| graph.integer(number));
+        assert_eq!((y - five) + two, y + (two - five));
+        assert_eq!((y - five) + five, y);
+        assert_eq!(two - (y - five), (two + five) - y);
         let rounding = graph.epsilons(1) * x;
         assert_ne!(x + rounding, x);
         assert_eq!((x + rounding) + rounding, x + 2 * rounding);
