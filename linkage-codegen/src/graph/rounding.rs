@@ -672,3 +672,31 @@ fn is_power_of_two(factor: Expr<'_>) -> bool {
     bits & ((1 << 52) - 1) == 0
         && Number::from_f64(f64::from_bits(bits)).is_some_and(|n| n.compare(&number.abs()).is_eq())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Rounding;
+    use crate::graph::number::Number;
+    use crate::graph::{Graph, Scalar};
+
+    #[test]
+    fn constants_count_by_what_they_are_off() {
+        for scalar in [Scalar::F64, Scalar::F32] {
+            let graph = Graph::new(scalar);
+            let mut rounding = Rounding::new(&graph);
+            let mut off = |number: &Number| {
+                rounding.deviation(graph.constant(number).id()).total().value().expect("known when compiled")
+            };
+            for number in [Number::ratio(1, 10), Number::ratio(-1, 10), Number::ratio(1_000_003, 7)] {
+                let nearest = Number::from_f64(number.nearest(scalar)).expect("finite");
+                assert!(off(&number).compare(&nearest.sub(&number).abs()).is_eq(), "{number:?}");
+            }
+            assert!([Number::ratio(-3, 4), Number::zero()].iter().all(|number| off(number).is_zero()));
+            // All but a number of the scalar: no less than the scalar can hold, and less than rounding could be.
+            let small = Number::power_of_two(-100).add(&Number::power_of_two(-230));
+            let bound = off(&small);
+            assert!(bound.fits(scalar) && !bound.is_zero());
+            assert!(bound.compare(&scalar.epsilon().mul(&small)).is_lt());
+        }
+    }
+}
