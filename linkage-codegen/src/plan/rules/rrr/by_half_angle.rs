@@ -232,14 +232,15 @@ impl<'a, 'm> Opening<'a, 'm> {
     /// that between the directions.
     fn cosine(&self) -> Option<Expr<'m>> {
         let Self { dyad, arms, span, area, spread, ref divided, .. } = *self;
+        if (2 * area - span).sign() == Some(-1) {
+            return None;
+        }
         let [short, long] = by_length(dyad.lengths());
         let [r, other] = [short, long].map(|index| dyad.lengths()[index]);
         let [mine, its] = [short, long].map(|index| dyad.length_name(&dyad.legs[index]));
         let joint = dyad.joint_name(dyad.inner);
         let cosine = (r.squared() + other.squared() - (arms.b - arms.a).squared()) / area - spread;
-        let cosine =
-            cosine.named(dyad.cosine_name(), format!("cos μ at {joint} = ({mine}² + {its}²){divided} − D2_{joint}"));
-        ((2 * area - span).sign() != Some(-1)).then_some(cosine)
+        Some(cosine.named(dyad.cosine_name(), format!("cos μ at {joint} = ({mine}² + {its}²){divided} − D2_{joint}")))
     }
 
     fn does_not_fold(&self, closure: &Closure) -> Diagnostic {
