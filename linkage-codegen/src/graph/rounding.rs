@@ -323,9 +323,6 @@ impl<'g> Rounding<'g> {
         // each is 2u of an error, where the value's own are u of the value.
         let generous = Number::one().add(&Number::power_of_two(-7));
         let (bound, largest) = (graph.constant(&generous) * error, graph.largest());
-        if bound.value().is_some() {
-            return bound;
-        }
         let known = graph.one().where_above(largest, bound);
         bound.where_above(largest, bound) + largest * (graph.one() - known)
     }

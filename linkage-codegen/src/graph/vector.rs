@@ -32,6 +32,12 @@ impl<'g> Vector<'g> {
         self.x.is_zero() && self.y.is_zero()
     }
 
+    /// Whether both components are constants.
+    #[must_use]
+    pub fn is_constant(self) -> bool {
+        self.x.value().is_some() && self.y.value().is_some()
+    }
+
     /// Inner product.
     #[must_use]
     pub fn dot(self, other: Self) -> Expr<'g> {

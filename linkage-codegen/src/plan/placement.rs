@@ -61,7 +61,7 @@ impl<'m> Segment<'m> {
     /// A part of this length.
     fn new(direction: Vector<'m>, along: Vector<'m>, size: Expr<'m>) -> Self {
         let graph = size.graph();
-        if along.x.value().is_some() && along.y.value().is_some() {
+        if along.is_constant() {
             Self { direction, varying: graph.zero_vector(), constant: along, rest: graph.zero() }
         } else {
             Self { direction, varying: along, constant: graph.zero_vector(), rest: size }

@@ -323,7 +323,7 @@ fn driven(group: &Group, model: &Model, joint: JointId, turns: bool) -> Option<D
 fn axis<'m>(placement: &Placement<'m>, group: &Group, link: LinkId) -> Vector<'m> {
     let (model, x_axis) = (placement.model, x_axis(placement.graph()));
     let [Some(first), Some(second)] = pins_of(model, group, link) else {
-        return line_of(model, group, link).map(|(_, line)| line).filter(is_constant).unwrap_or(x_axis);
+        return line_of(model, group, link).map(|(_, line)| line).filter(|line| line.is_constant()).unwrap_or(x_axis);
     };
     let length = model.distance(link, first.point, second.point);
     if length.is_zero() {
@@ -331,11 +331,7 @@ fn axis<'m>(placement: &Placement<'m>, group: &Group, link: LinkId) -> Vector<'m
     }
     let arm = model.local(second) - model.local(first);
     let axis = Vector::new(arm.x / length, arm.y / length);
-    if is_constant(&axis) { axis } else { x_axis }
-}
-
-fn is_constant(vector: &Vector<'_>) -> bool {
-    is_known(vector.x) && is_known(vector.y)
+    if axis.is_constant() { axis } else { x_axis }
 }
 
 /// The first two points of a link at joints of the group, but for those that may lie anywhere on a line.
@@ -505,7 +501,7 @@ fn counted_between(placement: &Placement<'_>, group: &Group, joint: JointId) -> 
     let data = placement.model.joint(joint);
     data.ends().map(|own| {
         let near = if data.is_line_on(own.link) { pin_near(placement, group, own) } else { None };
-        near.filter(|pin| is_known(placement.along_line(joint, own, *pin))).unwrap_or(own)
+        near.filter(|pin| placement.along_line(joint, own, *pin).value().is_some()).unwrap_or(own)
     })
 }
 
@@ -520,10 +516,6 @@ fn pin_near(placement: &Placement<'_>, group: &Group, own: End) -> Option<End> {
         let first = ways.filter_map(|way| way.first().map(|joint| model.joint(*joint)));
         first.filter(|joint| !joint.is_line_on(own.link)).find_map(|joint| joint.end_on(own.link))
     })
-}
-
-fn is_known(number: Expr<'_>) -> bool {
-    number.value().is_some()
 }
 
 fn declared(model: &Model, link: LinkId) -> Option<&Start> {
