@@ -98,6 +98,24 @@ fn a_scene_from_a_pose_goes_on_where_the_pose_ends() {
     }
 }
 
+/// Where an arm is there for moments alone, its constants take their factor: that spares a product of each moment, and adds none anywhere.
+#[test]
+fn arms_take_the_factors_of_their_moments() {
+    let mut spared = 0;
+    for seed in 0..40 {
+        let sample = sample(seed, Kind { dyads: 3, ..KIND });
+        let linkage = compile(&sample.text);
+        let graph = &linkage.model.graph;
+        for output in &linkage.plan.scenes {
+            let program = unoptimised(output, graph, Form::FromPose);
+            let [before, after] = before_and_after("arms", program, graph).map(|program| program.counts());
+            assert!(after.mul <= before.mul && after.add == before.add, "{before:?} {after:?}\n{}", sample.text);
+            spared += before.mul - after.mul;
+        }
+    }
+    assert!(spared > 10, "{spared} products");
+}
+
 /// What is multiplied last makes no way to the results longer, many shorter, and spends about one product in a hundred on it.
 #[test]
 fn nothing_waits_longer_for_what_is_multiplied_last() {

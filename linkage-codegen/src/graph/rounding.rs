@@ -491,28 +491,36 @@ impl<'g> Rounding<'g> {
         }
     }
 
-    /// What is rounded more where `k(a x ± b y)` becomes `(ka) x ± (kb) y`: of ka and kb it is not what they are off, and each product counts
-    /// by itself, however little is left of the sum.
+    /// What is rounded more where `k(a x ± b y)` becomes `(ka) x ± (kb) y`, and `k(p x ± q y)` becomes `(kp) x ± (kq) y` with such sums p and q:
+    /// of ka and kb it is not what they are off, and each product counts by itself, however little is left of the sum.
     fn of_multiplied_terms(&self, product: Expr<'g>) -> Expr<'g> {
         let graph = self.graph;
-        let terms = |k: NodeId, sum: NodeId| match graph.op(sum) {
-            Op::Add(a, b) | Op::Sub(a, b) if graph.expr(k).value().is_some() && graph.label(sum).is_none() => {
-                let is_multiple = |term: &NodeId| match graph.op(*term) {
-                    Op::Constant(_) => true,
-                    Op::Mul(a, b) => [a, b].iter().any(|factor| graph.expr(*factor).value().is_some()),
-                    _ => false,
-                };
-                [a, b]
-                    .iter()
-                    .all(is_multiple)
-                    .then(|| graph.expr(k).abs() * (graph.expr(a).abs() + graph.expr(b).abs()))
-            }
-            _ => None,
+        let terms = |k: NodeId, sum: NodeId| {
+            let k = graph.expr(k);
+            k.value()?;
+            Some(k.abs() * self.terms_of_multiples(sum, true)?)
         };
         match product.op() {
             Op::Mul(a, b) => terms(a, b).or_else(|| terms(b, a)).map_or(graph.zero(), |terms| self.rounded(terms)),
             _ => graph.zero(),
         }
+    }
+
+    /// The sizes of the terms of a sum without a name, added up, if each is a constant, a multiple by one, or a product with a sum of those.
+    fn terms_of_multiples(&self, sum: NodeId, of_products: bool) -> Option<Expr<'g>> {
+        let graph = self.graph;
+        let (terms, _) = graph.op(sum).terms().filter(|_| graph.label(sum).is_none())?;
+        let size = |term: NodeId| match graph.op(term) {
+            Op::Constant(_) => Some(graph.expr(term).abs()),
+            Op::Mul(a, b) if [a, b].iter().any(|factor| graph.expr(*factor).value().is_some()) => {
+                Some(graph.expr(term).abs())
+            }
+            Op::Mul(a, b) if of_products => [(a, b), (b, a)].into_iter().find_map(|(factor, other)| {
+                Some(self.terms_of_multiples(factor, false)? * graph.expr(other).abs())
+            }),
+            _ => None,
+        };
+        Some(size(terms[0])? + size(terms[1])?)
     }
 
     /// The deviation of a sum or a difference of products with the components of one direction.

@@ -56,9 +56,13 @@ impl<'g> Vector<'g> {
         Self { x: -self.y, y: self.x }
     }
 
-    /// Turned by a direction: the vector whose components in the turned axes are these.
+    /// Turned by a direction: the vector whose components in the turned axes are these. Both ways along a constant vector are one, with either
+    /// sign, so that the arm of a moment is what the pose is made of.
     #[must_use]
     pub fn turned_by(self, direction: Self) -> Self {
+        if self.is_constant() && self.x.sign() == Some(-1) {
+            return -((-self).turned_by(direction));
+        }
         Self { x: direction.x * self.x - direction.y * self.y, y: direction.y * self.x + direction.x * self.y }
     }
 

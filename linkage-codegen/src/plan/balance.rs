@@ -204,8 +204,9 @@ impl<'m, 'p> Balance<'m, 'p> {
     /// The sum of the moments on a link about a place along and across its direction u, times a factor: `factor Σ (r × F) + factor C`.
     ///
     /// What is known first is multiplied first. Loads in ground axes are turned by their arms r along and across u, and added up:
-    /// `Σ (r × F) = u × Σ (r·F, r × F)`; for reactions, which are found later than directions, the arms are turned by u. An arm along the
-    /// link, or across it, is one factor of the moment instead, but for loads that are added up.
+    /// `Σ (r × F) = u × Σ (r·F, r × F)`; for reactions, which are found later than directions, the arms are turned by u, and multiplied by the
+    /// factor after that: turned, they may be parts of the pose. An arm along the link, or across it, is one factor of the moment instead, but
+    /// for loads that are added up.
     #[must_use]
     pub fn moment(&self, link: LinkId, about: Vector<'m>, factor: Expr<'m>) -> Expr<'m> {
         let (direction, ground) = (self.placement.direction(link), self.placement.direction(GROUND));
@@ -213,7 +214,8 @@ impl<'m, 'p> Balance<'m, 'p> {
         let mut sum = factor * wrench.couple;
         let mut loads: Vec<(Vector<'m>, Vector<'m>)> = Vec::new();
         for Acting { at, force, is_load, .. } in &wrench.forces {
-            let arm = (*at - about).scaled(factor);
+            let way = *at - about;
+            let arm = way.scaled(factor);
             if arm.is_zero() {
                 continue;
             }
@@ -221,7 +223,7 @@ impl<'m, 'p> Balance<'m, 'p> {
             if in_other_axes && *is_load {
                 loads.push((arm, force.components));
             } else if in_other_axes && !arm.x.is_zero() && !arm.y.is_zero() {
-                sum = sum + arm.turned_by(direction).cross(force.components);
+                sum = sum + factor * way.turned_by(direction).cross(force.components);
             } else {
                 sum = sum + arm.cross(force.along(direction));
             }

@@ -1,6 +1,7 @@
 //! What is improved in a program after it is taken out of the graph. Each pass keeps the results up to rounding; tests run every
 //! program before and after each of them.
 
+mod arms;
 mod checks;
 mod common;
 mod constants;
@@ -24,11 +25,12 @@ use crate::graph::{Graph, Guard, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 13] = [
+pub const PASSES: [(&str, Pass); 14] = [
     ("pivots", pivots::compare_directly),
     ("checks", checks::ask_once),
     ("reciprocals", reciprocals::share),
     ("constants", constants::merge),
+    ("arms", arms::scale),
     ("unused", unused::remove),
     ("signs", signs::absorb),
     ("constants at reciprocals", constants::multiply_reciprocals),

@@ -1,0 +1,88 @@
+//! A constant factor of a moment goes to the arm: `k (p F_y − q F_x) = (k p) F_y − (k q) F_x`, where p = a u ± b v and q, the arm turned into
+//! ground axes, have constants that take it, and nothing else reads them but moments with the same factor.
+//!
+//! A moment over a length is `1/l (arm × F)`. Where the pose is found too, the arm is a part of it, and one product brings the moment to the
+//! length. Where the pose is given, the arm is there for the moment alone, and that product is spared.
+
+use std::collections::BTreeMap;
+
+use crate::graph::number::Number;
+use crate::graph::{Graph, Op};
+use crate::program::{Definition, Program, Step, ValueId};
+
+pub(super) fn scale(mut program: Program, graph: &Graph) -> Program {
+    let uses = program.uses();
+    let values = program.steps.iter().filter_map(|step| if let Step::Let(value) = step { Some(*value) } else { None });
+    let mut moments: Vec<Moment> = values.filter_map(|value| moment(&program, graph, &uses, value)).collect();
+    loop {
+        let before = moments.len();
+        let arms = arms(&moments);
+        let is_read_by_them = |arm: &ValueId| arms[arm].as_ref().is_some_and(|(_, reads)| *reads == uses[arm.index()]);
+        moments.retain(|moment| moment.arm.iter().all(is_read_by_them));
+        if moments.len() == before {
+            break;
+        }
+    }
+    for (arm, factor) in arms(&moments) {
+        let terms = program.op(arm).and_then(Op::terms).map_or(Vec::new(), |(terms, _)| terms.to_vec());
+        for term in terms {
+            if let Some((k, (constant, of))) = factor.as_ref().map(|(k, _)| k).zip(multiple(&program, graph, term)) {
+                let constant = program.add_constant(graph, &k.mul(&constant), term);
+                program.values[term.index()].definition = Definition::Computed(Op::Mul(constant, of));
+            }
+        }
+    }
+    for Moment { value, sum, .. } in moments {
+        program.values[value.index()].definition = program.values[sum.index()].definition.clone();
+        program.steps.retain(|step| !matches!(step, Step::Let(inner) if *inner == sum));
+    }
+    program
+}
+
+/// `value = k sum`, the sum one of products with the components of an arm.
+struct Moment {
+    value: ValueId,
+    k: Number,
+    sum: ValueId,
+    arm: [ValueId; 2],
+}
+
+/// The components of arms, each with its factor and how many moments read it; nothing where they have different factors.
+fn arms(moments: &[Moment]) -> BTreeMap<ValueId, Option<(Number, usize)>> {
+    let mut arms: BTreeMap<ValueId, Option<(Number, usize)>> = BTreeMap::new();
+    for Moment { k, arm, .. } in moments {
+        for component in arm {
+            let known = arms.entry(*component).or_insert_with(|| Some((k.clone(), 0)));
+            *known = known.take().filter(|(other, _)| other.compare(k).is_eq()).map(|(k, reads)| (k, reads + 1));
+        }
+    }
+    arms
+}
+
+fn moment(program: &Program, graph: &Graph, uses: &[usize], value: ValueId) -> Option<Moment> {
+    let Op::Mul(k, sum) = program.op(value)? else { return None };
+    let k = program.constant(graph, *k)?;
+    let (terms, _) = program.op(*sum).filter(|_| program.is_inner(*sum, uses))?.terms()?;
+    let component = |product: ValueId| match program.op(product) {
+        Some(Op::Mul(a, b)) if program.is_inner(product, uses) => {
+            [*a, *b].into_iter().find(|factor| is_component(program, graph, uses, *factor))
+        }
+        _ => None,
+    };
+    Some(Moment { value, k, sum: *sum, arm: [component(terms[0])?, component(terms[1])?] })
+}
+
+/// Whether a value without a name is a sum of two multiples by constants, which nothing else reads.
+fn is_component(program: &Program, graph: &Graph, uses: &[usize], value: ValueId) -> bool {
+    let is_multiple = |term: &ValueId| program.is_inner(*term, uses) && multiple(program, graph, *term).is_some();
+    let terms = program.op(value).and_then(Op::terms);
+    program.value(value).label.is_none() && terms.is_some_and(|(terms, _)| terms.iter().all(is_multiple))
+}
+
+/// A multiple by a constant: this, and of what.
+fn multiple(program: &Program, graph: &Graph, value: ValueId) -> Option<(Number, ValueId)> {
+    match program.op(value)? {
+        Op::Mul(k, of) => Some((program.constant(graph, *k)?, *of)),
+        _ => None,
+    }
+}
