@@ -515,9 +515,9 @@ impl<'g> Rounding<'g> {
             Op::Mul(a, b) if [a, b].iter().any(|factor| graph.expr(*factor).value().is_some()) => {
                 Some(graph.expr(term).abs())
             }
-            Op::Mul(a, b) if of_products => [(a, b), (b, a)].into_iter().find_map(|(factor, other)| {
-                Some(self.terms_of_multiples(factor, false)? * graph.expr(other).abs())
-            }),
+            Op::Mul(a, b) if of_products => [(a, b), (b, a)]
+                .into_iter()
+                .find_map(|(factor, other)| Some(self.terms_of_multiples(factor, false)? * graph.expr(other).abs())),
             _ => None,
         };
         Some(size(terms[0])? + size(terms[1])?)

@@ -226,13 +226,27 @@ impl<'m> Placement<'m> {
         self.placed.insert(joint);
     }
 
-    /// The travel of a slide, or of the pin in a slot, is known. A pose keeps it.
+    /// Lets the travel of a slide or a slot count from where these points of its links lie beside each other; until it is found, it is zero.
+    pub fn count_between(&mut self, joint: JointId, between: [End; 2]) {
+        let (found, datum) = (self.graph().zero(), self.datum(joint, between));
+        self.travels.insert(joint, Travel { found, datum, whole: datum, between });
+    }
+
+    /// How the travel of a slide or a slot is called, as it counts: `travel_S` between its own points, else `run_S`.
+    #[must_use]
+    pub fn name_of_travel(&self, joint: JointId) -> String {
+        let counts_from_its_own = self.travels.get(&joint).is_none_or(|travel| travel.datum.is_zero());
+        format!("{}_{}", if counts_from_its_own { "travel" } else { "run" }, self.model.joint(joint).name)
+    }
+
+    /// The travel of a slide, or of the pin in a slot, as it counts, is known. A pose keeps it.
     pub fn set_travel(&mut self, joint: JointId, travel: Expr<'m>) {
-        self.know_travel(joint, travel);
+        let between = self.travels.get(&joint).map_or(self.model.joint(joint).ends(), |travel| travel.between);
+        self.know_run(joint, travel, between);
         self.connect(joint);
     }
 
-    /// The same of one through which no ways go yet.
+    /// That of one through which no ways go yet, between its own points.
     pub fn know_travel(&mut self, joint: JointId, travel: Expr<'m>) {
         self.know_run(joint, travel, self.model.joint(joint).ends());
     }

@@ -674,7 +674,7 @@ impl<'a> Dyad<'a> {
     pub(super) fn set_travel(&self, assembly: &mut Assembly<'a>, slide: JointId, of: LinkId, by: Expr<'a>) {
         let travel = if self.model.joint(slide).to.link == of { by } else { -by };
         let name = self.joint_name(slide);
-        let travel = travel.named(format!("travel_{name}"), format!("travel of the slide {name}"));
+        let travel = travel.named(assembly.placement.name_of_travel(slide), format!("travel of the slide {name}"));
         assembly.placement.set_travel(slide, travel);
     }
 

@@ -9,7 +9,7 @@
 use core::iter;
 use std::collections::BTreeSet;
 
-use super::RuleResult;
+use super::{RuleResult, counted_between, pins_of};
 use crate::diagnostics::{Diagnostic, list};
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Graph, NodeId, Search, SearchId, Sought, Stage, Symbol, Vector, sought_direction};
@@ -334,13 +334,6 @@ fn axis<'m>(placement: &Placement<'m>, group: &Group, link: LinkId) -> Vector<'m
     if axis.is_constant() { axis } else { x_axis }
 }
 
-/// The first two points of a link at joints of the group, but for those that may lie anywhere on a line.
-fn pins_of(model: &Model, group: &Group, link: LinkId) -> [Option<End>; 2] {
-    let joints = group.outer.iter().chain(&group.inner).map(|joint| model.joint(*joint));
-    let mut ends = joints.filter(|joint| !joint.is_line_on(link)).filter_map(|joint| joint.end_on(link));
-    [ends.next(), ends.next()]
-}
-
 /// The first line of a link at a joint of the group: a point of it, and its direction in the link's frame.
 fn line_of<'m>(model: &'m Model, group: &Group, link: LinkId) -> Option<(End, Vector<'m>)> {
     let mut joints = group.outer.iter().chain(&group.inner);
@@ -492,30 +485,6 @@ fn sought(placement: &Placement<'_>, place: Place, scale: Expr<'_>) -> Sought {
 fn run_name(placement: &Placement<'_>, joint: JointId, between: [End; 2]) -> String {
     let what = if placement.datum(joint, between).is_zero() { "travel" } else { "run" };
     format!("{what}_{}", placement.model.joint(joint).name)
-}
-
-/// Between what the travel of a slide or a slot is counted while it is sought: a pin near it on either link, if there is one and its distance
-/// along the line is a constant, or else the joint's own point. A pin in a slot is a place of its link; all other points of these joints may
-/// be declared anywhere on the line, far from where anything is.
-fn counted_between(placement: &Placement<'_>, group: &Group, joint: JointId) -> [End; 2] {
-    let data = placement.model.joint(joint);
-    data.ends().map(|own| {
-        let near = if data.is_line_on(own.link) { pin_near(placement, group, own) } else { None };
-        near.filter(|pin| placement.along_line(joint, own, *pin).value().is_some()).unwrap_or(own)
-    })
-}
-
-/// The first pin that a group has on a link of its own or around it, or else that by which loops of the group go on from the link.
-fn pin_near(placement: &Placement<'_>, group: &Group, own: End) -> Option<End> {
-    let model = placement.model;
-    let is_around = |end: &End| !group.links.contains(&end.link);
-    let [near, _] = pins_of(model, group, own.link);
-    near.or_else(|| {
-        let around = group.outer.iter().flat_map(|joint| model.joint(*joint).ends()).filter(is_around);
-        let ways = around.filter(|end| is_around(&own) && end.link != own.link).map(|end| placement.route(own, end));
-        let first = ways.filter_map(|way| way.first().map(|joint| model.joint(*joint)));
-        first.filter(|joint| !joint.is_line_on(own.link)).find_map(|joint| joint.end_on(own.link))
-    })
 }
 
 fn declared(model: &Model, link: LinkId) -> Option<&Start> {

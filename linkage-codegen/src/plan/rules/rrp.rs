@@ -13,8 +13,8 @@
 //! `p e + f n`, `p = e·W`, and with `t = −m/r` across the link `f = (t − p (u × e))/(u·e)`. The guide exerts `N = f − n·W` across
 //! the slide. `u·e = h/r` is the pivot: sin μ, with μ the angle between the link and the normal of the slide.
 
-use super::dyad::{Dyad, dyad};
-use super::{Rule, RuleResult};
+use super::dyad::{Dyad, dyad, towards_unit};
+use super::{Rule, RuleResult, counted_if_far};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::JointId;
@@ -144,12 +144,13 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let line = assembly.placement.line(slide);
     let e = line.direction;
     // With the travel still zero, the way goes from A over the guide to B.
+    assembly.placement.count_between(slide, counted_if_far(&assembly.placement, group, slide));
     assembly.placement.connect(slide);
     let way = assembly.placement.way(rod_leg.far, slider_leg.tip);
     let meeting = meet((r, dyad.slack(rod_leg)), &way, line, ahead, [inner, outer], dyad.group_name());
     let Meeting { q, h, cosine, sine, pivot } = meeting;
     let name = dyad.link_name(rod_leg);
-    let direction = Vector::new(cosine, sine).turned_by(e);
+    let direction = by_parts(Vector::new(cosine, sine), e, &name);
     let direction = direction.named_direction(&name, &format!("direction of {name} from {outer} to {inner}"));
     let u = dyad.orient(assembly, rod_leg, direction)?;
     assembly.placement.connect(rod_leg.outer);
@@ -159,7 +160,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let travel = if forwards { h - q.x } else { q.x - h };
     let name = dyad.joint_name(slide);
     let travel = travel.named(
-        format!("travel_{name}"),
+        assembly.placement.name_of_travel(slide),
         format!("travel of the slide {name}: {}", if forwards { "h − e·Q" } else { "e·Q − h" }),
     );
     let run = e.scaled(travel);
@@ -261,6 +262,17 @@ pub(super) fn meet<'m>(
     let pivot = cosine.where_above(h2, rounding);
     let pivot = pivot.named(format!("{pivot_name}_or_zero"), "zero where it is no larger than its rounding").held();
     Meeting { q, h, cosine, sine, pivot }
+}
+
+/// The direction of a link by its parts along and across a line. The size of a moving line's direction is rounded: links that are placed one
+/// by the other would pass that on, and each add its own.
+pub(super) fn by_parts<'m>(parts: Vector<'m>, line: Vector<'m>, name: &str) -> Vector<'m> {
+    let direction = parts.turned_by(line);
+    if line.is_constant() {
+        return direction;
+    }
+    let rough = direction.named_direction(&format!("rough_{name}"), "by its parts along and across the line");
+    towards_unit(rough, name)
 }
 
 /// How far across the slide the parts of a way reach together.

@@ -15,9 +15,9 @@
 //! `x = ∓(n·Q)/(n·m)`, and the sum of the forces along the slide gives the normal force. `n·m = e × m` is the pivot.
 
 use super::dyad::towards_unit;
-use super::rrp::{Meeting, ahead, meet};
+use super::rrp::{Meeting, ahead, by_parts, meet};
 use super::slide::guide;
-use super::{Rule, RuleResult};
+use super::{Rule, RuleResult, counted_if_far};
 use crate::graph::{Expr, Failure, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model};
@@ -165,10 +165,10 @@ impl Rule for SlotAndPin {
         };
         let ahead = ahead(assembly, group, parts.slot, parts.held, lies)?;
         if parts.carries {
-            place_lever(assembly, &parts, ahead);
+            place_lever(assembly, group, &parts, ahead);
             return Ok(());
         }
-        place_runner(assembly, &parts, ahead)
+        place_runner(assembly, group, &parts, ahead)
     }
 
     fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
@@ -201,7 +201,7 @@ impl Rule for SlotAndPin {
 }
 
 /// A lever with its own slot.
-fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<'m>) {
+fn place_lever<'m>(assembly: &mut Assembly<'m>, group: &Group, parts: &Parts<'m>, ahead: Sign<'m>) {
     let Parts { model, link, slot, held, .. } = *parts;
     let graph = assembly.graph();
     let pin = model.joint(slot);
@@ -262,7 +262,11 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<'
     });
     assembly.placement.orient(link, Orientation { direction, axis });
     assembly.placement.connect(held);
-    let travel = parts.signed(slot, s - datum.x).named(format!("travel_{at}"), format!("travel in the slot {at}"));
+    let between = counted_if_far(&assembly.placement, group, slot);
+    assembly.placement.count_between(slot, between);
+    let fixed = datum.x + parts.signed(slot, assembly.placement.datum(slot, between));
+    let travel = parts.signed(slot, s - fixed);
+    let travel = travel.named(assembly.placement.name_of_travel(slot), format!("travel in the slot {at}"));
     assembly.placement.set_travel(slot, travel);
     if datum.is_zero() {
         // The lever arm is the travel.
@@ -274,11 +278,13 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<'
 }
 
 /// A link whose end runs in a placed slot.
-fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<'m>) -> RuleResult {
+fn place_runner<'m>(assembly: &mut Assembly<'m>, group: &Group, parts: &Parts<'m>, ahead: Sign<'m>) -> RuleResult {
     let Parts { model, link, slot, held, .. } = *parts;
     let data = model.joint(slot);
-    let (Some(own), Some(to)) = (data.end_on(link), data.end_off(link)) else { return Ok(()) };
+    let (Some(own), Some(to)) = (data.end_on(link), Spot::of_pin(model, slot, parts.far(slot))) else { return Ok(()) };
     let Some(from) = Spot::of_pin(model, held, parts.far(held)) else { return Ok(()) };
+    // With the travel still zero.
+    assembly.placement.count_between(slot, counted_if_far(&assembly.placement, group, slot));
     let (near, slack) = parts.held_at();
     let arm = model.local(own) - near;
     let moves = parts.carries_held();
@@ -296,22 +302,24 @@ fn place_runner<'m>(assembly: &mut Assembly<'m>, parts: &Parts<'m>, ahead: Sign<
     let e = line.direction;
     let way = assembly.placement.way(from, to);
     let Meeting { q, h, cosine, sine, pivot } = meet((r, slack), &way, line, ahead, [at, about], name.into());
-    let mut direction = Vector::new(cosine, sine).turned_by(e);
+    let of_line = Vector::new(cosine, sine);
     let axis = Vector::new(arm.x / r, arm.y / r);
-    let orientation = if moves {
+    let (direction, orientation) = if moves {
         // Its own slot moves the pin in the link: the link carries the direction of its frame.
-        let rough = axis.conjugate().turned_by(direction).named_direction(&format!("rough_{name}"), "");
+        let between = of_line.turned_by(e);
+        let rough = axis.conjugate().turned_by(between).named_direction(&format!("rough_{name}"), "");
         let meaning = format!("direction of {name}, from that between the pins {about} and {at}");
         let direction = towards_unit(rough, name).named_direction(name, &meaning);
-        Orientation { direction, axis: Vector::new(r.graph().one(), r.graph().zero()) }
+        (between, Orientation { direction, axis: Vector::new(r.graph().one(), r.graph().zero()) })
     } else {
         let meaning = format!("direction of {name} from {about} to {at}");
-        direction = direction.named_direction(name, &meaning);
-        Orientation { direction, axis }
+        let direction = by_parts(of_line, e, name).named_direction(name, &meaning);
+        (direction, Orientation { direction, axis })
     };
     assembly.placement.orient(link, orientation);
     assembly.placement.connect(held);
-    let travel = parts.signed(slot, h - q.x).named(format!("travel_{at}"), format!("travel in the slot {at}"));
+    let travel = parts.signed(slot, h - q.x);
+    let travel = travel.named(assembly.placement.name_of_travel(slot), format!("travel in the slot {at}"));
     let along = e.scaled(parts.signed(slot, r.graph().one()));
     let reach = direction.scaled(r);
     assembly.closed(|| ClosedLoop {
@@ -348,10 +356,12 @@ impl Rule for SlotAndSlide {
         let data = model.joint(slot);
         assembly.placement.orient_along(slide, link);
         // With the travel still zero, the way goes over the guide.
+        assembly.placement.count_between(slide, counted_if_far(&assembly.placement, group, slide));
         assembly.placement.connect(slide);
+        assembly.placement.count_between(slot, counted_if_far(&assembly.placement, group, slot));
         let carried_by_first = data.kind.line().is_some_and(|(carrier, _)| carrier == data.from.link);
         let (line, pin) = if carried_by_first { (data.from, data.to) } else { (data.to, data.from) };
-        let way = assembly.placement.way(line, pin);
+        let way = assembly.placement.way(Spot { end: line, slot: Some(slot) }, pin);
         let [e, m] = [slot, slide].map(|joint| assembly.placement.slide_direction(joint));
         let q = way.resolved_along(assembly.placement.line(slot));
         let (sine, cosine) = inclination(&assembly.placement, &assembly.pivots, &parts);
@@ -362,7 +372,7 @@ impl Rule for SlotAndSlide {
         let forwards = model.joint(slide).to.link == link;
         let sign = if parts.carries == forwards { "" } else { "−" };
         let travel = if forwards { ahead } else { -ahead }.named(
-            format!("travel_{along}"),
+            assembly.placement.name_of_travel(slide),
             format!("travel of the slide {along}: {sign}(n·Q)/(n·m), Q from the slot {at} to its pin at no travel"),
         );
         assembly.placement.set_travel(slide, travel);
@@ -375,7 +385,8 @@ impl Rule for SlotAndSlide {
             pivot: None,
             apart: false,
         });
-        let travel = parts.signed(slot, run).named(format!("travel_{at}"), format!("travel in the slot {at}"));
+        let travel = parts.signed(slot, run);
+        let travel = travel.named(assembly.placement.name_of_travel(slot), format!("travel in the slot {at}"));
         assembly.placement.set_travel(slot, travel);
         Ok(())
     }
