@@ -302,8 +302,17 @@ impl<'m, 'p> Balance<'m, 'p> {
         if self.model().joint(joint).to.link == on { force } else { force.opposite() }
     }
 
-    /// The reaction of a slide on its second link, found from the equilibrium of the link `on`; the other link gets its part.
-    pub fn slide(&mut self, joint: JointId, on: LinkId, force: Framed<'m>, couple: Expr<'m>) {
+    /// The reaction of a slide on its second link, found from the equilibrium of the link `on`; the other link gets its part. What acts on the
+    /// link has the moment `here` about a place of it: beside that the other link gets the force with this moment, if the point about which the
+    /// couple is may be far away.
+    pub fn slide(
+        &mut self,
+        joint: JointId,
+        on: LinkId,
+        force: Framed<'m>,
+        couple: Expr<'m>,
+        here: Option<(Vector<'m>, Expr<'m>)>,
+    ) {
         let data = self.model().joint(joint);
         // In a slot it is the drive of its angle that exerts the couple.
         let effort = match data.kind {
@@ -319,7 +328,8 @@ impl<'m, 'p> Balance<'m, 'p> {
         } else {
             (data.to.link, force, couple)
         };
-        let at = self.placement.slide_point(joint, far);
+        let beside = here.and_then(|(at, moment)| Some((self.placement.beside(joint, on, at)?, moment)));
+        let (at, couple) = beside.unwrap_or_else(|| (self.placement.slide_point(joint, far), couple));
         self.push(far, at, force);
         self.couple(far, couple);
     }

@@ -448,6 +448,20 @@ impl<'m> Placement<'m> {
         }
     }
 
+    /// The place on the other link of a slide beside a place of one of them, by what was found of its travel; nothing where that counts between
+    /// the slide's own points.
+    #[must_use]
+    pub fn beside(&self, slide: JointId, link: LinkId, at: Vector<'m>) -> Option<Vector<'m>> {
+        let Travel { found, datum, between: [from, to], .. } = self.travel_in_parts(slide);
+        if datum.is_zero() {
+            return None;
+        }
+        let (own, far, found) = if to.link == link { (to, from, found) } else { (from, to, -found) };
+        let [along, along_far] = [own, far].map(|end| self.slide_along_on(slide, end.link));
+        let ahead = (at - self.point(own)).dot(along);
+        Some(self.point(far) + along_far.scaled(ahead) + along_far.scaled(found))
+    }
+
     /// How far the other link's point is ahead of that of the link that carries the line.
     fn travel_on(&self, joint: JointId, carrier: LinkId) -> Travel<'m> {
         let travel = self.travel_in_parts(joint);

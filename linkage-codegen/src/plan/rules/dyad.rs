@@ -506,7 +506,7 @@ impl<'a> Dyad<'a> {
             .resolved_along(balance.placement.slide_direction(self.inner))
             .x;
         let moment = self.moment(balance, leg, balance.graph().one()) - arm * across;
-        super::slide::react(balance, self.inner, link, across, moment);
+        super::slide::react(balance, self.inner, link, across, (moment, None));
         // What it exerts on the leg itself: the opposite of what the other link got.
         balance.push(link, balance.placement.slide_point(self.inner, link), self.guided(balance, leg));
         balance.couple(link, -moment);

@@ -129,8 +129,8 @@ fn counted_if_far(placement: &Placement<'_>, group: &Group, joint: JointId) -> [
     if !datum.is_zero() && lengths(placement.model).into_iter().all(is_beyond) { near } else { own }
 }
 
-/// What is more than this times as long as anything is far away. So much may be lost before.
-const FAR: i64 = 32;
+/// What is more than this times as long as anything is far away. So much may be lost before, less than a digit.
+const FAR: i64 = 8;
 
 /// The distances between points of a link, and of these from lines on it; without the points by which lines are declared.
 fn lengths(model: &Model) -> Vec<Expr<'_>> {

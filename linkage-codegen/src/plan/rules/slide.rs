@@ -111,18 +111,17 @@ pub(super) fn guide<'m>(
 ) {
     let runner = balance.placement.slide_point(slide, link);
     let arm = (about - runner).dot(balance.placement.slide_along_on(slide, link));
-    let one = balance.graph().one();
-    let moment = balance.moment(link, about, one) + arm * across;
-    react(balance, slide, link, across, moment);
+    let here = balance.moment(link, about, balance.graph().one());
+    react(balance, slide, link, across, (here + arm * across, Some((about, here))));
 }
 
-/// The reaction of a slide that holds the force `across` on a link and its moment about the runner.
+/// The reaction of a slide that holds the force `across` on a link and its moment about the runner, with that about another place of the link.
 pub(super) fn react<'m>(
     balance: &mut Balance<'m, '_>,
     slide: JointId,
     link: LinkId,
     across: Expr<'m>,
-    moment: Expr<'m>,
+    (moment, here): (Expr<'m>, Option<(Vector<'m>, Expr<'m>)>),
 ) {
     let model = balance.model();
     let (joint, name) = (&model.joint(slide).name, &model.link(link).name);
@@ -139,7 +138,7 @@ pub(super) fn react<'m>(
     let couple = couple.named(balance.name(&couple_name), format!("{sign}ΣM({joint}) of what acts on {name}"));
     let axes = balance.placement.slide_direction(slide);
     let force = Framed { components: Vector::new(balance.graph().zero(), normal), axes };
-    balance.slide(slide, link, force, couple);
+    balance.slide(slide, link, force, couple, here);
 }
 
 /// The cosine between a slide and an unknown force on its link, as a divisor.
