@@ -232,17 +232,26 @@ impl<'m> Placement<'m> {
         self.travels.insert(joint, Travel { found, datum, whole: datum, between });
     }
 
-    /// How the travel of a slide or a slot is called, as it counts: `travel_S` between its own points, else `run_S`.
+    /// How the travel of a slide or a slot is called, as it counts.
     #[must_use]
     pub fn name_of_travel(&self, joint: JointId) -> String {
-        let counts_from_its_own = self.travels.get(&joint).is_none_or(|travel| travel.datum.is_zero());
-        format!("{}_{}", if counts_from_its_own { "travel" } else { "run" }, self.model.joint(joint).name)
+        self.name_of_run(joint, self.counts_between(joint))
+    }
+
+    /// How it is called if it counts between these points: `travel_S` if they are as good as its own, else `run_S`.
+    #[must_use]
+    pub fn name_of_run(&self, joint: JointId, between: [End; 2]) -> String {
+        let what = if self.datum(joint, between).is_zero() { "travel" } else { "run" };
+        format!("{what}_{}", self.model.joint(joint).name)
+    }
+
+    fn counts_between(&self, joint: JointId) -> [End; 2] {
+        self.travels.get(&joint).map_or(self.model.joint(joint).ends(), |travel| travel.between)
     }
 
     /// The travel of a slide, or of the pin in a slot, as it counts, is known. A pose keeps it.
     pub fn set_travel(&mut self, joint: JointId, travel: Expr<'m>) {
-        let between = self.travels.get(&joint).map_or(self.model.joint(joint).ends(), |travel| travel.between);
-        self.know_run(joint, travel, between);
+        self.know_run(joint, travel, self.counts_between(joint));
         self.connect(joint);
     }
 

@@ -112,7 +112,7 @@ pub(super) fn place(assembly: &mut Assembly<'_>, group: &Group) -> RuleResult {
             let [from, to] = between.map(|end| model.end_name(end));
             let what = model.joint(joint).kind.noun();
             let what = format!("travel of the {what} {}, from {from} to {to}", model.joint(joint).name);
-            let run = next().named(run_name(&trial, joint, between), what);
+            let run = next().named(trial.name_of_run(joint, between), what);
             unknowns.push(Unknown::Travel { travel: run, scale });
             Vector::new(run, run)
         }
@@ -477,14 +477,8 @@ fn sought(placement: &Placement<'_>, place: Place, scale: Expr<'_>) -> Sought {
         Place::Angle(link) => {
             Sought::Travel { name: format!("angle_{}", model.link(link).name), scale: model.graph.one().id() }
         }
-        Place::Run(joint, between) => Sought::Travel { name: run_name(placement, joint, between), scale: scale.id() },
+        Place::Run(joint, between) => Sought::Travel { name: placement.name_of_run(joint, between), scale: scale.id() },
     }
-}
-
-/// The name of a travel that is sought.
-fn run_name(placement: &Placement<'_>, joint: JointId, between: [End; 2]) -> String {
-    let what = if placement.datum(joint, between).is_zero() { "travel" } else { "run" };
-    format!("{what}_{}", placement.model.joint(joint).name)
 }
 
 fn declared(model: &Model, link: LinkId) -> Option<&Start> {
