@@ -1113,12 +1113,14 @@ fn shifted(text: &str, offset: &str) -> String {
 /// cascades, where ways of later dyads go over the slide, these have other roundings, and no larger ones.
 fn datum_moved<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     let mut random = Random(19);
-    let moves = [(1e3, false), (-123_456.0, false), (1e8, false), (-1e3, true), (1e8, true)];
-    for (distance, runner) in moves.into_iter().filter(|(_, runner)| !runner || kind.is_by_places()) {
+    let [line, runner, both]: [&[bool]; 3] = [&[false], &[true], &[false, true]];
+    let moves = [(1e3, line), (-123_456.0, line), (1e8, line), (-1e3, runner), (1e8, runner), (-1e5, both)];
+    for (distance, points) in moves.into_iter().filter(|(_, points)| *points == line || kind.is_by_places()) {
         for _ in 0..members {
             let member = kind.drawn(&mut random);
             let text = computed_in::<T>(&member.text, fused);
-            let Some(moved) = with_datum_moved(&text, distance, runner) else { continue };
+            let move_point = |text: String, runner: &bool| with_datum_moved(&text, distance, *runner);
+            let Some(moved) = points.iter().try_fold(text.clone(), move_point) else { continue };
             let both = [&moved, &text].map(|text| compile_if_it_closes(text));
             assert_eq!(both[0].is_some(), both[1].is_some(), "{moved}");
             let [Some(far), Some(near)] = both else { continue };

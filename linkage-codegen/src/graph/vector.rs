@@ -57,7 +57,7 @@ impl<'g> Vector<'g> {
     }
 
     /// Turned by a direction: the vector whose components in the turned axes are these. Both ways along a constant vector are one, with either
-    /// sign, so that the arm of a moment is what the pose is made of.
+    /// sign, so that the arm of a moment is what the pose is made of; where x is zero, each component is one product anyway.
     #[must_use]
     pub fn turned_by(self, direction: Self) -> Self {
         if self.is_constant() && self.x.sign() == Some(-1) {

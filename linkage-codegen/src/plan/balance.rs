@@ -303,8 +303,8 @@ impl<'m, 'p> Balance<'m, 'p> {
     }
 
     /// The reaction of a slide on its second link, found from the equilibrium of the link `on`; the other link gets its part. What acts on the
-    /// link has the moment `here` about a place of it: beside that the other link gets the force with this moment, if the point about which the
-    /// couple is may be far away.
+    /// link has the moment `here` about a place of it: where the travel does not count from the slide's own points, which may be far away, the
+    /// other link gets the force beside that place, with this moment.
     pub fn slide(
         &mut self,
         joint: JointId,

@@ -245,6 +245,13 @@ impl<'m> Placement<'m> {
         format!("{what}_{}", self.model.joint(joint).name)
     }
 
+    /// The point of one of its links from which it counts.
+    #[must_use]
+    pub fn counted_from(&self, joint: JointId, link: LinkId) -> End {
+        let [from, to] = self.counts_between(joint);
+        if to.link == link { to } else { from }
+    }
+
     fn counts_between(&self, joint: JointId) -> [End; 2] {
         self.travels.get(&joint).map_or(self.model.joint(joint).ends(), |travel| travel.between)
     }
@@ -457,12 +464,13 @@ impl<'m> Placement<'m> {
         }
     }
 
-    /// The place on the other link of a slide beside a place of one of them, by what was found of its travel; nothing where that counts between
-    /// the slide's own points.
+    /// The place on the other link of a slide beside a place of one of them, by what was found of its travel; nothing where that counts from
+    /// where the slide's own points are along the line.
     #[must_use]
     pub fn beside(&self, slide: JointId, link: LinkId, at: Vector<'m>) -> Option<Vector<'m>> {
-        let Travel { found, datum, between: [from, to], .. } = self.travel_in_parts(slide);
-        if datum.is_zero() {
+        let Travel { found, between: [from, to], .. } = self.travel_in_parts(slide);
+        let [first, second] = self.model.joint(slide).ends();
+        if [(first, from), (second, to)].into_iter().all(|(own, near)| self.along_line(slide, own, near).is_zero()) {
             return None;
         }
         let (own, far, found) = if to.link == link { (to, from, found) } else { (from, to, -found) };

@@ -108,25 +108,37 @@ fn check_length(model: &Model, link: LinkId, pins: [JointId; 2]) -> RuleResult {
     .help("put the two points apart, or join the two other links by one pin"))
 }
 
-/// Between what the travel of a slide or a slot is counted until it is found: a pin near it on either link, if there is one and its distance
+/// Between what the travel of a slide or a slot is counted while it is sought: a pin near it on either link, if there is one and its distance
 /// along the line is a constant, or else the joint's own point. A pin in a slot is a place of its link; all other points of these joints may
 /// be declared anywhere on the line, far from where anything is.
 fn counted_between(placement: &Placement<'_>, group: &Group, joint: JointId) -> [End; 2] {
-    let data = placement.model.joint(joint);
-    data.ends().map(|own| {
-        let near = if data.is_line_on(own.link) { pin_near(placement, group, own) } else { None };
-        near.filter(|pin| placement.along_line(joint, own, *pin).value().is_some()).unwrap_or(own)
-    })
+    placement.model.joint(joint).ends().map(|own| near(placement, joint, own, pin_near(placement, group, own)))
 }
 
-/// The same where the travel is found in a formula. As a rule its own points are near enough, and near where things are; only where they are
-/// far beyond all lengths, the ways of later groups that go over the slide would have the rounding of the distance.
-fn counted_if_far(placement: &Placement<'_>, group: &Group, joint: JointId) -> [End; 2] {
-    let own = placement.model.joint(joint).ends();
-    let near = counted_between(placement, group, joint);
-    let datum = placement.datum(joint, near).abs();
-    let is_beyond = |length: Expr<'_>| (datum - FAR * length).sign() == Some(1);
-    if !datum.is_zero() && lengths(placement.model).into_iter().all(is_beyond) { near } else { own }
+/// Lets the travel of a slide or a slot that is found in a formula count from where it is placed to be zero, and gives how far its second point
+/// is from its first there.
+///
+/// As a rule its own points are near enough, and near where things are. Where they are far beyond all lengths, the ways of later groups that
+/// go over the slide would have the rounding of the distance: then a pin on the link serves instead.
+fn count<'m>(assembly: &mut Assembly<'m>, group: &Group, joint: JointId) -> Expr<'m> {
+    let placement = &assembly.placement;
+    let is_far = |own: End, pin: End| {
+        let distance = placement.along_line(joint, own, pin).abs();
+        let is_beyond = |length: Expr<'m>| (distance - FAR * length).sign() == Some(1);
+        !distance.is_zero() && lengths(placement.model).into_iter().all(is_beyond)
+    };
+    let between = placement.model.joint(joint).ends().map(|own| {
+        let pin = near(placement, joint, own, pin_near(placement, group, own).or_else(|| pin_on(placement.model, own)));
+        if is_far(own, pin) { pin } else { own }
+    });
+    assembly.placement.count_between(joint, between);
+    assembly.placement.datum(joint, between)
+}
+
+/// A pin of the link in the stead of a slide's own point on its line, if its distance along that is a constant.
+fn near(placement: &Placement<'_>, joint: JointId, own: End, pin: Option<End>) -> End {
+    let is_constant = |pin: &End| placement.along_line(joint, own, *pin).value().is_some();
+    pin.filter(|_| placement.model.joint(joint).is_line_on(own.link)).filter(is_constant).unwrap_or(own)
 }
 
 /// What is more than this times as long as anything is far away. So much may be lost before, less than a digit.
@@ -152,19 +164,23 @@ fn lengths(model: &Model) -> Vec<Expr<'_>> {
     lengths
 }
 
-/// The first pin that a group has on a link of its own or around it, or else that by which loops of the group go on from the link, or else
-/// any.
+/// The first pin that a group has on a link of its own or around it, or else that by which loops of the group go on from the link.
 fn pin_near(placement: &Placement<'_>, group: &Group, own: End) -> Option<End> {
     let model = placement.model;
     let is_around = |end: &End| !group.links.contains(&end.link);
-    let pin_on = |joint: &JointId| Some(model.joint(*joint)).filter(|j| !j.is_line_on(own.link))?.end_on(own.link);
     let [near, _] = pins_of(model, group, own.link);
-    let going_on = || {
+    near.or_else(|| {
         let around = group.outer.iter().flat_map(|joint| model.joint(*joint).ends()).filter(is_around);
         let ways = around.filter(|end| is_around(&own) && end.link != own.link).map(|end| placement.route(own, end));
-        ways.filter_map(|way| way.first().copied()).find_map(|joint| pin_on(&joint))
-    };
-    near.or_else(going_on).or_else(|| model.joint_ids().find_map(|joint| pin_on(&joint)))
+        let first = ways.filter_map(|way| way.first().map(|joint| model.joint(*joint)));
+        first.filter(|joint| !joint.is_line_on(own.link)).find_map(|joint| joint.end_on(own.link))
+    })
+}
+
+/// The first pin of all on a link.
+fn pin_on(model: &Model, own: End) -> Option<End> {
+    let mut joints = model.joint_ids().map(|joint| model.joint(joint)).filter(|joint| !joint.is_line_on(own.link));
+    joints.find_map(|joint| joint.end_on(own.link))
 }
 
 /// The first two points of a link at joints of the group, but for those that may lie anywhere on a line.

@@ -17,7 +17,7 @@
 //! of the places on the guides.
 
 use super::dyad::{Dyad, Leg, dyad};
-use super::{Rule, RuleResult, counted_if_far};
+use super::{Rule, RuleResult, count};
 use crate::graph::Vector;
 use crate::model::Model;
 use crate::model::ids::{GROUND, JointId};
@@ -53,7 +53,7 @@ impl Rule for Prp {
         for leg in &dyad.legs {
             assembly.placement.orient_along(leg.outer, leg.link());
             dyad.place_rest(assembly, leg, leg.link())?;
-            assembly.placement.count_between(leg.outer, counted_if_far(&assembly.placement, group, leg.outer));
+            count(assembly, group, leg.outer);
             assembly.placement.connect(leg.outer);
         }
         let (cosine, sine) = dyad.state_slides(assembly, slides(&dyad))?;

@@ -15,7 +15,7 @@
 //! Velocities: with c that of the pin's place as if it were fixed to the outer guide, `ṡₒ = ((v − c) × eᵢ)/(eₒ × eᵢ)`.
 
 use super::dyad::{Dyad, dyad};
-use super::{Rule, RuleResult, counted_if_far};
+use super::{Rule, RuleResult, count};
 use crate::model::Model;
 use crate::model::ids::{GROUND, JointId};
 use crate::plan::assembly::{Assembly, ClosedLoop, Found};
@@ -57,7 +57,7 @@ impl Rule for Rpp {
         for (leg, slide, link) in [(slider, slider.outer, slider.link()), (pinned, dyad.inner, pinned.tip.end.link)] {
             assembly.placement.orient_along(slide, link);
             dyad.place_rest(assembly, leg, link)?;
-            assembly.placement.count_between(slide, counted_if_far(&assembly.placement, group, slide));
+            count(assembly, group, slide);
             assembly.placement.connect(slide);
         }
         let (cosine, sine) = dyad.state_slides(assembly, slides(&dyad))?;

@@ -18,7 +18,7 @@
 //! the pins is square to the slide.
 
 use super::dyad::{Dyad, Leg, dyad, towards_unit};
-use super::{Rule, RuleResult, counted_if_far};
+use super::{Rule, RuleResult, count};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::{GROUND, JointId};
@@ -232,9 +232,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         apart: false,
     });
     place(assembly, dyad, direction)?;
-    let between = counted_if_far(&assembly.placement, group, dyad.inner);
-    assembly.placement.count_between(dyad.inner, between);
-    let fixed = offset.x + assembly.placement.datum(dyad.inner, between);
+    let fixed = offset.x + count(assembly, group, dyad.inner);
     let name = assembly.placement.name_of_travel(dyad.inner);
     let travel = (s - fixed).named(name, format!("travel of the slide {slide}: s less what is fixed"));
     assembly.placement.set_travel(dyad.inner, travel);

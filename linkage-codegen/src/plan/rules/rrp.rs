@@ -14,7 +14,7 @@
 //! the slide. `u·e = h/r` is the pivot: sin μ, with μ the angle between the link and the normal of the slide.
 
 use super::dyad::{Dyad, dyad, towards_unit};
-use super::{Rule, RuleResult, counted_if_far};
+use super::{Rule, RuleResult, count};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::JointId;
@@ -144,7 +144,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let line = assembly.placement.line(slide);
     let e = line.direction;
     // With the travel still zero, the way goes from A over the guide to B.
-    assembly.placement.count_between(slide, counted_if_far(&assembly.placement, group, slide));
+    count(assembly, group, slide);
     assembly.placement.connect(slide);
     let way = assembly.placement.way(rod_leg.far, slider_leg.tip);
     let meeting = meet((r, dyad.slack(rod_leg)), &way, line, ahead, [inner, outer], dyad.group_name());

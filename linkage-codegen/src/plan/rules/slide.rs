@@ -75,7 +75,7 @@ impl Rule for Slide {
             let force = Framed { components: along.components.scaled(value), axes: along.axes };
             total.y + force.along(direction).y
         };
-        let own = balance.placement.point(balance.end(slide, link));
+        let own = balance.placement.point(balance.placement.counted_from(slide, link));
         guide(balance, slide, link, across, own);
         Ok(())
     }

@@ -17,7 +17,7 @@
 use super::dyad::towards_unit;
 use super::rrp::{Meeting, ahead, by_parts, meet};
 use super::slide::guide;
-use super::{Rule, RuleResult, counted_if_far};
+use super::{Rule, RuleResult, count};
 use crate::graph::{Expr, Failure, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model};
@@ -262,9 +262,7 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, group: &Group, parts: &Parts<'m>
     });
     assembly.placement.orient(link, Orientation { direction, axis });
     assembly.placement.connect(held);
-    let between = counted_if_far(&assembly.placement, group, slot);
-    assembly.placement.count_between(slot, between);
-    let fixed = datum.x + parts.signed(slot, assembly.placement.datum(slot, between));
+    let fixed = datum.x + parts.signed(slot, count(assembly, group, slot));
     let travel = parts.signed(slot, s - fixed);
     let travel = travel.named(assembly.placement.name_of_travel(slot), format!("travel in the slot {at}"));
     assembly.placement.set_travel(slot, travel);
@@ -284,7 +282,7 @@ fn place_runner<'m>(assembly: &mut Assembly<'m>, group: &Group, parts: &Parts<'m
     let (Some(own), Some(to)) = (data.end_on(link), Spot::of_pin(model, slot, parts.far(slot))) else { return Ok(()) };
     let Some(from) = Spot::of_pin(model, held, parts.far(held)) else { return Ok(()) };
     // With the travel still zero.
-    assembly.placement.count_between(slot, counted_if_far(&assembly.placement, group, slot));
+    count(assembly, group, slot);
     let (near, slack) = parts.held_at();
     let arm = model.local(own) - near;
     let moves = parts.carries_held();
@@ -356,9 +354,9 @@ impl Rule for SlotAndSlide {
         let data = model.joint(slot);
         assembly.placement.orient_along(slide, link);
         // With the travel still zero, the way goes over the guide.
-        assembly.placement.count_between(slide, counted_if_far(&assembly.placement, group, slide));
+        count(assembly, group, slide);
         assembly.placement.connect(slide);
-        assembly.placement.count_between(slot, counted_if_far(&assembly.placement, group, slot));
+        count(assembly, group, slot);
         let carried_by_first = data.kind.line().is_some_and(|(carrier, _)| carrier == data.from.link);
         let (line, pin) = if carried_by_first { (data.from, data.to) } else { (data.to, data.from) };
         let way = assembly.placement.way(Spot { end: line, slot: Some(slot) }, pin);
@@ -406,7 +404,7 @@ impl Rule for SlotAndSlide {
         parts.react(balance, normal, &equation);
         let across = balance.total(link).along(direction).y;
         // About the guide's own place on the link: the pin in the slot may be far away from the other forces.
-        guide(balance, slide, link, across, balance.placement.point(balance.end(slide, link)));
+        guide(balance, slide, link, across, balance.placement.point(balance.placement.counted_from(slide, link)));
         Ok(())
     }
 

@@ -1,10 +1,12 @@
 //! A constant factor of a moment goes to the arm: `k (p F_y − q F_x) = (k p) F_y − (k q) F_x`, where p = a u ± b v and q, the arm turned into
 //! ground axes, have constants that take it, and nothing else reads them but moments with the same factor.
 //!
+//! Bounds of errors count on what is multiplied here: before signs are absorbed, on sums as the graph has them.
+//!
 //! A moment over a length is `1/l (arm × F)`. Where the pose is found too, the arm is a part of it, and one product brings the moment to the
 //! length. Where the pose is given, the arm is there for the moment alone, and that product is spared.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::number::Number;
 use crate::graph::{Graph, Op};
@@ -18,19 +20,27 @@ pub(super) fn scale(mut program: Program, graph: &Graph) -> Program {
         let before = moments.len();
         let arms = arms(&moments);
         let is_read_by_them = |arm: &ValueId| arms[arm].as_ref().is_some_and(|(_, reads)| *reads == uses[arm.index()]);
-        moments.retain(|moment| moment.arm.iter().all(is_read_by_them));
+        // A moment that is itself a term of an arm stays as it is.
+        let terms = arms.keys().filter_map(|arm| program.op(*arm).and_then(Op::terms)).flat_map(|(terms, _)| terms);
+        let terms: BTreeSet<ValueId> = terms.collect();
+        moments.retain(|moment| moment.arm.iter().all(is_read_by_them) && !terms.contains(&moment.value));
         if moments.len() == before {
             break;
         }
     }
     for (arm, factor) in arms(&moments) {
-        let terms = program.op(arm).and_then(Op::terms).map_or(Vec::new(), |(terms, _)| terms.to_vec());
-        for term in terms {
-            if let Some((k, (constant, of))) = factor.as_ref().map(|(k, _)| k).zip(multiple(&program, graph, term)) {
+        let Some((terms, minus)) = program.op(arm).and_then(Op::terms) else { continue };
+        let Some((k, _)) = factor else { continue };
+        let terms = terms.map(|term| match multiple(&program, graph, term) {
+            Some((constant, of)) if k.mul(&constant).is_one() => of,
+            Some((constant, of)) => {
                 let constant = program.add_constant(graph, &k.mul(&constant), term);
                 program.values[term.index()].definition = Definition::Computed(Op::Mul(constant, of));
+                term
             }
-        }
+            None => term,
+        });
+        program.values[arm.index()].definition = Definition::Computed(Op::of_terms(terms, minus));
     }
     for Moment { value, sum, .. } in moments {
         program.values[value.index()].definition = program.values[sum.index()].definition.clone();
