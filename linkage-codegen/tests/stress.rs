@@ -1149,18 +1149,23 @@ fn is_force(path: &str) -> bool {
 }
 
 /// How much further off the forces of one linkage are than those of another one, which says the same in other words: as parts of the
-/// latter's errors and an epsilon of the largest force. Nothing where that has no forces.
+/// latter's errors there and nearby, where it may be less lucky, and an epsilon of the largest force. Nothing where that has no forces.
 fn further_off<T: Scalar>([one, other]: [&Linkage; 2], arguments: &Arguments) -> Option<f64> {
-    let exact = scene::<Extended>(other, "all", arguments).ok()?;
-    let forces = || exact.iter().filter(|(path, _)| is_force(path));
-    let largest = forces().fold(0.0_f64, |largest, (_, force)| largest.max(force.to_f64().abs()));
-    let off = |linkage| {
+    let off = |linkage: &Linkage, arguments: &Arguments| {
+        let exact = scene::<Extended>(other, "all", arguments).ok()?;
+        let forces = || exact.iter().filter(|(path, _)| is_force(path));
+        let largest = forces().fold(0.0_f64, |largest, (_, force)| largest.max(force.to_f64().abs()));
         let found = scene::<T>(linkage, "all", arguments).ok()?;
         let off = forces().map(|(path, force)| Extended::exactly(found[path].to_f64()).sub(force).to_f64().abs());
-        Some(off.fold(0.0, f64::max))
+        Some(off.fold(0.0, f64::max) / largest)
     };
-    let own = off(other)? + T::EPSILON * largest;
-    Some(off(one).map_or(f64::INFINITY, |off| off / own))
+    let nearby = (1..4).map(|k| {
+        let drive = arguments.drives[0] + f64::from(k) * 1e3 * T::EPSILON;
+        at_nearest::<T>(drive, &arguments.loads)
+    });
+    let own = off(other, arguments)?.max(T::EPSILON);
+    let own = nearby.filter_map(|arguments| off(other, &arguments)).fold(own, f64::max);
+    Some(off(one, arguments).map_or(f64::INFINITY, |off| off / own))
 }
 
 /// The directions of a pose, bit for bit.
