@@ -1110,7 +1110,7 @@ fn shifted(text: &str, offset: &str) -> String {
 
 /// 6: the point by which a slide's or a slot's line is given, from which its travel counts, may be anywhere on it, in Newton blocks and
 /// cascades that of a slide's runner, too. Only couples, and what is found from them, have the rounding of a travel that is so large. In
-/// cascades, where ways of later dyads go over the slide, these have other roundings, and no larger ones.
+/// cascades ways of later dyads go over the slide: their forces are rounded otherwise then, with errors of the same size.
 fn datum_moved<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     let mut random = Random(19);
     let [line, runner, both]: [&[bool]; 3] = [&[false], &[true], &[false, true]];

@@ -184,6 +184,12 @@ impl Joint {
         }
     }
 
+    /// Its point on a link, but for one that may be declared anywhere on a line.
+    #[must_use]
+    pub fn pin_on(&self, link: LinkId) -> Option<End> {
+        self.end_on(link).filter(|_| !self.is_line_on(link))
+    }
+
     /// Where the joint is: of a slide its runner, the point on the line that the other link carries, of a slot its pin, of a gear pair
     /// the second centre. The couple of the reaction is about this point.
     #[must_use]

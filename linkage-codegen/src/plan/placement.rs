@@ -253,7 +253,7 @@ impl<'m> Placement<'m> {
     }
 
     fn counts_between(&self, joint: JointId) -> [End; 2] {
-        self.travels.get(&joint).map_or(self.model.joint(joint).ends(), |travel| travel.between)
+        self.travel_in_parts(joint).between
     }
 
     /// The travel of a slide, or of the pin in a slot, as it counts, is known. A pose keeps it.

@@ -9,7 +9,8 @@
 use core::iter;
 use std::collections::BTreeSet;
 
-use super::{RuleResult, counted_between, pins_of};
+use super::RuleResult;
+use super::travels::{counted_between, pins_of};
 use crate::diagnostics::{Diagnostic, list};
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Graph, NodeId, Search, SearchId, Sought, Stage, Symbol, Vector, sought_direction};

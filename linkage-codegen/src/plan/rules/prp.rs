@@ -17,7 +17,8 @@
 //! of the places on the guides.
 
 use super::dyad::{Dyad, Leg, dyad};
-use super::{Rule, RuleResult, count};
+use super::travels::count;
+use super::{Rule, RuleResult};
 use crate::graph::Vector;
 use crate::model::Model;
 use crate::model::ids::{GROUND, JointId};

@@ -15,7 +15,8 @@
 //! Velocities: with c that of the pin's place as if it were fixed to the outer guide, `ṡₒ = ((v − c) × eᵢ)/(eₒ × eᵢ)`.
 
 use super::dyad::{Dyad, dyad};
-use super::{Rule, RuleResult, count};
+use super::travels::count;
+use super::{Rule, RuleResult};
 use crate::model::Model;
 use crate::model::ids::{GROUND, JointId};
 use crate::plan::assembly::{Assembly, ClosedLoop, Found};

@@ -18,7 +18,8 @@
 //! the pins is square to the slide.
 
 use super::dyad::{Dyad, Leg, dyad, towards_unit};
-use super::{Rule, RuleResult, count};
+use super::travels::count;
+use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::{GROUND, JointId};

@@ -14,7 +14,8 @@
 //! the slide. `u·e = h/r` is the pivot: sin μ, with μ the angle between the link and the normal of the slide.
 
 use super::dyad::{Dyad, dyad, towards_unit};
-use super::{Rule, RuleResult, count};
+use super::travels::count;
+use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::JointId;

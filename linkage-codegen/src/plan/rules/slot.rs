@@ -17,7 +17,8 @@
 use super::dyad::towards_unit;
 use super::rrp::{Meeting, ahead, by_parts, meet};
 use super::slide::guide;
-use super::{Rule, RuleResult, count};
+use super::travels::count;
+use super::{Rule, RuleResult};
 use crate::graph::{Expr, Failure, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model};
@@ -109,6 +110,12 @@ impl<'m> Parts<'m> {
         let data = self.model.joint(joint);
         let carried_by_first = data.kind.line().is_some_and(|(carrier, _)| carrier == data.from.link);
         if carried_by_first { ahead } else { -ahead }
+    }
+
+    /// The travel in the slot, by how far the pin is ahead of where it counts from.
+    fn travel(&self, placement: &Placement<'m>, ahead: Expr<'m>) -> Expr<'m> {
+        let meaning = format!("travel in the slot {}", self.joint_name(self.slot));
+        self.signed(self.slot, ahead).named(placement.name_of_travel(self.slot), meaning)
     }
 
     /// The reaction of the slot that exerts the force `normal` on the link: the opposite of what the equation says.
@@ -263,8 +270,7 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, group: &Group, parts: &Parts<'m>
     assembly.placement.orient(link, Orientation { direction, axis });
     assembly.placement.connect(held);
     let fixed = datum.x + parts.signed(slot, count(assembly, group, slot));
-    let travel = parts.signed(slot, s - fixed);
-    let travel = travel.named(assembly.placement.name_of_travel(slot), format!("travel in the slot {at}"));
+    let travel = parts.travel(&assembly.placement, s - fixed);
     assembly.placement.set_travel(slot, travel);
     if datum.is_zero() {
         // The lever arm is the travel.
@@ -316,8 +322,7 @@ fn place_runner<'m>(assembly: &mut Assembly<'m>, group: &Group, parts: &Parts<'m
     };
     assembly.placement.orient(link, orientation);
     assembly.placement.connect(held);
-    let travel = parts.signed(slot, h - q.x);
-    let travel = travel.named(assembly.placement.name_of_travel(slot), format!("travel in the slot {at}"));
+    let travel = parts.travel(&assembly.placement, h - q.x);
     let along = e.scaled(parts.signed(slot, r.graph().one()));
     let reach = direction.scaled(r);
     assembly.closed(|| ClosedLoop {
@@ -383,8 +388,7 @@ impl Rule for SlotAndSlide {
             pivot: None,
             apart: false,
         });
-        let travel = parts.signed(slot, run);
-        let travel = travel.named(assembly.placement.name_of_travel(slot), format!("travel in the slot {at}"));
+        let travel = parts.travel(&assembly.placement, run);
         assembly.placement.set_travel(slot, travel);
         Ok(())
     }

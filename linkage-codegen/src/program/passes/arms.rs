@@ -31,7 +31,7 @@ pub(super) fn scale(mut program: Program, graph: &Graph) -> Program {
     for (arm, factor) in arms(&moments) {
         let Some((terms, minus)) = program.op(arm).and_then(Op::terms) else { continue };
         let Some((k, _)) = factor else { continue };
-        let terms = terms.map(|term| match multiple(&program, graph, term) {
+        let terms = terms.map(|term| match program.multiple(graph, term) {
             Some((constant, of)) if k.mul(&constant).is_one() => of,
             Some((constant, of)) => {
                 let constant = program.add_constant(graph, &k.mul(&constant), term);
@@ -42,10 +42,11 @@ pub(super) fn scale(mut program: Program, graph: &Graph) -> Program {
         });
         program.values[arm.index()].definition = Definition::Computed(Op::of_terms(terms, minus));
     }
-    for Moment { value, sum, .. } in moments {
+    for Moment { value, sum, .. } in &moments {
         program.values[value.index()].definition = program.values[sum.index()].definition.clone();
-        program.steps.retain(|step| !matches!(step, Step::Let(inner) if *inner == sum));
     }
+    let sums: BTreeSet<ValueId> = moments.iter().map(|moment| moment.sum).collect();
+    program.steps.retain(|step| !matches!(step, Step::Let(value) if sums.contains(value)));
     program
 }
 
@@ -84,15 +85,7 @@ fn moment(program: &Program, graph: &Graph, uses: &[usize], value: ValueId) -> O
 
 /// Whether a value without a name is a sum of two multiples by constants, which nothing else reads.
 fn is_component(program: &Program, graph: &Graph, uses: &[usize], value: ValueId) -> bool {
-    let is_multiple = |term: &ValueId| program.is_inner(*term, uses) && multiple(program, graph, *term).is_some();
+    let is_multiple = |term: &ValueId| program.is_inner(*term, uses) && program.multiple(graph, *term).is_some();
     let terms = program.op(value).and_then(Op::terms);
     program.value(value).label.is_none() && terms.is_some_and(|(terms, _)| terms.iter().all(is_multiple))
-}
-
-/// A multiple by a constant: this, and of what.
-fn multiple(program: &Program, graph: &Graph, value: ValueId) -> Option<(Number, ValueId)> {
-    match program.op(value)? {
-        Op::Mul(k, of) => Some((program.constant(graph, *k)?, *of)),
-        _ => None,
-    }
 }

@@ -80,10 +80,7 @@ impl Merging<'_> {
 
     /// A product with a constant: the constant and the rest.
     fn scaled(&self, value: ValueId) -> Option<(Number, ValueId)> {
-        match self.program.op(value)? {
-            Op::Mul(k, x) => Some((self.constant(*k)?, *x)),
-            _ => None,
-        }
+        self.program.multiple(self.graph, value)
     }
 
     fn value(&mut self, value: ValueId) {

@@ -224,14 +224,11 @@ impl Ordering<'_> {
 
     /// A value as a constant times another value.
     fn scaled(&self, value: ValueId) -> (Number, ValueId) {
+        if let Some((number, x)) = self.program.multiple(self.graph, value) {
+            let (inner, base) = self.scaled(x);
+            return (number.mul(&inner), base);
+        }
         match self.program.op(value) {
-            Some(Op::Mul(k, x)) => match self.program.constant(self.graph, *k) {
-                Some(number) => {
-                    let (inner, base) = self.scaled(*x);
-                    (number.mul(&inner), base)
-                }
-                None => (Number::one(), value),
-            },
             Some(Op::Neg(x)) => {
                 let (inner, base) = self.scaled(*x);
                 (inner.neg(), base)

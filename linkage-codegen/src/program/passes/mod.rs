@@ -89,6 +89,15 @@ impl Program {
         }
     }
 
+    /// A product with a constant: the constant and the rest.
+    #[must_use]
+    pub fn multiple(&self, graph: &Graph, value: ValueId) -> Option<(Number, ValueId)> {
+        match self.op(value)? {
+            Op::Mul(k, x) => Some((self.constant(graph, *k)?, *x)),
+            _ => None,
+        }
+    }
+
     /// Whether only one other value reads it, and it has no name of its own.
     #[must_use]
     pub fn is_inner(&self, value: ValueId, uses: &[usize]) -> bool {
