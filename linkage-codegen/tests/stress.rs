@@ -1114,7 +1114,7 @@ fn shifted(text: &str, offset: &str) -> String {
 fn datum_moved<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     let mut random = Random(19);
     let [line, runner, both]: [&[bool]; 3] = [&[false], &[true], &[false, true]];
-    let moves = [(1e3, line), (-123_456.0, line), (1e8, line), (-1e3, runner), (1e8, runner), (-1e5, both)];
+    let moves = [(20.0, line), (1e3, line), (-123_456.0, line), (1e8, line), (-1e3, runner), (1e8, runner), (-1e5, both)];
     for (distance, points) in moves.into_iter().filter(|(_, points)| *points == line || kind.is_by_places()) {
         for _ in 0..members {
             let member = kind.drawn(&mut random);
