@@ -4,12 +4,17 @@ mod support;
 
 use std::collections::BTreeMap;
 
+use linkage_codegen::Linkage;
+use linkage_codegen::graph::Op;
 use linkage_codegen::graph::real::Real;
+use linkage_codegen::model::JointKind;
 use linkage_codegen::plan::rules::RULES;
+use linkage_codegen::program::Definition;
 use support::bounds::{LOOSEST, median, ratios_of};
+use support::far_points;
 use support::general::{equations, open_motion, residuals, solve_extended};
-use support::numbers::Extended;
-use support::{Arguments, Number, compile, scene};
+use support::numbers::{Double, Extended};
+use support::{Arguments, Number, compile, index_of, scene};
 
 /// A linkage for each class of groups, with the class named, drives at which it closes, and how the rule is used.
 const CASES: [(&str, &[&[f64]], &str); 80] = [
@@ -712,19 +717,21 @@ fn every_rule_satisfies_the_equations_of_its_group() {
         let used = linkage.plan.motion_rules.iter().chain(&linkage.plan.force_rules);
         assert!(used.into_iter().any(|rule| *rule == class), "{class} is not used\n{text}");
         for drives in drives {
-            let arguments = Arguments {
-                drives: drives.to_vec(),
-                loads: vec![[0.0; 2]; linkage.model.loads.len()],
-                ..Arguments::default()
-            };
+            let arguments = at_rest(&linkage, drives);
             check(&linkage, &arguments, &text);
             check_motion(&linkage, &arguments, &text);
         }
     }
 }
 
+/// A pose by its drives. All loads are constants.
+fn at_rest(linkage: &Linkage, drives: &[f64]) -> Arguments {
+    let loads = vec![[0.0; 2]; linkage.model.loads.len()];
+    Arguments { drives: drives.to_vec(), loads, ..Arguments::default() }
+}
+
 /// Velocities keep the constraints, and so do accelerations: `J q̇ = 0` and `J q̈ + J̇ q̇ = 0`, the drives' own coordinates as given.
-fn check_motion(linkage: &linkage_codegen::Linkage, arguments: &Arguments, text: &str) {
+fn check_motion(linkage: &Linkage, arguments: &Arguments, text: &str) {
     let motions =
         [[[1.3, -0.7], [0.6, 2.1], [-0.9, 0.4], [0.3, 1.7]], [[-0.4, 0.0], [1.9, -1.0], [0.0, 1.1], [-1.2, 0.0]]];
     for motion in motions {
@@ -737,7 +744,7 @@ fn check_motion(linkage: &linkage_codegen::Linkage, arguments: &Arguments, text:
     }
 }
 
-fn check(linkage: &linkage_codegen::Linkage, arguments: &Arguments, text: &str) {
+fn check(linkage: &Linkage, arguments: &Arguments, text: &str) {
     // In 220 bits nothing but a wrong formula makes a difference.
     for residual in residuals::<Extended>(linkage, arguments).unwrap_or_else(|fault| panic!("{fault:?}\n{text}")) {
         assert!(residual.to_f64().abs() < 1e-55, "constraint: {:e}\n{text}", residual.to_f64());
@@ -747,8 +754,9 @@ fn check(linkage: &linkage_codegen::Linkage, arguments: &Arguments, text: &str) 
     let all = scene::<Extended>(linkage, "all", arguments).unwrap();
     for (name, value) in general.named(linkage, solution) {
         let error = (all[&name].to_f64() - value.to_f64()).abs();
-        assert!(error <= 1e-13 * value.to_f64().abs().max(1.0), "{name}\n{text}");
-        assert!(all[&name].sub(&value).to_f64().abs() < 1e-50, "{name}: equilibrium\n{text}");
+        let size = value.to_f64().abs().max(1.0);
+        assert!(error <= 1e-13 * size, "{name}\n{text}");
+        assert!(all[&name].sub(&value).to_f64().abs() < 1e-50 * size, "{name}: equilibrium\n{text}");
     }
     let work = scene::<Extended>(linkage, "work", arguments).unwrap();
     for unknown in &linkage.model.unknowns {
@@ -791,6 +799,81 @@ fn bounds_hold_the_errors_of_every_rule() {
         let (count, median) = (ratios.len(), median(ratios).expect("results"));
         println!("{class}: {count} results, median of bound over error {median:.1}");
         assert!(median < LOOSEST, "{class}: {count} results, median {median:.1}");
+    }
+}
+
+/// A case with scenes of what does not depend on the points by which its lines are declared: forces, efforts, how the links turn.
+fn independent_of_points(items: &str) -> String {
+    let linkage = compile(&format!("pub mod sample; {items} scene all: equilibrium;"));
+    let unknowns: Vec<&str> = linkage.model.unknowns.iter().map(|unknown| unknown.name.as_str()).collect();
+    let slides = |kind: &JointKind| matches!(kind, JointKind::Prismatic { .. } | JointKind::Slot { .. });
+    let joints = linkage.model.joints.iter().filter(|joint| !slides(&joint.kind));
+    let forces: Vec<&str> = unknowns.iter().copied().chain(joints.map(|joint| joint.name.text.as_str())).collect();
+    let angles = linkage.model.moving_links().map(|link| format!("{}.angle", linkage.model.link(link).name));
+    let (forces, unknowns, angles) = (forces.join(", "), unknowns.join(", "), angles.collect::<Vec<_>>().join(", "));
+    format!(
+        "pub mod sample; {items} scene held: equilibrium -> ({forces}, error_bound);
+         scene work: virtual_work -> ({unknowns}, error_bound); scene moved: acceleration -> ({angles}, error_bound);
+         scene all: equilibrium;"
+    )
+}
+
+/// Lines that are declared by points far away: no function has the distance in it, errors are like those with near points, and so are bounds.
+#[test]
+fn far_points_of_lines_take_no_digits() {
+    let [line, runner, both]: [&[bool]; 3] = [&[false], &[true], &[false, true]];
+    let moves = [(20.0, line), (1e4, line), (-1e8, line), (1e8, runner), (-3e5, runner), (1e6, both)];
+    let mut tried = 0;
+    for (class, drives, items) in CASES {
+        let text = independent_of_points(items);
+        let near = compile(&text);
+        let lines = far_points::lines(&text);
+        for (name, (distance, points)) in lines.iter().flat_map(|name| moves.map(|by| (name, by))) {
+            let move_point = |text: String, runner: &bool| far_points::with_point_moved(&text, name, distance, *runner);
+            let Some(moved) = points.iter().try_fold(text.clone(), move_point) else { continue };
+            let far = compile(&moved);
+            check(&far, &at_rest(&far, drives[0]), &moved);
+            for (drives, scene) in
+                drives.iter().flat_map(|drives| ["held", "work", "moved"].map(|scene| (drives, scene)))
+            {
+                tried += 1;
+                compare([&far, &near], scene, drives, &format!("{class}: {scene} at {drives:?}\n{moved}"));
+                let is_far = |size: f64| distance.abs() > 1e3 && size > 0.1 * distance.abs() && size < 1e300;
+                let largest = constants(&far, scene).map(f64::abs).filter(|size| is_far(*size)).reduce(f64::max);
+                assert!(largest.is_none(), "{class}: {largest:?} in {scene}\n{moved}");
+            }
+        }
+    }
+    assert!(tried > 2000, "{tried}");
+}
+
+/// The constants of a scene's function from the drives.
+fn constants(linkage: &Linkage, scene: &str) -> impl Iterator<Item = f64> {
+    let program = &linkage.functions.scenes[index_of(linkage, scene)].direct;
+    program.values.iter().filter_map(|value| match value.definition {
+        Definition::Computed(Op::Constant(number)) => Some(linkage.model.graph.number(number).to_f64()),
+        _ => None,
+    })
+}
+
+/// Errors and bounds of a linkage that says the same as another one by far points.
+fn compare([far, near]: [&Linkage; 2], name: &str, drives: &[f64], context: &str) {
+    let at = |further: f64| Arguments {
+        drives: drives.iter().map(|drive| drive + further).collect(),
+        loads: vec![[0.0; 2]; near.model.loads.len()],
+        motion: vec![[1.3, -0.7], [0.6, 2.1], [-0.9, 0.4], [0.3, 1.7]],
+        ..Arguments::default()
+    };
+    let is_value = |path: &str| !path.starts_with("error_bound.") && !path.ends_with("couple");
+    let nearby = (1..4).map(|k| at(f64::from(k) * 1e-12));
+    let further = far_points::further_off::<Double>([far, near], (name, is_value), &at(0.0), nearby, f64::EPSILON);
+    assert!(further.expect("a pose") < 10.0, "{further:?} times the error; {context}");
+    ratios_of(far, name, &at(0.0), context);
+    let [bounds, near] = [far, near].map(|linkage| scene::<Double>(linkage, name, &at(0.0)).expect("a pose"));
+    for (path, bound) in bounds {
+        if path.starts_with("error_bound.") && !path.ends_with("couple") {
+            assert!(bound.to_f64() <= 10.0 * near[&path].to_f64(), "{path} is {bound:?}; {context}");
+        }
     }
 }
 

@@ -18,7 +18,7 @@
 //! | 3 folds | here: dimensions with which pivots meet or links lie on each other, 1 to 10⁻⁷ from there; blocks and cascades with a loop in them that folds; digits of four-bars in `families.rs` | those that fold: pins and slides in closed loops of equal lengths |
 //! | 4 lengths that differ by 10² to 10⁸ | here, each set of lengths small; of blocks and cascades some joints next to others, 10² to 10⁴; of three-pin dyads in `families.rs` too; triads under 9 | all; f32 as far as it tells lengths apart, 10⁴ |
 //! | 5, 14 along the axes, collinear, in line | here: directions by quarter turns, drives too; joints of blocks and cascades on a lattice; `families.rs` | all |
-//! | 6 far from the origin, the point of a slide or a slot far along its line: the same bits; of lines in cascades errors of the same size | here | all |
+//! | 6 far from the origin, the point of a slide or a slot far along its line: the same bits; for moved points of lines errors of efforts, and in cascades of all, of the same size; all rules in `rules.rs` | here | all |
 //! | 7 loads 10⁸ apart, a single load | here | all |
 //! | 8 units of length and of force that differ by powers of two: the same bits | here | all |
 //! | 9 triads nearly concurrent, nearly parallel, third pin on the first line, tiny or huge ternary | here | triads |
@@ -43,12 +43,13 @@ use support::families::{
     BARS, boom, four_bar, length, loads, oscillating_block, planet, scotch_yoke, shaper, single, slider_crank,
     slotted_crank, slotted_yoke, tangent_mechanism, welded,
 };
+use support::far_points::{self, is_force};
 use support::general::{Coordinates, equations_at};
 use support::linkages::{
     Class, Layout, Place, Random, direction, in_single_precision, intersection, minus, plus, sample_with_forces, size,
 };
 use support::measures::{Measures, is_moment, measure};
-use support::numbers::{Double, Extended, Single};
+use support::numbers::{Double, Single};
 use support::{Arguments, Number, compile_if_it_closes, pose, scene};
 
 /// A number type that linkages compute in.
@@ -1114,22 +1115,26 @@ fn shifted(text: &str, offset: &str) -> String {
 fn datum_moved<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     let mut random = Random(19);
     let [line, runner, both]: [&[bool]; 3] = [&[false], &[true], &[false, true]];
-    let moves = [(20.0, line), (1e3, line), (-123_456.0, line), (1e8, line), (-1e3, runner), (1e8, runner), (-1e5, both)];
+    let moves =
+        [(20.0, line), (1e3, line), (-123_456.0, line), (1e8, line), (-1e3, runner), (1e8, runner), (-1e5, both)];
     for (distance, points) in moves.into_iter().filter(|(_, points)| *points == line || kind.is_by_places()) {
         for _ in 0..members {
             let member = kind.drawn(&mut random);
             let text = computed_in::<T>(&member.text, fused);
-            let move_point = |text: String, runner: &bool| with_datum_moved(&text, distance, *runner);
+            let move_point = |text: String, runner: &bool| {
+                let first = *far_points::lines(&text).first()?;
+                far_points::with_point_moved(&text, first, distance, *runner)
+            };
             let Some(moved) = points.iter().try_fold(text.clone(), move_point) else { continue };
             let both = [&moved, &text].map(|text| compile_if_it_closes(text));
             assert_eq!(both[0].is_some(), both[1].is_some(), "{moved}");
             let [Some(far), Some(near)] = both else { continue };
             for drive in member.drives(&mut random, 4) {
                 let arguments = at_nearest::<T>(drive, &member.loads);
+                if let Some(further) = further_off::<T>([&far, &near], &arguments) {
+                    assert!(further < 10.0, "{further} times, at {drive:?}\n{text}\n{moved}");
+                }
                 if kind.is_cascade() {
-                    if let Some(further) = further_off::<T>([&far, &near], &arguments) {
-                        assert!(further < 10.0, "{further} times, at {drive:?}\n{text}\n{moved}");
-                    }
                     continue;
                 }
                 let forces = |linkage| {
@@ -1144,28 +1149,19 @@ fn datum_moved<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     }
 }
 
-fn is_force(path: &str) -> bool {
-    [".x", ".y", ".normal"].into_iter().any(|part| path.ends_with(part))
-}
-
-/// How much further off the forces of one linkage are than those of another one, which says the same in other words: as parts of the
-/// latter's errors there and nearby, where it may be less lucky, and an epsilon of the largest force. Nothing where that has no forces.
-fn further_off<T: Scalar>([one, other]: [&Linkage; 2], arguments: &Arguments) -> Option<f64> {
-    let off = |linkage: &Linkage, arguments: &Arguments| {
-        let exact = scene::<Extended>(other, "all", arguments).ok()?;
-        let forces = || exact.iter().filter(|(path, _)| is_force(path));
-        let largest = forces().fold(0.0_f64, |largest, (_, force)| largest.max(force.to_f64().abs()));
-        let found = scene::<T>(linkage, "all", arguments).ok()?;
-        let off = forces().map(|(path, force)| Extended::exactly(found[path].to_f64()).sub(force).to_f64().abs());
-        Some(off.fold(0.0, f64::max) / largest)
-    };
+/// How much further off a linkage's forces and efforts are than those of another one, there and nearby.
+fn further_off<T: Scalar>(linkages: [&Linkage; 2], arguments: &Arguments) -> Option<f64> {
     let nearby = (1..4).map(|k| {
         let drive = arguments.drives[0] + f64::from(k) * 1e3 * T::EPSILON;
         at_nearest::<T>(drive, &arguments.loads)
     });
-    let own = off(other, arguments)?.max(T::EPSILON);
-    let own = nearby.filter_map(|arguments| off(other, &arguments)).fold(own, f64::max);
-    Some(off(one, arguments).map_or(f64::INFINITY, |off| off / own))
+    far_points::further_off::<T>(
+        linkages,
+        ("all", |path: &str| !path.ends_with("couple")),
+        arguments,
+        nearby,
+        T::EPSILON,
+    )
 }
 
 /// The directions of a pose, bit for bit.
@@ -1173,53 +1169,6 @@ fn directions<T: Scalar>(linkage: &Linkage, arguments: &Arguments) -> Option<Vec
     let kept = pose::<T>(linkage, arguments).ok()?;
     let directions = linkage.plan.pose.iter().filter(|kept| kept.name.ends_with("_cos") || kept.name.ends_with("_sin"));
     Some(directions.map(|found| (found.name.clone(), kept[&found.node].to_f64().to_bits())).collect())
-}
-
-/// The declaration with a point of its first slide or slot so far along the line from where it is: that of the link in whose frame the line is given,
-/// or that of the runner. The travel of a driven one is an argument: it stays.
-fn with_datum_moved(text: &str, distance: f64, runner: bool) -> Option<String> {
-    let slide = text.split_once("prismatic ").or_else(|| text.split_once("slot ").filter(|_| !runner))?;
-    let slide = slide.1.split_once(';')?.0;
-    let (name, ends_and_line) = slide.split_once(": ")?;
-    let (ends, line) = ends_and_line.split_once(" along ")?;
-    let (from, to) = ends.split_once(" -> ")?;
-    let (line, turn) = line.split_once(", angle ").unwrap_or((line, "0deg"));
-    let (angle, carrier) = line.split_once(" of ").unwrap_or((line, "ground"));
-    let is_of_carrier = |end: &&str| end.split('.').next() == Some(carrier);
-    let is_driven = text.contains(&[": ", name, ";"].concat());
-    let end = [from, to].into_iter().find(|end| is_of_carrier(end) != runner).filter(|_| !is_driven)?;
-    let angle = match (runner, end == to) {
-        (false, _) => angle.to_owned(),
-        (true, true) => format!("({angle} - ({turn}))"),
-        (true, false) => format!("({angle} + {turn})"),
-    };
-    let (link, point) = end.split_once('.').unwrap_or((end, name));
-    let opening = if link == "ground" { "ground { ".to_owned() } else { ["link ", link, " { "].concat() };
-    let (before, after) = text.split_once(&opening)?;
-    let (points, behind) = after.split_once(" }")?;
-    let [x, y] = declared_place(points, point)?;
-    let moved = format!(", Datum: ({x} + {distance:?}m*cos({angle}), {y} + {distance:?}m*sin({angle})) }}");
-    let text = [before, &opening, points, &moved, behind].concat();
-    let by_datum = ends_and_line.replacen(end, &[link, ".Datum"].concat(), 1);
-    Some(text.replacen(ends_and_line, &by_datum, 1))
-}
-
-/// The coordinates of a point among those that a link declares, as they are written.
-fn declared_place(points: &str, point: &str) -> Option<[String; 2]> {
-    let zero = || "0m".to_owned();
-    if points.starts_with(&[point, " -> "].concat()) {
-        return Some([zero(), zero()]);
-    }
-    let place = points.split_once(&[point, ": "].concat())?.1;
-    if points.contains(&["-> ", point, ": "].concat()) {
-        return Some([place.split(',').next()?.trim().to_owned(), zero()]);
-    }
-    if let Some(rest) = place.strip_prefix('(') {
-        let (x, y) = rest.split_once(')')?.0.split_once(", ")?;
-        return Some([x.to_owned(), y.to_owned()]);
-    }
-    let (size, angle) = place.split(',').next()?.split_once(" @ ")?;
-    Some([format!("{size}*cos({angle})"), format!("{size}*sin({angle})")])
 }
 
 /// 8: in units that differ by a power of two the same linkage has the same digits.

@@ -302,17 +302,9 @@ impl<'m, 'p> Balance<'m, 'p> {
         if self.model().joint(joint).to.link == on { force } else { force.opposite() }
     }
 
-    /// The reaction of a slide on its second link, found from the equilibrium of the link `on`; the other link gets its part. What acts on the
-    /// link has the moment `here` about a place of it: where the travel does not count from the slide's own points, which may be far away, the
-    /// other link gets the force beside that place, with this moment.
-    pub fn slide(
-        &mut self,
-        joint: JointId,
-        on: LinkId,
-        force: Framed<'m>,
-        couple: Expr<'m>,
-        here: Option<(Vector<'m>, Expr<'m>)>,
-    ) {
+    /// The reaction of a slide on its second link, found from the equilibrium of the link `on`, its couple about the runner; the other link gets
+    /// its part at the slide's place, with the couple there.
+    pub fn slide(&mut self, joint: JointId, on: LinkId, force: Framed<'m>, [couple, at_place]: [Expr<'m>; 2]) {
         let data = self.model().joint(joint);
         // In a slot it is the drive of its angle that exerts the couple.
         let effort = match data.kind {
@@ -324,28 +316,29 @@ impl<'m, 'p> Balance<'m, 'p> {
         }
         self.reactions.insert(joint, Reaction { force, couple: effort.is_none().then_some(couple) });
         let (far, force, couple) = if data.to.link == on {
-            (data.from.link, force.opposite(), -couple)
+            (data.from.link, force.opposite(), -at_place)
         } else {
-            (data.to.link, force, couple)
+            (data.to.link, force, at_place)
         };
-        let beside = here.and_then(|(at, moment)| Some((self.placement.beside(joint, on, at)?, moment)));
-        let (at, couple) = beside.unwrap_or_else(|| (self.placement.slide_point(joint, far), couple));
-        self.push(far, at, force);
+        self.push(far, self.placement.slide_point(joint, far), force);
         self.couple(far, couple);
     }
 
-    /// The reaction of a joint, a number for each of its parts; both links get what it exerts.
+    /// The reaction of a joint, a number for each of its parts; both links get what it exerts at the joint's place on them. The couple of a slide
+    /// is given about its runner.
     pub fn react(&mut self, joint: JointId, values: &[Expr<'m>]) {
         let data = self.model().joint(joint);
         let parts = reactions::parts(self.placement, joint);
         let graph = self.graph();
         let mut force = self.ground_force(graph.zero_vector());
-        let mut couple = None;
+        let (mut normal, mut couple) = (graph.zero(), None);
         for (part, value) in parts.iter().zip(values) {
             let own = Framed { components: part.force.components.scaled(*value), axes: part.force.axes };
             force = force.plus(&own, self.placement.direction(GROUND));
-            if part.component == Component::Couple {
-                couple = Some(*value);
+            match part.component {
+                Component::Normal => normal = *value,
+                Component::Couple => couple = Some(*value),
+                Component::X | Component::Y | Component::Tangential => {}
             }
             for (end, couple) in data.ends().into_iter().zip(part.couples) {
                 self.couple(end.link, couple * *value);
@@ -353,6 +346,19 @@ impl<'m, 'p> Balance<'m, 'p> {
         }
         self.push(data.to.link, self.placement.slide_point(joint, data.to.link), force);
         self.push(data.from.link, self.placement.slide_point(joint, data.from.link), force.opposite());
+        let about_runner = |at_place: Expr<'m>| {
+            let ahead = self.placement.ahead_of_runner(joint);
+            let couple = at_place + ahead * normal;
+            if ahead.is_zero() {
+                couple
+            } else {
+                couple.named(self.name(&format!("{}_couple", data.name)), "about its runner")
+            }
+        };
+        let couple = match data.kind {
+            JointKind::Prismatic { .. } => couple.map(about_runner),
+            _ => couple,
+        };
         self.reactions.insert(joint, Reaction { force, couple });
     }
 

@@ -133,6 +133,12 @@ impl<'m> Way<'m> {
         parts.reduce(|sum, part| sum + part).unwrap_or_else(|| self.graph.zero_vector())
     }
 
+    /// Goes on along the x axis.
+    pub fn go_on(&mut self, distance: Expr<'m>) {
+        let x_axis = Vector::new(self.graph.one(), self.graph.zero());
+        push_segment(&mut self.segments, Segment::new(x_axis, x_axis.scaled(distance), distance.abs()));
+    }
+
     /// The sum of the lengths of its parts: the size of the rounding in its vector, in epsilons.
     #[must_use]
     pub fn length(&self) -> Expr<'m> {
@@ -151,13 +157,6 @@ struct Travel<'m> {
     whole: Expr<'m>,
     /// From where to where the former counts.
     between: [End; 2],
-}
-
-impl<'m> Travel<'m> {
-    /// The travel along a direction, each part by itself.
-    fn along(self, direction: Vector<'m>) -> Vector<'m> {
-        direction.scaled(self.found) + direction.scaled(self.datum)
-    }
 }
 
 impl Neg for Travel<'_> {
@@ -449,34 +448,34 @@ impl<'m> Placement<'m> {
         }
     }
 
-    /// The place of a joint on one of its links, along and across that link's direction: of a slide its runner, of a slot its pin, of
-    /// a gear pair the wheel's centre.
+    /// The place of a joint on one of its links, along and across that link's direction: of a slide that on its line where its travel counts
+    /// from on the link that runs along it, of a slot its pin, of a gear pair the wheel's centre.
     #[must_use]
     pub fn slide_point(&self, joint: JointId, link: LinkId) -> Vector<'m> {
         let data = self.model.joint(joint);
-        match data.kind.line() {
-            Some((carrier, axis)) if carrier == link => {
-                let along = self.carried(carrier, axis.vector(self.graph()));
-                let own = data.end_on(link).unwrap_or(data.to);
-                self.point(own) + self.travel_on(joint, link).along(along)
-            }
-            _ => self.point(data.end_on(link).unwrap_or(data.to)),
-        }
+        let own = data.end_on(link).unwrap_or(data.to);
+        let Some((carrier, _)) = data.kind.line() else { return self.point(own) };
+        let along = self.slide_along_on(joint, link);
+        let place = self.point(own) + along.scaled(self.along_line(joint, own, self.counted_from(joint, link)));
+        if carrier == link { place + along.scaled(self.travel_on(joint, link).found) } else { place }
     }
 
-    /// The place on the other link of a slide beside a place of one of them, by what was found of its travel; nothing where that counts from
-    /// where the slide's own points are along the line.
+    /// How far a place of a link is ahead of that of a slide on it, along the slide.
     #[must_use]
-    pub fn beside(&self, slide: JointId, link: LinkId, at: Vector<'m>) -> Option<Vector<'m>> {
-        let Travel { found, between: [from, to], .. } = self.travel_in_parts(slide);
-        let [first, second] = self.model.joint(slide).ends();
-        if [(first, from), (second, to)].into_iter().all(|(own, near)| self.along_line(slide, own, near).is_zero()) {
-            return None;
-        }
-        let (own, far, found) = if to.link == link { (to, from, found) } else { (from, to, -found) };
-        let [along, along_far] = [own, far].map(|end| self.slide_along_on(slide, end.link));
-        let ahead = (at - self.point(own)).dot(along);
-        Some(self.point(far) + along_far.scaled(ahead) + along_far.scaled(found))
+    pub fn ahead_of_slide(&self, slide: JointId, link: LinkId, at: Vector<'m>) -> Expr<'m> {
+        let data = self.model.joint(slide);
+        let own = data.end_on(link).unwrap_or(data.to);
+        let ahead_of_own = (at - self.point(own)).dot(self.slide_along_on(slide, link));
+        let ahead = ahead_of_own - self.along_line(slide, own, self.counted_from(slide, link));
+        let carries = data.kind.line().is_some_and(|(carrier, _)| carrier == link);
+        if carries { ahead - self.travel_on(slide, link).found } else { ahead }
+    }
+
+    /// How far the place of a slide is ahead of its runner, the point by which it was declared: a constant.
+    #[must_use]
+    pub fn ahead_of_runner(&self, slide: JointId) -> Expr<'m> {
+        let runner = self.model.joint(slide).place();
+        self.along_line(slide, runner, self.counted_from(slide, runner.link))
     }
 
     /// How far the other link's point is ahead of that of the link that carries the line.

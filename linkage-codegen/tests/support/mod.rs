@@ -6,6 +6,7 @@ pub mod bounds;
 pub mod declarations;
 pub mod examples;
 pub mod families;
+pub mod far_points;
 pub mod general;
 pub mod linkages;
 pub mod measures;

@@ -184,10 +184,12 @@ impl<'p, 'm> Parts<'p, 'm> {
             .map(|(end, force)| vec![self.passed_on(end, member.link, force)])
     }
 
-    /// From the runner of a slider to its pin, along and across the slide.
+    /// From the place of a slide on its slider to the slider's pin, along and across the slide.
     fn slide_arm(&self, member: &Member) -> Vector<'m> {
-        let arm = self.place(member.near, member.link) - self.place(member.far, member.link);
-        arm.turned_by(self.placement.direction(member.link)).resolved_along(self.placement.slide_direction(member.far))
+        let pin = self.place(member.near, member.link);
+        let across =
+            self.placement.slide_along_on(member.far, member.link).cross(pin - self.place(member.far, member.link));
+        Vector::new(self.placement.ahead_of_slide(member.far, member.link, pin), across)
     }
 
     /// What the unit of an unknown does to carriers, pins and links outside.
@@ -731,9 +733,14 @@ fn put_pin<'m>(
 fn put_joint<'m>(balance: &mut Balance<'m, '_>, joint: JointId, values: &[Expr<'m>], links: &str) {
     let name = &balance.model().joint(joint).name;
     let components = reactions::parts(balance.placement, joint);
+    let is_at_runner = balance.placement.ahead_of_runner(joint).is_zero();
     let values = components.iter().zip(values).map(|(part, value)| {
-        let name = balance.name(&format!("{name}_{}", part.component.name()));
-        value.named(name, format!("from the equilibrium of {links}"))
+        let (what, about) = match part.component {
+            Component::Couple if !is_at_runner => ("moment", " about its place"),
+            component => (component.name(), ""),
+        };
+        let name = balance.name(&format!("{name}_{what}"));
+        value.named(name, format!("from the equilibrium of {links}{about}"))
     });
     let values: Vec<Expr<'m>> = values.collect();
     balance.react(joint, &values);

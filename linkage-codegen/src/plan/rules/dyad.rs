@@ -211,7 +211,7 @@ impl Leg {
     }
 
     /// Whether its joints are always equally far apart.
-    fn is_constant(&self, model: &Model) -> bool {
+    pub(super) fn is_constant(&self, model: &Model) -> bool {
         let driven = |joint: &JointId| model.drives_of(*joint).next().is_some();
         self.near.slot.is_none() && self.tip.slot.is_none() && !self.rigid.iter().any(driven)
     }
@@ -476,10 +476,15 @@ impl<'a> Dyad<'a> {
         Share { inner: across + inner.y, cut: Some(cut) }
     }
 
-    /// A joint's place on a link of a leg: the inner joint's where it is one.
+    /// A joint's place on a link of a leg: the inner joint's where that is a pin; the point of a slide may be far away.
     fn place_on(&self, leg: &Leg, link: LinkId) -> Spot {
+        if leg.tip.end.link == link && self.pinned { leg.tip } else { self.place_within(leg, link) }
+    }
+
+    /// The place on a link of a leg of a joint that is not the inner one.
+    fn place_within(&self, leg: &Leg, link: LinkId) -> Spot {
         let ends = leg.rigid.iter().filter_map(|joint| self.model.joint(*joint).end_on(link));
-        if leg.tip.end.link == link { leg.tip } else { ends.last().map_or(leg.near, Spot::from) }
+        ends.last().map_or(leg.near, Spot::from)
     }
 
     /// The inner pin exerts a force on a leg, and the opposite one on the other leg. Gives the force on the leg as it was named.
@@ -500,16 +505,14 @@ impl<'a> Dyad<'a> {
             return;
         }
         let link = leg.tip.end.link;
-        let arm = balance
-            .placement
-            .way(leg.near, self.meeting(leg))
-            .resolved_along(balance.placement.slide_direction(self.inner))
-            .x;
-        let moment = self.moment(balance, leg, balance.graph().one()) - arm * across;
-        super::slide::react(balance, self.inner, link, across, (moment, None));
+        let own = self.place_within(leg, link);
+        let way = balance.placement.way(leg.near, own).resolved_along(balance.placement.line(self.inner));
+        let arm = way.x - balance.placement.ahead_of_slide(self.inner, link, balance.placement.point(own));
+        let moment = self.moment(balance, leg, balance.graph().one());
+        super::slide::react(balance, self.inner, link, across, (moment, -arm));
         // What it exerts on the leg itself: the opposite of what the other link got.
         balance.push(link, balance.placement.slide_point(self.inner, link), self.guided(balance, leg));
-        balance.couple(link, -moment);
+        balance.couple(link, arm * across - moment);
     }
 
     /// What the inner slide exerts on a leg.
@@ -601,16 +604,6 @@ impl<'a> Dyad<'a> {
             let across = held.along(balance.placement.slide_direction(leg.outer)).y;
             super::slide::guide(balance, leg.outer, link, across, balance.placement.point(self.place_on(leg, link)));
         }
-    }
-
-    /// Where the links of the inner joint meet, on a leg: at the pin, or at the runner of the slide.
-    fn meeting(&self, leg: &Leg) -> Spot {
-        if self.pinned {
-            return leg.tip;
-        }
-        let line = self.model.joint(self.inner).kind.line();
-        let carries = line.is_some_and(|(carrier, _)| carrier == leg.tip.end.link);
-        Spot { end: leg.tip.end, slot: carries.then_some(self.inner) }
     }
 
     /// The velocity of the inner pin as a leg has it: of one that is driven along a slot of the leg, with what that adds.
@@ -715,9 +708,17 @@ impl<'a> Dyad<'a> {
         slide.map_or(x_axis, |slide| Placement::of_ground(self.model).slide_axis(slide, leg.link()))
     }
 
+    /// The way through a leg from its outer joint to the place of the inner slide on it, along and across that.
+    pub(super) fn way_to_slide(&self, placement: &Placement<'a>, leg: &Leg) -> Way<'a> {
+        let link = leg.tip.end.link;
+        let mut way = self.way_within(leg, link, placement.slide_axis(self.inner, link));
+        way.go_on(placement.along_line(self.inner, leg.tip.end, placement.counted_from(self.inner, link)));
+        way
+    }
+
     /// The way through a body from its outer joint to its inner one, with one of its links lying so that a direction in its frame is
     /// along the x axis.
-    pub(super) fn way_within(&self, leg: &Leg, supposed: LinkId, axis: Vector<'a>) -> Way<'a> {
+    fn way_within(&self, leg: &Leg, supposed: LinkId, axis: Vector<'a>) -> Way<'a> {
         let graph = &self.model.graph;
         let x_axis = Vector::new(graph.one(), graph.zero());
         let mut placement = Placement::of_ground(self.model);

@@ -128,9 +128,9 @@ impl Rule for Rpp {
         if !slider.is_single() {
             return dyad.balance_rest(balance, slider);
         }
-        // What acts on the slider is all on it, and what it comes to is across its guide. About the guide's own point, or amid the forces:
+        // What acts on the slider is all on it, and what it comes to is across its guide. About the guide's own place, or amid the forces:
         // where the inner slide is may be far away, and its force small beside the others.
-        let own = balance.placement.point(balance.end(slider.outer, slider.link()));
+        let own = balance.placement.point(balance.placement.counted_from(slider.outer, slider.link()));
         let at = balance.amid_forces(slider.link(), own);
         let held = load.y - across * balance.placement.between(slides(&dyad)).x;
         super::slide::guide(balance, slider.outer, slider.link(), held, at);

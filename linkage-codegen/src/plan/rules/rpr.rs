@@ -171,17 +171,16 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let [p, q] = [first, second].map(|leg| dyad.joint_name(leg.outer));
     let slide = dyad.joint_name(dyad.inner);
     let side = side(assembly, group, dyad)?;
-    // From P to the slide and from the slide to Q, along and across it: the same for every pose, but for drives within the bodies.
-    let [from_p, from_q] = [first, second].map(|leg| {
-        let link = leg.tip.end.link;
-        dyad.way_within(leg, link, assembly.placement.slide_axis(dyad.inner, link))
-    });
+    count(assembly, group, dyad.inner);
+    // From P to the slide and from Q to it, along and across it: the same for every pose, but for drives within the bodies.
+    let [from_p, from_q] = dyad.legs.each_ref().map(|leg| dyad.way_to_slide(&assembly.placement, leg));
     let offset = from_p.vector() - from_q.vector();
     let h = offset.y.named(format!("h_{slide}"), format!("how far {q} is across the slide from {p}"));
     let way = assembly.placement.way(first.far, second.far);
     let d = way.vector().named(&format!("d_{slide}"), &format!("d, from {p} to {q}"));
     let d2 = d.squared().named(format!("D2_{slide}"), "d·d");
-    let slack = [first, second].into_iter().fold(way.length(), |sum, leg| sum + dyad.slack(leg));
+    let driven = dyad.legs.iter().zip([&from_p, &from_q]).filter(|(leg, _)| !leg.is_constant(dyad.model));
+    let slack = driven.fold(way.length(), |sum, (_, within)| sum + within.length());
     // A driven angle between the links makes h and what is fixed along the slide rounded too.
     let length = if is_turned(dyad) { slack + from_p.length() + from_q.length() } else { slack };
     let rounding = |of: &str, value: Expr<'m>| {
@@ -233,9 +232,8 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         apart: false,
     });
     place(assembly, dyad, direction)?;
-    let fixed = offset.x + count(assembly, group, dyad.inner);
     let name = assembly.placement.name_of_travel(dyad.inner);
-    let travel = (s - fixed).named(name, format!("travel of the slide {slide}: s less what is fixed"));
+    let travel = (s - offset.x).named(name, format!("travel of the slide {slide}: s less what is fixed"));
     assembly.placement.set_travel(dyad.inner, travel);
     for leg in [first, second] {
         assembly.placement.connect(leg.outer);

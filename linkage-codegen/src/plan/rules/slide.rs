@@ -101,7 +101,7 @@ impl Rule for Slide {
 }
 
 /// The reaction of a slide: its normal force holds the force `across` that acts on the link, its couple the moments on it. These are
-/// taken about a place near the forces, and carried over to the runner, which may be far away along the slide.
+/// taken about a place near the forces, and carried over to that of the slide.
 pub(super) fn guide<'m>(
     balance: &mut Balance<'m, '_>,
     slide: JointId,
@@ -109,19 +109,19 @@ pub(super) fn guide<'m>(
     across: Expr<'m>,
     about: Vector<'m>,
 ) {
-    let runner = balance.placement.slide_point(slide, link);
-    let arm = (about - runner).dot(balance.placement.slide_along_on(slide, link));
-    let here = balance.moment(link, about, balance.graph().one());
-    react(balance, slide, link, across, (here + arm * across, Some((about, here))));
+    let ahead = balance.placement.ahead_of_slide(slide, link, about);
+    let moment = balance.moment(link, about, balance.graph().one());
+    react(balance, slide, link, across, (moment, ahead));
 }
 
-/// The reaction of a slide that holds the force `across` on a link and its moment about the runner, with that about another place of the link.
+/// The reaction of a slide that holds the force `across` on a link and its moment, about a place that is so far ahead of the slide's. The couple
+/// is about the runner, which may be far away along the slide.
 pub(super) fn react<'m>(
     balance: &mut Balance<'m, '_>,
     slide: JointId,
     link: LinkId,
     across: Expr<'m>,
-    (moment, here): (Expr<'m>, Option<(Vector<'m>, Expr<'m>)>),
+    (moment, ahead): (Expr<'m>, Expr<'m>),
 ) {
     let model = balance.model();
     let (joint, name) = (&model.joint(slide).name, &model.link(link).name);
@@ -130,7 +130,9 @@ pub(super) fn react<'m>(
         (JointKind::Slot { .. }, Some(effort)) => model.unknown(effort).name.clone(),
         _ => format!("{joint}_couple"),
     };
-    let (normal, couple, sign) = if second { (-across, -moment, "−") } else { (across, moment, "") };
+    let from_runner = balance.placement.ahead_of_runner(slide);
+    let about_runner = moment + (ahead + from_runner) * across;
+    let (normal, couple, sign) = if second { (-across, -about_runner, "−") } else { (across, about_runner, "") };
     let normal = normal.named(
         balance.name(&format!("{joint}_normal")),
         format!("{sign}ΣF of what acts on {name} across the slide {joint}"),
@@ -138,7 +140,13 @@ pub(super) fn react<'m>(
     let couple = couple.named(balance.name(&couple_name), format!("{sign}ΣM({joint}) of what acts on {name}"));
     let axes = balance.placement.slide_direction(slide);
     let force = Framed { components: Vector::new(balance.graph().zero(), normal), axes };
-    balance.slide(slide, link, force, couple, here);
+    let at_place = moment + ahead * across;
+    let at_place = match (from_runner.is_zero(), second) {
+        (true, _) => couple,
+        (false, true) => -at_place,
+        (false, false) => at_place,
+    };
+    balance.slide(slide, link, force, [couple, at_place]);
 }
 
 /// The cosine between a slide and an unknown force on its link, as a divisor.

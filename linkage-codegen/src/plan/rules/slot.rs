@@ -21,7 +21,7 @@ use super::travels::count;
 use super::{Rule, RuleResult};
 use crate::graph::{Expr, Failure, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
-use crate::model::{JointKind, Model};
+use crate::model::{End, JointKind, Model};
 use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Pivot, Sign};
 use crate::plan::balance::Balance;
 use crate::plan::framed::Framed;
@@ -90,18 +90,20 @@ impl<'m> Parts<'m> {
         matches!(self.model.joint(self.held).kind, JointKind::Slot { carrier, .. } if carrier == self.link)
     }
 
-    /// The place of the pin that holds the link in its frame, and what its rounding is proportional to: nothing if it does not move there.
-    fn held_at(&self) -> (Vector<'m>, Expr<'m>) {
+    /// From the place in the link's frame of the pin that holds it to one of its points: what of it is constant, and what a drive adds that
+    /// moves the pin there. With what the rounding of that place is proportional to: nothing if it does not move.
+    fn way_from_held(&self, to: End) -> ([Vector<'m>; 2], Expr<'m>) {
         let (model, graph) = (self.model, &self.model.graph);
         let held = model.joint(self.held);
         let end = held.end_on(self.link).unwrap_or(held.to);
+        let constant = model.local(to) - model.local(end);
         match (held.kind.line(), model.drive_of(self.held, false)) {
             (Some((carrier, axis)), Some(drive)) if carrier == self.link => {
                 let travel = self.signed(self.held, graph.symbol(Symbol::Drive(drive)));
-                let along = axis.vector(graph).scaled(travel);
-                (model.local(end) + along, model.local(end).size() + travel.abs())
+                let varying = -axis.vector(graph).scaled(travel);
+                ([constant, varying], model.local(end).size() + travel.abs())
             }
-            _ => (model.local(end), graph.zero()),
+            _ => ([constant, graph.zero_vector()], graph.zero()),
         }
     }
 
@@ -218,8 +220,9 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, group: &Group, parts: &Parts<'m>
     let axis = axis.vector(graph);
     let (name, at, about) = (parts.name(), parts.joint_name(slot), parts.joint_name(held));
     // From the pin O to the slot's point, along and across the slot.
-    let (near, slack) = parts.held_at();
-    let datum = (model.local(own) - near).resolved_along(axis);
+    let (between, slack) = parts.way_from_held(own);
+    let [constant, varying] = between.map(|part| part.resolved_along(axis));
+    let datum = constant + varying;
     let h = datum.y;
     let way = assembly.placement.way(from, to);
     let d = way.vector().named(&format!("d_{at}"), &format!("d, from {about} to the pin in the slot"));
@@ -289,8 +292,8 @@ fn place_runner<'m>(assembly: &mut Assembly<'m>, group: &Group, parts: &Parts<'m
     let Some(from) = Spot::of_pin(model, held, parts.far(held)) else { return Ok(()) };
     // With the travel still zero.
     count(assembly, group, slot);
-    let (near, slack) = parts.held_at();
-    let arm = model.local(own) - near;
+    let ([constant, varying], slack) = parts.way_from_held(own);
+    let arm = constant + varying;
     let moves = parts.carries_held();
     let r = if moves {
         let r = arm.size();

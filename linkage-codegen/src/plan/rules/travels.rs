@@ -17,19 +17,14 @@ pub(super) fn counted_between(placement: &Placement<'_>, group: &Group, joint: J
 /// Lets the travel of a slide or a slot that is found in a formula count from where it is placed to be zero, and gives how far its second point
 /// is from its first there.
 ///
-/// As a rule its own points are near enough, and near where things are. Where they are far beyond all lengths, the ways of later groups that
-/// go over the slide would have the rounding of the distance: then a pin on the link serves instead.
+/// As a rule its own points are near enough, and near where things are. Where they are far beyond all lengths, what goes over the slide later
+/// would have the rounding of the distance: then another place on the link serves instead.
 pub(super) fn count<'m>(assembly: &mut Assembly<'m>, group: &Group, joint: JointId) -> Expr<'m> {
     let (model, placement) = (assembly.model(), &assembly.placement);
-    let is_far = |own: End, pin: End| {
-        let distance = placement.along_line(joint, own, pin).abs();
-        let is_beyond = |length: Expr<'m>| (distance - FAR * length).sign() == Some(1);
-        !distance.is_zero() && lengths(model).into_iter().all(is_beyond)
-    };
     let between = model.joint(joint).ends().map(|own| {
-        let any_pin = || model.joint_ids().find_map(|joint| model.joint(joint).pin_on(own.link));
-        let pin = near(placement, joint, own, pin_near(placement, group, own).or_else(any_pin));
-        if is_far(own, pin) { pin } else { own }
+        let place = pin_near(placement, group, own).or_else(|| any_place(model, joint, own));
+        let place = near(placement, joint, own, place);
+        if is_far(model, placement.along_line(joint, own, place)) { place } else { own }
     });
     assembly.placement.count_between(joint, between);
     assembly.placement.datum(joint, between)
@@ -43,6 +38,12 @@ fn near(placement: &Placement<'_>, joint: JointId, own: End, pin: Option<End>) -
 
 /// What is more than this times as long as anything is far away. So much may be lost before, less than a digit.
 const FAR: i64 = 8;
+
+/// Whether a constant distance is far beyond all lengths.
+fn is_far<'m>(model: &'m Model, distance: Expr<'m>) -> bool {
+    let is_beyond = |length: Expr<'m>| (distance.abs() - FAR * length).sign() == Some(1);
+    !distance.is_zero() && lengths(model).into_iter().all(is_beyond)
+}
 
 /// The distances between points of a link, and of these from lines on it; without the points by which lines are declared.
 fn lengths(model: &Model) -> Vec<Expr<'_>> {
@@ -74,6 +75,35 @@ fn pin_near(placement: &Placement<'_>, group: &Group, own: End) -> Option<End> {
         let ways = around.filter(|end| is_around(&own) && end.link != own.link).map(|end| placement.route(own, end));
         ways.filter_map(|way| way.first().copied()).find_map(|joint| model.joint(joint).pin_on(own.link))
     })
+}
+
+/// A place on a link of a slide or a slot where things are: its first pin; or the point of a line along which it is driven, which is as far away
+/// as the argument says; or a point that no line was declared by; or that of another line, if it is near where the two cross.
+fn any_place(model: &Model, joint: JointId, own: End) -> Option<End> {
+    let link = own.link;
+    let ends = |of: fn(&Model, JointId) -> bool| {
+        model
+            .joint_ids()
+            .filter(move |joint| of(model, *joint))
+            .filter_map(move |joint| model.joint(joint).end_on(link))
+    };
+    let pin = model.joint_ids().find_map(|joint| model.joint(joint).pin_on(link));
+    let driven = || ends(|model, joint| model.drive_of(joint, false).is_some()).next();
+    let point = || {
+        let points = (0..model.link(link).points.len()).map(|index| End { link, point: PointId::new(index) });
+        points.into_iter().find(|point| ends(|_, _| true).all(|end| end != *point))
+    };
+    let crossing = || {
+        let axes = Placement::of_ground(model);
+        let axis = |joint: JointId| axes.slide_axis(joint, link);
+        model.joint_ids().filter(|other| *other != joint && model.joint(*other).is_line_on(link)).find_map(|other| {
+            let (end, sine) = (model.joint(other).end_on(link)?, axis(other).cross(axis(joint)));
+            let ahead = (model.local(end) - model.local(own)).cross(axis(joint));
+            let is_near = sine.sign().is_some_and(|sign| sign != 0) && !is_far(model, ahead / sine);
+            is_near.then_some(end)
+        })
+    };
+    pin.or_else(driven).or_else(point).or_else(crossing)
 }
 
 /// The first two points of a link at joints of the group, but for those that may lie anywhere on a line.
