@@ -707,6 +707,9 @@ const CASES: [(&str, &[&[f64]], &str); 80] = [
     ),
 ];
 
+/// Rate and acceleration of each drive.
+const MOTION: [[f64; 2]; 4] = [[1.3, -0.7], [0.6, 2.1], [-0.9, 0.4], [0.3, 1.7]];
+
 #[test]
 fn every_rule_satisfies_the_equations_of_its_group() {
     for (class, drives, items) in CASES {
@@ -732,8 +735,7 @@ fn at_rest(linkage: &Linkage, drives: &[f64]) -> Arguments {
 
 /// Velocities keep the constraints, and so do accelerations: `J q̇ = 0` and `J q̈ + J̇ q̇ = 0`, the drives' own coordinates as given.
 fn check_motion(linkage: &Linkage, arguments: &Arguments, text: &str) {
-    let motions =
-        [[[1.3, -0.7], [0.6, 2.1], [-0.9, 0.4], [0.3, 1.7]], [[-0.4, 0.0], [1.9, -1.0], [0.0, 1.1], [-1.2, 0.0]]];
+    let motions = [MOTION, [[-0.4, 0.0], [1.9, -1.0], [0.0, 1.1], [-1.2, 0.0]]];
     for motion in motions {
         let arguments = Arguments { motion: motion.to_vec(), ..arguments.clone() };
         for (source, [rate, acceleration]) in open_motion::<Extended>(linkage, &arguments).unwrap() {
@@ -785,7 +787,7 @@ fn bounds_hold_the_errors_of_every_rule() {
             let arguments = Arguments {
                 drives: drives.to_vec(),
                 loads: vec![[0.0; 2]; linkage.model.loads.len()],
-                motion: vec![[1.3, -0.7], [0.6, 2.1], [-0.9, 0.4], [0.3, 1.7]],
+                motion: MOTION.to_vec(),
                 ..Arguments::default()
             };
             for name in ["held", "work", "moved"] {
@@ -837,7 +839,8 @@ fn far_points_of_lines_take_no_digits() {
                 drives.iter().flat_map(|drives| ["held", "work", "moved"].map(|scene| (drives, scene)))
             {
                 tried += 1;
-                compare([&far, &near], scene, drives, &format!("{class}: {scene} at {drives:?}\n{moved}"));
+                let arguments = Arguments { motion: MOTION.to_vec(), ..at_rest(&near, drives) };
+                compare([&far, &near], scene, &arguments, &format!("{class}: {scene} at {drives:?}\n{moved}"));
                 let is_far = |size: f64| distance.abs() > 1e3 && size > 0.1 * distance.abs() && size < 1e300;
                 let largest = constants(&far, scene).map(f64::abs).filter(|size| is_far(*size)).reduce(f64::max);
                 assert!(largest.is_none(), "{class}: {largest:?} in {scene}\n{moved}");
@@ -856,13 +859,30 @@ fn constants(linkage: &Linkage, scene: &str) -> impl Iterator<Item = f64> {
     })
 }
 
+/// With lengths that are parameters, too.
+#[test]
+fn far_points_beside_parameters_take_no_digits() {
+    let items = "param a: length = 1m; param b: length = 3m; ground { O: (0, 0), G: (0, 0.2m) } link crank { O -> A: a }
+        link rod { A -> B: b, P: (1m, 0.3m) } link piston { B: (0.1m, 0.2m), G: (0.4m, 0.2m) } revolute O: ground -> crank; revolute A: crank -> rod;
+        revolute B: rod -> piston; prismatic G: ground -> piston along 10deg; drive q: O; assemble B: ahead(A); load F: force(rod.P) = (1N, 2N);
+        load H: force(piston.G) = (-20N, 3N);";
+    let text = independent_of_points(items);
+    for (distance, runner) in [(-1e8, false), (1e8, true), (1e4, false)] {
+        let moved = far_points::with_point_moved(&text, "G", distance, runner).expect("a slide");
+        let linkages = [&moved, &text].map(|text| compile(text));
+        for scene in ["held", "work", "moved"] {
+            let params = vec![0.8, 2.5];
+            let arguments = Arguments { params, motion: MOTION.to_vec(), ..at_rest(&linkages[1], &[0.7]) };
+            compare(linkages.each_ref(), scene, &arguments, &moved);
+        }
+    }
+}
+
 /// Errors and bounds of a linkage that says the same as another one by far points.
-fn compare([far, near]: [&Linkage; 2], name: &str, drives: &[f64], context: &str) {
-    let at = |further: f64| Arguments {
-        drives: drives.iter().map(|drive| drive + further).collect(),
-        loads: vec![[0.0; 2]; near.model.loads.len()],
-        motion: vec![[1.3, -0.7], [0.6, 2.1], [-0.9, 0.4], [0.3, 1.7]],
-        ..Arguments::default()
+fn compare([far, near]: [&Linkage; 2], name: &str, arguments: &Arguments, context: &str) {
+    let at = |further: f64| {
+        let drives = arguments.drives.iter().map(|drive| drive + further);
+        Arguments { drives: drives.collect(), ..arguments.clone() }
     };
     let is_value = |path: &str| !path.starts_with("error_bound.") && !path.ends_with("couple");
     let nearby = (1..4).map(|k| at(f64::from(k) * 1e-12));

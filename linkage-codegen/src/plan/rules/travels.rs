@@ -36,13 +36,14 @@ fn near(placement: &Placement<'_>, joint: JointId, own: End, pin: Option<End>) -
     pin.filter(|_| placement.model.joint(joint).is_line_on(own.link)).filter(is_constant).unwrap_or(own)
 }
 
-/// What is more than this times as long as anything is far away. So much may be lost before, less than a digit.
-const FAR: i64 = 8;
+/// What is more than this times as long as anything is far away. So much may be lost before: a bit.
+const FAR: i64 = 2;
 
-/// Whether a constant distance is far beyond all lengths.
+/// Whether a constant distance is far beyond all lengths that are constants, too.
 fn is_far<'m>(model: &'m Model, distance: Expr<'m>) -> bool {
-    let is_beyond = |length: Expr<'m>| (distance.abs() - FAR * length).sign() == Some(1);
-    !distance.is_zero() && lengths(model).into_iter().all(is_beyond)
+    let beyond = lengths(model).into_iter().filter_map(|length| (distance.abs() - FAR * length).sign());
+    let beyond: Vec<i8> = beyond.collect();
+    !beyond.is_empty() && beyond.into_iter().all(|sign| sign == 1)
 }
 
 /// The distances between points of a link, and of these from lines on it; without the points by which lines are declared.
