@@ -17,7 +17,7 @@ use support::numbers::{Double, Extended};
 use support::{Arguments, Number, compile, index_of, scene};
 
 /// A linkage for each class of groups, with the class named, drives at which it closes, and how the rule is used.
-const CASES: [(&str, &[&[f64]], &str); 80] = [
+const CASES: [(&str, &[&[f64]], &str); 81] = [
     // Motion and forces of a crank, its arrow either way, with an inclined dyad.
     (
         "link on a pin",
@@ -253,6 +253,17 @@ const CASES: [(&str, &[&[f64]], &str); 80] = [
          start q: 0.4rad; start r: 0.3m; start a: (1m, 0.4m), angle 0; start b: (6m, 0.5m), angle 0; start up: (2.5m, 1.4m), angle 10deg;
          start down: (2.5m, -0.4m), angle -20deg; start runner: (4.5m, -0.8m), angle 0;
          load F1: force(a.G) = (3N, -2N); load H: force(down.G) = (1N, 4N); load M: moment(b) = 2N*m;",
+    ),
+    // A triad with a slider on a slider, which has no pin.
+    (
+        "block",
+        &[&[0.4], &[0.7], &[0.1]],
+        "ground { O: (0, 0), P: (4m, -1m), G: (0, 2m) } link crank { O -> A: 1m } link b { A -> E: 1.95m, G: (1m, 1m) }
+         link t { E: (0, 0), D: (0.7m, -0.9m), S: (1m, 0.7m), G: (0.3m, 0.3m) } link y { G: (0.1m, 0.2m), S: (0.3m, 0.1m) } link d { D -> P: 1.7m }
+         revolute O: ground -> crank; revolute A: crank -> b; revolute E: t -> b; revolute D: d -> t; revolute P: d -> ground;
+         prismatic G: ground -> y along 20deg, angle 10deg; prismatic S: y -> t along 80deg of y, angle -10deg; drive q: O;
+         start q: 0.4rad; start b: (0.92m, 0.39m), angle 32deg; start t: (2.57m, 1.43m), angle 0; start y: (3.29m, 3m), angle 10deg;
+         start d: (3.27m, 0.53m), angle -64deg; load F: force(t.G) = (3N, -2N); load H: force(b.G) in d = (1N, 4N); load M: moment(y) = 2N*m;",
     ),
     // A triad with a slider on a moving guide that is placed before.
     (

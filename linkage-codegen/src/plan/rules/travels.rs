@@ -11,7 +11,10 @@ use crate::topology::Group;
 /// along the line is a constant, or else the joint's own point. A pin in a slot is a place of its link; all other points of these joints may
 /// be declared anywhere on the line, far from where anything is.
 pub(super) fn counted_between(placement: &Placement<'_>, group: &Group, joint: JointId) -> [End; 2] {
-    placement.model.joint(joint).ends().map(|own| near(placement, joint, own, pin_near(placement, group, own)))
+    placement.model.joint(joint).ends().map(|own| {
+        let pin = near(placement, joint, own, pin_near(placement, group, own));
+        if pin == own { near_if_far(placement, joint, own, any_place(placement.model, joint, own)) } else { pin }
+    })
 }
 
 /// Lets the travel of a slide or a slot that is found in a formula count from where it is placed to be zero, and gives how far its second point
@@ -23,8 +26,7 @@ pub(super) fn count<'m>(assembly: &mut Assembly<'m>, group: &Group, joint: Joint
     let (model, placement) = (assembly.model(), &assembly.placement);
     let between = model.joint(joint).ends().map(|own| {
         let place = pin_near(placement, group, own).or_else(|| any_place(model, joint, own));
-        let place = near(placement, joint, own, place);
-        if is_far(model, placement.along_line(joint, own, place)) { place } else { own }
+        near_if_far(placement, joint, own, place)
     });
     assembly.placement.count_between(joint, between);
     assembly.placement.datum(joint, between)
@@ -34,6 +36,12 @@ pub(super) fn count<'m>(assembly: &mut Assembly<'m>, group: &Group, joint: Joint
 fn near(placement: &Placement<'_>, joint: JointId, own: End, pin: Option<End>) -> End {
     let is_constant = |pin: &End| placement.along_line(joint, own, *pin).value().is_some();
     pin.filter(|_| placement.model.joint(joint).is_line_on(own.link)).filter(is_constant).unwrap_or(own)
+}
+
+/// Such a place only where the slide's own point is far away from it.
+fn near_if_far(placement: &Placement<'_>, joint: JointId, own: End, place: Option<End>) -> End {
+    let place = near(placement, joint, own, place);
+    if is_far(placement.model, placement.along_line(joint, own, place)) { place } else { own }
 }
 
 /// What is more than this times as long as anything is far away. So much may be lost before: a bit.
