@@ -870,6 +870,25 @@ fn constants(linkage: &Linkage, scene: &str) -> impl Iterator<Item = f64> {
     })
 }
 
+/// All ground points far from the origin: not a bit of forces, efforts and rates of rotation changes.
+#[test]
+fn far_grounds_change_no_bit() {
+    for (class, drives, items) in CASES {
+        let text = independent_of_points(items);
+        let moved = far_points::with_ground_moved(&text, [1e6, -3e5]);
+        assert!(moved.contains("1000000.0m"), "{moved}");
+        let linkages = [&moved, &text].map(|text| compile(text));
+        for (drives, name) in drives.iter().flat_map(|drives| ["held", "work", "moved"].map(|scene| (drives, scene))) {
+            let arguments = Arguments { motion: MOTION.to_vec(), ..at_rest(&linkages[0], drives) };
+            let [far, near] = linkages.each_ref().map(|linkage| scene::<Double>(linkage, name, &arguments).unwrap());
+            for (path, value) in far.iter().filter(|(path, _)| !path.starts_with("error_bound.")) {
+                let [far, near] = [value, &near[path]].map(|value| value.to_f64().to_bits());
+                assert_eq!(far, near, "{class}: {path} of {name} at {drives:?}\n{moved}");
+            }
+        }
+    }
+}
+
 /// With lengths that are parameters, too.
 #[test]
 fn far_points_beside_parameters_take_no_digits() {

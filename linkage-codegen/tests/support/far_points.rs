@@ -46,6 +46,28 @@ pub fn with_point_moved(text: &str, name: &str, distance: f64, runner: bool) -> 
     Some(text.replacen(ends_and_line, &by_datum, 1))
 }
 
+/// The declaration with the points of the ground, and where links start, so far from where they are.
+pub fn with_ground_moved(text: &str, [x, y]: [f64; 2]) -> String {
+    let moved = |places: &str| {
+        let (first, rest) = places.split_once(": (").unwrap_or((places, ""));
+        let places = rest.split(": (").filter_map(|place| {
+            let (coordinates, rest) = place.split_once(')')?;
+            let (own_x, own_y) = coordinates.split_once(", ")?;
+            Some(format!(": ({own_x} + {x:?}m, {own_y} + {y:?}m){rest}"))
+        });
+        [first.to_owned(), places.collect()].concat()
+    };
+    let items = text.split(';').map(|item| match item.split_once("ground { ") {
+        Some((before, after)) => {
+            let (points, behind) = after.split_once(" }").unwrap_or((after, ""));
+            [before, "ground { ", &moved(points), " }", behind].concat()
+        }
+        None if item.trim_start().starts_with("start ") => moved(item),
+        None => item.to_owned(),
+    });
+    items.collect::<Vec<_>>().join(";")
+}
+
 /// The coordinates of a point among those that a link declares, as they are written.
 fn declared_place(points: &str, point: &str) -> Option<[String; 2]> {
     let zero = || "0m".to_owned();
