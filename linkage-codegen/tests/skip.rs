@@ -379,6 +379,7 @@ impl<'a> Unrelated<'a> {
             Op::Mul(a, b) => at(a) * at(b),
             Op::Div(a, b) => at(a) / at(b),
             Op::Kernel { kernel: Kernel::MulAdd, args, .. } => at(&args[0]) * at(&args[1]) + at(&args[2]),
+            Op::Lesser(a, b) => at(a).min(at(b)),
             Op::Where { then, .. } => at(then),
             _ => return None,
         })
@@ -420,7 +421,7 @@ impl<'a> Unrelated<'a> {
             Op::Kernel { kernel: Kernel::MulAdd, args, .. } => {
                 vec![(args[0], at(args[1])), (args[1], at(args[0])), (args[2], 1.0)]
             }
-            Op::Where { then, .. } => vec![(*then, 1.0)],
+            Op::Lesser(a, _) | Op::Where { then: a, .. } => vec![(*a, 1.0)],
             _ => Vec::new(),
         }
     }

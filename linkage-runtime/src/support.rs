@@ -12,6 +12,13 @@ macro_rules! support {
             if x > 0.0 { x } else { 0.0 }
         }
 
+        /// The lesser of two numbers; the second one if the first is NaN.
+        #[inline]
+        #[must_use]
+        pub fn lesser(x: $scalar, limit: $scalar) -> $scalar {
+            if x < limit { x } else { limit }
+        }
+
         /// A gap for an error message: in single precision, at most its largest number.
         #[cold]
         #[must_use]
@@ -74,7 +81,7 @@ pub(crate) use support;
 
 #[cfg(test)]
 mod tests {
-    use crate::__private::f64::{gap, non_negative, solve_2, solve_3};
+    use crate::__private::f64::{gap, lesser, non_negative, solve_2, solve_3};
 
     #[test]
     fn small_systems_are_pivoted() {
@@ -91,6 +98,8 @@ mod tests {
     fn clamps_and_gaps() {
         assert_eq!(non_negative(-1.0).to_bits(), 0.0f64.to_bits());
         assert_eq!(non_negative(f64::NAN).to_bits(), 0.0f64.to_bits());
+        let lesser = [lesser(1.0, 2.0), lesser(3.0, 2.0), lesser(f64::NAN, 2.0)];
+        assert_eq!(lesser.map(f64::to_bits), [1.0f64, 2.0, 2.0].map(f64::to_bits));
         assert_eq!(
             [gap(1e300), gap(f64::NAN), gap(2.0)].map(f32::to_bits),
             [f32::MAX, f32::MAX, 2.0].map(f32::to_bits)

@@ -309,6 +309,10 @@ impl<'a> Body<'a> {
                 let a = plain(a);
                 Code::atom(quote!(math::non_negative(#a)))
             }
+            Op::Lesser(a, b) => {
+                let (a, b) = (plain(a), plain(b));
+                Code::atom(quote!(math::lesser(#a, #b)))
+            }
             Op::Sqrt(a) => {
                 let a = plain(a);
                 Code::atom(quote!(math::sqrt(#a)))

@@ -70,6 +70,7 @@ pub(super) struct Formula<'a, S> {
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {
+    Choice,
     Sum,
     Product,
     Atom,
@@ -133,6 +134,7 @@ impl<S> Formula<'_, S> {
             Op::Sqrt(a) => (format!("√({})", self.of(a)), Binding::Atom),
             Op::Abs(a) => (format!("|{}|", self.of(a)), Binding::Atom),
             Op::NonNegative(a) => (format!("max({}, 0)", self.of(a)), Binding::Atom),
+            Op::Lesser(a, b) => (format!("min({}, {})", self.of(a), self.of(b)), Binding::Atom),
             Op::Where { value, limit, then } => {
                 // Of several conditions, all must hold.
                 let (mut conditions, mut then) = (vec![format!("{} > {}", sum(value), sum(limit))], then);
@@ -141,7 +143,7 @@ impl<S> Formula<'_, S> {
                     conditions.insert(0, format!("{} > {}", sum(value), sum(limit)));
                     then = inner;
                 }
-                (format!("{} where {}, else 0", sum(then), conditions.join(" and ")), Binding::Sum)
+                (format!("{} where {}, else 0", sum(then), conditions.join(" and ")), Binding::Choice)
             }
             Op::Quantity(a) | Op::Held(a) | Op::Checked { value: a, .. } => self.bound(a),
             Op::Kernel { kernel, args, part } => {

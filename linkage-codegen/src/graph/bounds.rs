@@ -152,6 +152,7 @@ impl Graph {
             Op::Neg(a) => of(a).opposite(),
             Op::Abs(a) => of(a).magnitude(),
             Op::NonNegative(a) => Bounds { low: of(a).low.max(0.0), high: of(a).high.max(0.0) },
+            Op::Lesser(a, b) => Bounds { low: of(a).low.min(of(b).low), high: of(b).high },
             Op::Sqrt(a) => computed(Bounds { low: of(a).low.max(0.0).sqrt(), high: of(a).high.max(0.0).sqrt() }),
             Op::Add(a, b) => computed(of(a).plus(of(b))),
             Op::Sub(a, b) => computed(of(a).plus(of(b).opposite())),

@@ -78,6 +78,7 @@ impl Graph {
             // Constraints are smooth: they hold none of these.
             | Op::Abs(_)
             | Op::NonNegative(_)
+            | Op::Lesser(..)
             | Op::Where { .. }
             | Op::Kernel {
                 kernel: Kernel::Unit | Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_) | Kernel::Search { .. },
@@ -104,6 +105,7 @@ impl Graph {
             Op::Neg(a) => -part(a),
             Op::Abs(a) => part(a).abs(),
             Op::NonNegative(a) => part(a).non_negative(),
+            Op::Lesser(a, b) => part(a).at_most(part(b)),
             Op::Sqrt(a) => part(a).sqrt(),
             Op::Add(a, b) => part(a) + part(b),
             Op::Sub(a, b) => part(a) - part(b),

@@ -160,6 +160,12 @@ impl<'g> Expr<'g> {
         self.graph.non_negative(self)
     }
 
+    /// The value, or a lesser one; that one, too, if this is not a number.
+    #[must_use]
+    pub fn at_most(self, limit: Self) -> Self {
+        self.graph.lesser(self, limit)
+    }
+
     /// The product with itself.
     #[must_use]
     pub fn squared(self) -> Self {

@@ -225,6 +225,14 @@ impl Graph {
         }
     }
 
+    pub(super) fn lesser<'g>(&'g self, a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
+        match compare(a, b) {
+            Some(Ordering::Less) => a,
+            Some(_) => b,
+            None => self.intern(Op::Lesser(a.id(), b.id())),
+        }
+    }
+
     pub(super) fn held<'g>(&'g self, a: Expr<'g>) -> Expr<'g> {
         match a.op() {
             Op::Constant(_) | Op::Symbol(_) | Op::Held(_) => a,
@@ -326,7 +334,7 @@ impl Graph {
         let found = match a.op() {
             Op::Constant(_) => a.sign() != Some(-1),
             Op::Mul(x, y) if x == y => true,
-            Op::Add(x, y) | Op::Mul(x, y) | Op::Div(x, y) => of(x) && of(y),
+            Op::Add(x, y) | Op::Mul(x, y) | Op::Div(x, y) | Op::Lesser(x, y) => of(x) && of(y),
             Op::Quantity(x) | Op::Held(x) | Op::Checked { value: x, .. } | Op::Where { then: x, .. } => of(x),
             Op::Sqrt(_) | Op::Abs(_) | Op::NonNegative(_) => true,
             _ => false,

@@ -201,6 +201,8 @@ pub enum Op<T = NodeId> {
     Abs(T),
     /// The value, or zero if it is negative.
     NonNegative(T),
+    /// The lesser of two; the second one if the first is not a number.
+    Lesser(T, T),
     /// Square root.
     Sqrt(T),
     /// Sum.
@@ -255,6 +257,10 @@ impl<T: Copy> Op<T> {
                 let a = of(a);
                 if a.above(&zero()) { a } else { zero() }
             }
+            Self::Lesser(a, b) => {
+                let (a, b) = (of(a), of(b));
+                if b.above(&a) { a } else { b }
+            }
             Self::Sqrt(a) => of(a).sqrt(),
             Self::Add(a, b) => of(a).add(&of(b)),
             Self::Sub(a, b) => of(a).sub(&of(b)),
@@ -304,6 +310,7 @@ impl<T: Copy> Op<T> {
             Self::Neg(a) => Op::Neg(with(*a)),
             Self::Abs(a) => Op::Abs(with(*a)),
             Self::NonNegative(a) => Op::NonNegative(with(*a)),
+            Self::Lesser(a, b) => Op::Lesser(with(*a), with(*b)),
             Self::Sqrt(a) => Op::Sqrt(with(*a)),
             Self::Add(a, b) => Op::Add(with(*a), with(*b)),
             Self::Sub(a, b) => Op::Sub(with(*a), with(*b)),

@@ -322,9 +322,7 @@ impl<'g> Rounding<'g> {
         // More than thousands of operations on bounds can lose, and more than what signs may cancel in the shares: of a share's roundings
         // each is 2u of an error, where the value's own are u of the value.
         let generous = Number::one().add(&Number::power_of_two(-7));
-        let (bound, largest) = (graph.constant(&generous) * error, graph.largest());
-        let known = graph.one().where_above(largest, bound);
-        bound.where_above(largest, bound) + largest * (graph.one() - known)
+        (graph.constant(&generous) * error).at_most(graph.largest())
     }
 
     /// States the deviation of a value that is known better than its operations tell.
@@ -432,7 +430,8 @@ impl<'g> Rounding<'g> {
                 let total = deviation.total();
                 deviation.and((2 * total).where_above(total, graph.expr(a)))
             }
-            Op::Quantity(a) | Op::Checked { value: a, .. } => self.deviation(a),
+            // Nothing that is looked at is limited: only bounds are.
+            Op::Lesser(a, _) | Op::Quantity(a) | Op::Checked { value: a, .. } => self.deviation(a),
             // What is not significant counts as zero: then it is an error to divide by it.
             Op::Where { then, .. } => self.deviation(then),
             Op::Held(a) => {

@@ -111,6 +111,10 @@ impl<'g> Tangent<'g> {
                 da.where_above(a, zero) - da.where_above(zero, a)
             }
             Op::NonNegative(a) => self.of(value(a)).where_above(value(a), zero),
+            Op::Lesser(a, b) => {
+                let (a, b) = (value(a), value(b));
+                self.of(a).where_above(b, a) + self.of(b).where_above(a, b)
+            }
             Op::Where { value: compared, limit, then } => {
                 self.of(value(then)).where_above(value(compared), value(limit))
             }

@@ -44,7 +44,7 @@ impl Program {
             match step {
                 Step::Let(value) => match self.op(*value) {
                     Some(Op::Neg(_) | Op::Abs(_)) => counts.sign += 1,
-                    Some(Op::NonNegative(_) | Op::Where { .. }) => counts.compare += 1,
+                    Some(Op::NonNegative(_) | Op::Lesser(..) | Op::Where { .. }) => counts.compare += 1,
                     Some(Op::Sqrt(_)) => counts.sqrt += 1,
                     Some(Op::Add(..) | Op::Sub(..)) => counts.add += 1,
                     Some(Op::Mul(..)) => counts.mul += 1,
