@@ -254,7 +254,7 @@ fn of_moving(name: &str, text: &str, around: f64, by: f64) {
         let motion = vec![[random.range(-20.0, 20.0), random.range(-300.0, 300.0)]];
         let arguments = Arguments { drives, loads: vec![[0.0; 2]], motion, ..Arguments::default() };
         for name in ["place", "v", "a", "f", "w"] {
-            all.extend(ratios_of(&linkage, name, &arguments, text));
+            all.extend(ratios_of::<Double>(&linkage, name, &arguments, text));
         }
     }
     expect_tight(name, all);

@@ -11,9 +11,10 @@ use linkage_codegen::model::JointKind;
 use linkage_codegen::plan::rules::RULES;
 use linkage_codegen::program::Definition;
 use support::bounds::{LOOSEST, median, ratios_of};
+use support::families::single;
 use support::far_points;
 use support::general::{equations, open_motion, residuals, solve_extended};
-use support::numbers::{Double, Extended};
+use support::numbers::{Double, Extended, Single};
 use support::{Arguments, Number, compile, index_of, scene};
 
 /// A linkage for each class of groups, with the class named, drives at which it closes, and how the rule is used.
@@ -778,49 +779,12 @@ fn check(linkage: &Linkage, arguments: &Arguments, text: &str) {
     }
 }
 
-/// Of forces, of the unknowns by virtual work, and of how the links turn.
-#[test]
-fn bounds_hold_the_errors_of_every_rule() {
-    let mut by_rule: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
-    for (class, drives, items) in CASES {
-        let linkage = compile(&format!("pub mod sample; {items} scene all: equilibrium;"));
-        let list = |names: Vec<String>| names.join(", ");
-        let unknowns = list(linkage.model.unknowns.iter().map(|unknown| unknown.name.clone()).collect());
-        let joints = list(linkage.model.joints.iter().map(|joint| joint.name.text.clone()).collect());
-        let angles = linkage.model.moving_links().map(|link| format!("{}.angle", linkage.model.link(link).name));
-        let angles = list(angles.collect());
-        let text = format!(
-            "pub mod sample; {items} scene held: equilibrium -> ({unknowns}, {joints}, error_bound);
-             scene work: virtual_work -> ({unknowns}, error_bound); scene moved: acceleration -> ({angles}, error_bound);"
-        );
-        let linkage = compile(&text);
-        for drives in drives {
-            let arguments = Arguments {
-                drives: drives.to_vec(),
-                loads: vec![[0.0; 2]; linkage.model.loads.len()],
-                motion: MOTION.to_vec(),
-                ..Arguments::default()
-            };
-            for name in ["held", "work", "moved"] {
-                let what = format!("{class}: {name} at {drives:?}\n{text}");
-                by_rule.entry(class).or_default().extend(ratios_of(&linkage, name, &arguments, &what));
-            }
-        }
-    }
-    assert!(by_rule.values().map(Vec::len).sum::<usize>() > 1000);
-    for (class, ratios) in &mut by_rule {
-        let (count, median) = (ratios.len(), median(ratios).expect("results"));
-        println!("{class}: {count} results, median of bound over error {median:.1}");
-        assert!(median < LOOSEST, "{class}: {count} results, median {median:.1}");
-    }
-}
-
-/// A case with scenes of what does not depend on the points by which its lines are declared: forces, efforts, how the links turn.
-fn independent_of_points(items: &str) -> String {
+/// A case with scenes that bound the errors of forces and efforts, of efforts by virtual work, and of how the links turn; of the reactions of
+/// these joints.
+fn bounded(items: &str, of: fn(&JointKind) -> bool) -> String {
     let linkage = compile(&format!("pub mod sample; {items} scene all: equilibrium;"));
     let unknowns: Vec<&str> = linkage.model.unknowns.iter().map(|unknown| unknown.name.as_str()).collect();
-    let slides = |kind: &JointKind| matches!(kind, JointKind::Prismatic { .. } | JointKind::Slot { .. });
-    let joints = linkage.model.joints.iter().filter(|joint| !slides(&joint.kind));
+    let joints = linkage.model.joints.iter().filter(|joint| of(&joint.kind));
     let forces: Vec<&str> = unknowns.iter().copied().chain(joints.map(|joint| joint.name.text.as_str())).collect();
     let angles = linkage.model.moving_links().map(|link| format!("{}.angle", linkage.model.link(link).name));
     let (forces, unknowns, angles) = (forces.join(", "), unknowns.join(", "), angles.collect::<Vec<_>>().join(", "));
@@ -829,6 +793,52 @@ fn independent_of_points(items: &str) -> String {
          scene work: virtual_work -> ({unknowns}, error_bound); scene moved: acceleration -> ({angles}, error_bound);
          scene all: equilibrium;"
     )
+}
+
+/// The scenes of such a case that have bounds.
+const BOUNDED: [&str; 3] = ["held", "work", "moved"];
+
+/// In both scalars, in plain and in fused arithmetic.
+#[test]
+fn bounds_hold_the_errors_of_every_rule() {
+    let mut by_rule: BTreeMap<(&str, &str), Vec<f64>> = BTreeMap::new();
+    for (class, drives, items) in CASES {
+        let text = bounded(items, |_| true);
+        for options in
+            ["scalar f64; arithmetic plain;", "arithmetic fused;", "scalar f32;", "scalar f32; arithmetic fused;"]
+        {
+            let text = text.replacen(';', &format!("; {options}"), 1);
+            let linkage = compile(&text);
+            for (drives, name) in drives.iter().flat_map(|drives| BOUNDED.map(|name| (drives, name))) {
+                let what = format!("{class}: {name} at {drives:?}\n{text}");
+                let arguments = Arguments { motion: MOTION.to_vec(), ..at_rest(&linkage, drives) };
+                let ratios = if options.starts_with("scalar f32") {
+                    ratios_of::<Single>(&linkage, name, &in_single(&arguments), &what)
+                } else {
+                    ratios_of::<Double>(&linkage, name, &arguments, &what)
+                };
+                by_rule.entry((class, options)).or_default().extend(ratios);
+            }
+        }
+    }
+    assert!(by_rule.values().map(Vec::len).sum::<usize>() > 10_000);
+    for ((class, options), ratios) in &mut by_rule {
+        let (count, median) = (ratios.len(), median(ratios).expect("results"));
+        println!("{class}, {options}: {count} results, median of bound over error {median:.1}");
+        assert!(median < LOOSEST, "{class}, {options}: {count} results, median {median:.1}");
+    }
+}
+
+/// The nearest arguments that single precision holds.
+fn in_single(arguments: &Arguments) -> Arguments {
+    let drives = arguments.drives.iter().map(|drive| single(*drive)).collect();
+    let motion = arguments.motion.iter().map(|motion| motion.map(single)).collect();
+    Arguments { drives, motion, ..arguments.clone() }
+}
+
+/// What does not depend on the points by which lines are declared.
+fn independent_of_points(items: &str) -> String {
+    bounded(items, |kind| !matches!(kind, JointKind::Prismatic { .. } | JointKind::Slot { .. }))
 }
 
 /// Lines that are declared by points far away: no function has the distance in it, errors are like those with near points, and so are bounds.
@@ -846,9 +856,7 @@ fn far_points_of_lines_take_no_digits() {
             let Some(moved) = points.iter().try_fold(text.clone(), move_point) else { continue };
             let far = compile(&moved);
             check(&far, &at_rest(&far, drives[0]), &moved);
-            for (drives, scene) in
-                drives.iter().flat_map(|drives| ["held", "work", "moved"].map(|scene| (drives, scene)))
-            {
+            for (drives, scene) in drives.iter().flat_map(|drives| BOUNDED.map(|scene| (drives, scene))) {
                 tried += 1;
                 let arguments = Arguments { motion: MOTION.to_vec(), ..at_rest(&near, drives) };
                 compare([&far, &near], scene, &arguments, &format!("{class}: {scene} at {drives:?}\n{moved}"));
@@ -878,7 +886,7 @@ fn far_grounds_change_no_bit() {
         let moved = far_points::with_ground_moved(&text, [1e6, -3e5]);
         assert!(moved.contains("1000000.0m"), "{moved}");
         let linkages = [&moved, &text].map(|text| compile(text));
-        for (drives, name) in drives.iter().flat_map(|drives| ["held", "work", "moved"].map(|scene| (drives, scene))) {
+        for (drives, name) in drives.iter().flat_map(|drives| BOUNDED.map(|scene| (drives, scene))) {
             let arguments = Arguments { motion: MOTION.to_vec(), ..at_rest(&linkages[0], drives) };
             let [far, near] = linkages.each_ref().map(|linkage| scene::<Double>(linkage, name, &arguments).unwrap());
             for (path, value) in far.iter().filter(|(path, _)| !path.starts_with("error_bound.")) {
@@ -900,7 +908,7 @@ fn far_points_beside_parameters_take_no_digits() {
     for (distance, runner) in [(-1e8, false), (1e8, true), (1e4, false)] {
         let moved = far_points::with_point_moved(&text, "G", distance, runner).expect("a slide");
         let linkages = [&moved, &text].map(|text| compile(text));
-        for scene in ["held", "work", "moved"] {
+        for scene in BOUNDED {
             let params = vec![0.8, 2.5];
             let arguments = Arguments { params, motion: MOTION.to_vec(), ..at_rest(&linkages[1], &[0.7]) };
             compare(linkages.each_ref(), scene, &arguments, &moved);
@@ -918,7 +926,7 @@ fn compare([far, near]: [&Linkage; 2], name: &str, arguments: &Arguments, contex
     let nearby = (1..4).map(|k| at(f64::from(k) * 1e-12));
     let further = far_points::further_off::<Double>([far, near], (name, is_value), &at(0.0), nearby, f64::EPSILON);
     assert!(further.expect("a pose") < 10.0, "{further:?} times the error; {context}");
-    ratios_of(far, name, &at(0.0), context);
+    ratios_of::<Double>(far, name, &at(0.0), context);
     let [bounds, near] = [far, near].map(|linkage| scene::<Double>(linkage, name, &at(0.0)).expect("a pose"));
     for (path, bound) in bounds {
         if path.starts_with("error_bound.") && !path.ends_with("couple") {

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
 
-use super::numbers::{Double, Extended};
+use super::numbers::Extended;
 use super::{Arguments, Number, compile_if_it_closes, scene};
 
 /// How far above the errors their bounds may be, as a median.
@@ -41,10 +41,10 @@ pub fn ratios<T: Number>(
     ratios_to(&exact, found, context)
 }
 
-/// The same of a scene at a pose that is regular, for doubles too.
-pub fn ratios_of(linkage: &Linkage, name: &str, arguments: &Arguments, context: &str) -> Vec<f64> {
-    let Ok(found) = scene::<Double>(linkage, name, arguments) else { return Vec::new() };
-    let exact = scene::<Extended>(linkage, name, arguments).expect("regular where doubles are");
+/// The same of a scene at a pose that is regular for numbers of this type, too.
+pub fn ratios_of<T: Number>(linkage: &Linkage, name: &str, arguments: &Arguments, context: &str) -> Vec<f64> {
+    let Ok(found) = scene::<T>(linkage, name, arguments) else { return Vec::new() };
+    let exact = scene::<Extended>(linkage, name, arguments).expect("regular where rounded numbers are");
     ratios_to(&exact, &found, context)
 }
 
