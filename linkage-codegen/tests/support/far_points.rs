@@ -12,6 +12,11 @@ pub fn lines(text: &str) -> Vec<&str> {
     named("prismatic ").chain(named("slot ")).collect()
 }
 
+/// Whether a drive gives the travel of a line.
+pub fn is_driven(text: &str, name: &str) -> bool {
+    [";", ".travel;"].iter().any(|what| text.contains(&[": ", name, what].concat()))
+}
+
 /// The declaration with a point of a slide or slot so far along the line from where it is: that of the link in whose frame the line is given,
 /// or that of the runner; a pin in a slot is where it is, and the travel of a driven line is an argument: they stay. Lines by two points or by a
 /// vector have no angle to go by.
@@ -27,8 +32,7 @@ pub fn with_point_moved(text: &str, name: &str, distance: f64, runner: bool) -> 
         return None;
     }
     let is_of_carrier = |end: &&str| end.split('.').next() == Some(carrier);
-    let is_driven = [";", ".travel;"].iter().any(|what| text.contains(&[": ", name, what].concat()));
-    let end = [from, to].into_iter().find(|end| is_of_carrier(end) != runner).filter(|_| !is_driven)?;
+    let end = [from, to].into_iter().find(|end| is_of_carrier(end) != runner).filter(|_| !is_driven(text, name))?;
     let angle = match (runner, end == to) {
         (false, _) => angle.to_owned(),
         (true, true) => format!("({angle} - ({turn}))"),
