@@ -4,29 +4,25 @@ use std::time::Instant;
 
 use linkage_codegen::{expand, formatted};
 
+/// What is measured, by the number of dyads.
+const CHAINS: [(&str, u32); 5] =
+    [("four-bar", 1), ("six-bar", 2), ("eight-bar", 3), ("ten dyads", 10), ("twenty dyads", 20)];
+
 /// Prints, for linkages of some numbers of dyads, the time of an expansion and the lines of its formatted code, comments and
 /// documentation apart.
 pub(crate) fn print(rounds: usize) -> Result<(), String> {
     println!("\nexpansion of chains of dyads; of a linkage's growth, what each dyad adds to the four-bar");
     println!("  {:<24} {:>6} {:>10} {:>10} {:>12} {:>12}", "", "dyads", "ms", "lines", "ms/dyad", "lines/dyad");
     let mut first = None;
-    for (title, dyads) in [("four-bar", 1), ("six-bar", 2), ("eight-bar", 3), ("ten dyads", 10), ("twenty dyads", 20)] {
+    for (title, dyads) in CHAINS {
         let declaration = chain(dyads);
+        let lines = lines(&declaration).map_err(|error| format!("{title}: {error}"))?;
         let mut times = Vec::new();
-        let mut lines = 0;
         for _ in 0..rounds {
             let tokens = declaration.parse().map_err(|error| format!("{title}: {error}"))?;
             let start = Instant::now();
-            let code = expand(tokens);
+            let _ = expand(tokens);
             times.push(start.elapsed().as_secs_f64() * 1e3);
-            if lines == 0 {
-                let source = formatted(code).map_err(|error| format!("{title}: {error}"))?;
-                if source.contains("compile_error") {
-                    return Err(format!("{title} is refused"));
-                }
-                let is_code = |line: &&str| !line.trim_start().starts_with("//") && !line.trim().is_empty();
-                lines = source.lines().filter(is_code).count();
-            }
         }
         times.sort_by(f64::total_cmp);
         let time = times[times.len() / 2];
@@ -38,6 +34,17 @@ pub(crate) fn print(rounds: usize) -> Result<(), String> {
         println!("  {title:<24} {dyads:>6} {time:>10.2} {lines:>10} {:>12} {:>12}", each(of_time), each(of_lines));
     }
     Ok(())
+}
+
+/// The lines of a declaration's formatted code, comments and documentation apart.
+fn lines(declaration: &str) -> Result<usize, String> {
+    let tokens = declaration.parse().map_err(|error| format!("{error}"))?;
+    let source = formatted(expand(tokens)).map_err(|error| format!("{error}"))?;
+    if source.contains("compile_error") {
+        return Err("is refused".into());
+    }
+    let is_code = |line: &&str| !line.trim_start().starts_with("//") && !line.trim().is_empty();
+    Ok(source.lines().filter(is_code).count())
 }
 
 /// A crank, and dyads of a coupler and a rocker, each behind the rocker before; a force on each coupler, and weights.
@@ -63,4 +70,26 @@ fn chain(dyads: u32) -> String {
     text.push_str(&format!("revolute O0: ground -> crank; drive theta: O0; {joints} {loads}"));
     text.push_str("load W: gravity = 9.81m/s^2 @ -90deg; scene statics: equilibrium; scene torque: virtual_work;");
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CHAINS, chain, lines};
+
+    /// Each further dyad adds as many lines, to a twentieth; and the page says how many there are.
+    #[test]
+    fn lines_grow_with_the_dyads() {
+        let page = include_str!("../README.md");
+        let all = CHAINS.map(|(title, dyads)| {
+            let lines = lines(&chain(dyads)).expect(title);
+            let row = page.lines().find(|row| row.starts_with(&format!("| {title} |"))).expect(title);
+            assert_eq!(row.split('|').nth(3).map(str::trim), Some(lines.to_string().as_str()), "{row}");
+            (dyads as usize, lines)
+        });
+        let (first, each) = (all[0].1, all[1].1 - all[0].1);
+        for (dyads, lines) in all {
+            let expected = first + (dyads - 1) * each;
+            assert!(20 * lines.abs_diff(expected) <= expected, "{lines} lines for {dyads} dyads, {expected} expected");
+        }
+    }
 }
