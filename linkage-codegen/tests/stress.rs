@@ -7,8 +7,9 @@
 //! ```
 //!
 //! with 10⁶ random poses of four-bars and slider-cranks, and 10⁴ of each other kind and of any in fused arithmetic; with 100 members of a
-//! kind in each family, 50 in fused arithmetic; bounds are looked at in every fourth of them, of cascades in several more. It prints, for each kind and family, the worst measure as a part of its bar, and the median
-//! of bound over error. Members are drawn until as many as are asked for have poses in either scalar: a kind without poses in a family that
+//! kind in each family, 50 in fused arithmetic. Bounds are looked at in every fourth member, of cascades in more. No regular pose may be
+//! refused in doubles, one in five in single precision, down to pivots at which rounding leaves digits: 10⁻⁷ and 10⁻²·⁵. It prints, for each
+//! kind and family, the worst measure as a part of its bar, and the median of bound over error. Members are drawn until as many as are asked for have poses in either scalar: a kind without poses in a family that
 //! is its own by the table fails. The bars are `BARS` of `support/families.rs`, the measures explained in `support/measures.rs`.
 //!
 //! | family | where | for which kinds |
@@ -49,7 +50,7 @@ use support::linkages::{
     Class, Layout, Place, Random, direction, in_single_precision, intersection, minus, plus, sample_with_forces, size,
 };
 use support::measures::{Measures, is_moment, measure};
-use support::numbers::{Double, Single};
+use support::numbers::{Double, Extended, Single};
 use support::{Arguments, Number, compile_if_it_closes, pose, scene};
 
 /// A number type that linkages compute in.
@@ -896,6 +897,10 @@ struct Cell {
     bounded: usize,
     /// How many bounds are the largest number: of such a result nothing is known.
     unknown: usize,
+    /// Of poses that are regular in exact arithmetic, and so far from singular ones that rounding leaves digits, how many have an answer, and
+    /// how many have none.
+    answered: usize,
+    refused: usize,
 }
 
 /// Whether a pivot is zero to rounding: of such a pose there are no forces, and directions at the very end of a motion are those that
@@ -932,10 +937,15 @@ impl Cell {
         let Some(linkage) = (if bounded { with_bounds(&text) } else { compile_if_it_closes(&text) }) else { return };
         for Pose { drive, loads, pivot } in each {
             let arguments = at_nearest::<T>(*drive, loads);
-            if at_its_dead_centre::<T>(&linkage, &arguments) {
-                continue;
+            let is_told = T::EPSILON <= TOLD * pivot * pivot;
+            let measures = measure::<T>(&linkage, &arguments, *longest, T::EPSILON);
+            let has_answer = measures.is_ok() && !at_its_dead_centre::<T>(&linkage, &arguments);
+            if is_told && has_answer {
+                self.answered += 1;
+            } else if is_told && scene::<Extended>(&linkage, "all", &arguments).is_ok() {
+                self.refused += usize::from(!at_its_dead_centre::<Extended>(&linkage, &arguments));
             }
-            let Ok(measures) = measure::<T>(&linkage, &arguments, *longest, T::EPSILON) else { continue };
+            let Some(measures) = measures.ok().filter(|_| has_answer) else { continue };
             self.poses += 1;
             self.worst = self.worst.worst(measures);
             let (share, _) = share(&measures);
@@ -945,7 +955,7 @@ impl Cell {
             }
             if bounded && let Ok(found) = scene::<T>(&linkage, "bounded", &arguments) {
                 let ratios = ratios(&linkage, &arguments, &found, &context());
-                if T::EPSILON <= TOLD * pivot * pivot {
+                if is_told {
                     self.bounded += usize::from(!ratios.is_empty());
                     self.ratios.extend(ratios);
                     let bounds = found.iter().filter(|(path, _)| path.starts_with("error_bound."));
@@ -959,19 +969,23 @@ impl Cell {
         self.poses >= size.poses && self.bounded >= ENOUGH
     }
 
-    /// Its part of a line, and what is beyond its bar.
-    fn report(mut self) -> (String, Option<String>) {
+    /// Its part of a line, and what is beyond its bar; of its regular poses one in so many may be refused, or none.
+    fn report(mut self, one_in: Option<usize>) -> (String, Option<String>) {
         let (worst, of) = share(&self.worst);
         let median = median(&mut self.ratios).expect("results");
         let line = format!(
-            "{:8} poses {worst:5.2} {of:9} bound/error {median:4.0} of {:7}, {:6} unknown",
+            "{:8} poses, {:4} refused {worst:5.2} {of:9} bound/error {median:4.0} of {:7}, {:6} unknown",
             self.poses,
+            self.refused,
             self.ratios.len(),
             self.unknown
         );
         let beyond = self.example.filter(|(share, _)| *share > 1.0).map(|(_, example)| example);
         let loose = (median > LOOSEST).then(|| format!("bounds are too far from errors: {median}"));
-        (line, beyond.or(loose))
+        let allowed = one_in.map_or(0, |one_in| (self.answered + self.refused) / one_in);
+        let refused = (self.refused > allowed)
+            .then(|| format!("of {} regular poses {} are refused", self.answered + self.refused, self.refused));
+        (line, beyond.or(loose).or(refused))
     }
 }
 
@@ -1016,7 +1030,7 @@ fn run(kind: &Kind, members: usize, random_poses: usize, bounded: usize, fused: 
     let mut beyond = String::new();
     let kind_name = if fused { format!("{}, fused", kind.name) } else { kind.name.to_owned() };
     let mut add = |family: &str, (double, single): (Cell, Cell)| {
-        let [(double, first), (single, second)] = [double, single].map(Cell::report);
+        let [(double, first), (single, second)] = [double.report(None), single.report(Some(5))];
         println!("{kind_name:46} {family:14} f64 {double}  f32 {single}");
         for (scalar, example) in [("f64", first), ("f32", second)] {
             let Some(example) = example else { continue };
