@@ -912,6 +912,11 @@ fn at_its_dead_centre<T: Number>(linkage: &Linkage, arguments: &Arguments) -> bo
     pivots.map(|pivot| kept[&pivot.node].to_f64()).any(|pivot| pivot == 0.0)
 }
 
+/// Whether there are forces in exact arithmetic only.
+fn is_refused<T: Number>(linkage: &Linkage, arguments: &Arguments) -> bool {
+    scene::<T>(linkage, "all", arguments).is_err() && scene::<Extended>(linkage, "all", arguments).is_ok()
+}
+
 /// The largest part of its bar that a measure takes, and its name.
 fn share(measures: &Measures) -> (f64, &'static str) {
     let all = [
@@ -942,8 +947,8 @@ impl Cell {
             let has_answer = measures.is_ok() && !at_its_dead_centre::<T>(&linkage, &arguments);
             if is_told && has_answer {
                 self.answered += 1;
-            } else if is_told && scene::<Extended>(&linkage, "all", &arguments).is_ok() {
-                self.refused += usize::from(!at_its_dead_centre::<Extended>(&linkage, &arguments));
+            } else if is_told && is_refused::<T>(&linkage, &arguments) {
+                self.refused += 1;
             }
             let Some(measures) = measures.ok().filter(|_| has_answer) else { continue };
             self.poses += 1;
