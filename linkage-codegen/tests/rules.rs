@@ -770,7 +770,7 @@ fn check(linkage: &Linkage, arguments: &Arguments, text: &str) {
         let error = (all[&name].to_f64() - value.to_f64()).abs();
         let size = value.to_f64().abs().max(1.0);
         assert!(error <= 1e-13 * size, "{name}\n{text}");
-        assert!(all[&name].sub(&value).to_f64().abs() < 1e-50 * size, "{name}: equilibrium\n{text}");
+        assert!(all[&name].sub(&value).to_f64().abs() < 1e-53 * size, "{name}: equilibrium\n{text}");
     }
     let work = scene::<Extended>(linkage, "work", arguments).unwrap();
     for unknown in &linkage.model.unknowns {

@@ -9,9 +9,9 @@
 //! with 10⁶ random poses of four-bars and slider-cranks, and 10⁴ of each other kind and of any in fused arithmetic; with 100 members of a
 //! kind in each family, 50 in fused arithmetic. Bounds are looked at in every fourth member, of cascades in more. Of regular poses one in a
 //! hundred may be refused in doubles, one in five in single precision, down to pivots at which rounding leaves digits: 10⁻⁷ and 10⁻²·⁵.
-//! It prints, for each
-//! kind and family, the worst measure as a part of its bar, and the median of bound over error. Members are drawn until as many as are asked for have poses in either scalar: a kind without poses in a family that
-//! is its own by the table fails. The bars are `BARS` of `support/families.rs`, the measures explained in `support/measures.rs`.
+//! It prints, for each kind and family, the worst measure as a part of its bar, and the median of bound over error. Members are drawn until
+//! as many as are asked for have poses in either scalar: a kind without poses in a family that is its own by the table fails. The bars are
+//! `BARS` of `support/families.rs`, the measures explained in `support/measures.rs`.
 //!
 //! | family | where | for which kinds |
 //! |---|---|---|

@@ -355,11 +355,7 @@ impl<'m, 'p> Balance<'m, 'p> {
                 couple.named(self.name(&format!("{}_couple", data.name)), "about its runner")
             }
         };
-        let couple = match data.kind {
-            JointKind::Prismatic { .. } => couple.map(about_runner),
-            _ => couple,
-        };
-        self.reactions.insert(joint, Reaction { force, couple });
+        self.reactions.insert(joint, Reaction { force, couple: couple.map(about_runner) });
     }
 
     /// An unknown effort is found.

@@ -456,7 +456,7 @@ impl<'m> Placement<'m> {
         let own = data.end_on(link).unwrap_or(data.to);
         let Some((carrier, _)) = data.kind.line() else { return self.point(own) };
         let along = self.slide_along_on(joint, link);
-        let place = self.point(own) + along.scaled(self.along_line(joint, own, self.counted_from(joint, link)));
+        let place = self.point(own) + along.scaled(self.ahead_of_own(joint, own));
         if carrier == link { place + along.scaled(self.travel_on(joint, link).found) } else { place }
     }
 
@@ -466,7 +466,7 @@ impl<'m> Placement<'m> {
         let data = self.model.joint(slide);
         let own = data.end_on(link).unwrap_or(data.to);
         let ahead_of_own = (at - self.point(own)).dot(self.slide_along_on(slide, link));
-        let ahead = ahead_of_own - self.along_line(slide, own, self.counted_from(slide, link));
+        let ahead = ahead_of_own - self.ahead_of_own(slide, own);
         let carries = data.kind.line().is_some_and(|(carrier, _)| carrier == link);
         if carries { ahead - self.travel_on(slide, link).found } else { ahead }
     }
@@ -474,8 +474,14 @@ impl<'m> Placement<'m> {
     /// How far the place of a slide is ahead of its runner, the point by which it was declared: a constant.
     #[must_use]
     pub fn ahead_of_runner(&self, slide: JointId) -> Expr<'m> {
-        let runner = self.model.joint(slide).place();
-        self.along_line(slide, runner, self.counted_from(slide, runner.link))
+        self.ahead_of_own(slide, self.model.joint(slide).place())
+    }
+
+    /// How far the point of a link from which the travel of a slide or a slot counts is ahead of that by which it was declared there, along the
+    /// line: a constant, as a rule zero.
+    #[must_use]
+    pub fn ahead_of_own(&self, joint: JointId, own: End) -> Expr<'m> {
+        self.along_line(joint, own, self.counted_from(joint, own.link))
     }
 
     /// How far the other link's point is ahead of that of the link that carries the line.

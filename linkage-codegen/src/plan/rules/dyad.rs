@@ -712,7 +712,7 @@ impl<'a> Dyad<'a> {
     pub(super) fn way_to_slide(&self, placement: &Placement<'a>, leg: &Leg) -> Way<'a> {
         let link = leg.tip.end.link;
         let mut way = self.way_within(leg, link, placement.slide_axis(self.inner, link));
-        way.go_on(placement.along_line(self.inner, leg.tip.end, placement.counted_from(self.inner, link)));
+        way.go_on(placement.ahead_of_own(self.inner, leg.tip.end));
         way
     }
 

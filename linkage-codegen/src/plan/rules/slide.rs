@@ -131,8 +131,9 @@ pub(super) fn react<'m>(
         _ => format!("{joint}_couple"),
     };
     let from_runner = balance.placement.ahead_of_runner(slide);
-    let about_runner = moment + (ahead + from_runner) * across;
-    let (normal, couple, sign) = if second { (-across, -about_runner, "−") } else { (across, about_runner, "") };
+    let signed = |part: Expr<'m>| if second { -part } else { part };
+    let sign = if second { "−" } else { "" };
+    let (normal, couple) = (signed(across), signed(moment + (ahead + from_runner) * across));
     let normal = normal.named(
         balance.name(&format!("{joint}_normal")),
         format!("{sign}ΣF of what acts on {name} across the slide {joint}"),
@@ -140,12 +141,7 @@ pub(super) fn react<'m>(
     let couple = couple.named(balance.name(&couple_name), format!("{sign}ΣM({joint}) of what acts on {name}"));
     let axes = balance.placement.slide_direction(slide);
     let force = Framed { components: Vector::new(balance.graph().zero(), normal), axes };
-    let at_place = moment + ahead * across;
-    let at_place = match (from_runner.is_zero(), second) {
-        (true, _) => couple,
-        (false, true) => -at_place,
-        (false, false) => at_place,
-    };
+    let at_place = if from_runner.is_zero() { couple } else { signed(moment + ahead * across) };
     balance.slide(slide, link, force, [couple, at_place]);
 }
 

@@ -59,12 +59,8 @@ fn lengths(model: &Model) -> Vec<Expr<'_>> {
     let axes = Placement::of_ground(model);
     let mut lengths = Vec::new();
     for link in (0..model.links.len()).map(LinkId::new) {
-        let ends = || model.joint_ids().filter_map(|joint| Some((joint, model.joint(joint).end_on(link)?)));
-        let (of_lines, of_pins): (Vec<_>, Vec<_>) = ends().partition(|(joint, _)| model.joint(*joint).is_line_on(link));
-        let is = |at: End| move |(_, end): &(JointId, End)| *end == at;
-        let points = (0..model.link(link).points.len()).map(|index| End { link, point: PointId::new(index) });
-        let points: Vec<End> =
-            points.filter(|at| of_pins.iter().any(is(*at)) || !of_lines.iter().any(is(*at))).collect();
+        let of_lines: Vec<(JointId, End)> = lines_on(model, link).collect();
+        let points: Vec<End> = places_on(model, link).collect();
         for (index, from) in points.iter().enumerate() {
             let way = |to: End| model.local(to) - model.local(*from);
             lengths.extend(points[index + 1..].iter().map(|to| way(*to).size()));
@@ -72,6 +68,21 @@ fn lengths(model: &Model) -> Vec<Expr<'_>> {
         }
     }
     lengths
+}
+
+/// The lines on a link, each with the point by which it was declared there.
+fn lines_on(model: &Model, link: LinkId) -> impl Iterator<Item = (JointId, End)> {
+    let lines = model.joint_ids().filter(move |joint| model.joint(*joint).is_line_on(link));
+    lines.filter_map(move |joint| Some((joint, model.joint(joint).end_on(link)?)))
+}
+
+/// The points of a link but for those by which only lines were declared.
+fn places_on(model: &Model, link: LinkId) -> impl Iterator<Item = End> {
+    let points = (0..model.link(link).points.len()).map(move |index| End { link, point: PointId::new(index) });
+    points.filter(move |at| {
+        let is_pin = |joint: JointId| model.joint(joint).pin_on(link) == Some(*at);
+        model.joint_ids().any(is_pin) || lines_on(model, link).all(|(_, end)| end != *at)
+    })
 }
 
 /// The first pin that a group has on a link of its own or around it, or else that by which loops of the group go on from the link.
@@ -90,29 +101,21 @@ fn pin_near(placement: &Placement<'_>, group: &Group, own: End) -> Option<End> {
 /// as the argument says; or a point that no line was declared by; or that of another line, if it is near where the two cross.
 fn any_place(model: &Model, joint: JointId, own: End) -> Option<End> {
     let link = own.link;
-    let ends = |of: fn(&Model, JointId) -> bool| {
-        model
-            .joint_ids()
-            .filter(move |joint| of(model, *joint))
-            .filter_map(move |joint| model.joint(joint).end_on(link))
-    };
     let pin = model.joint_ids().find_map(|joint| model.joint(joint).pin_on(link));
-    let driven = || ends(|model, joint| model.drive_of(joint, false).is_some()).next();
-    let point = || {
-        let points = (0..model.link(link).points.len()).map(|index| End { link, point: PointId::new(index) });
-        points.into_iter().find(|point| ends(|_, _| true).all(|end| end != *point))
-    };
+    let driven = || lines_on(model, link).find(|(joint, _)| model.drive_of(*joint, false).is_some());
     let crossing = || {
         let axes = Placement::of_ground(model);
         let axis = |joint: JointId| axes.slide_axis(joint, link);
-        model.joint_ids().filter(|other| *other != joint && model.joint(*other).is_line_on(link)).find_map(|other| {
-            let (end, sine) = (model.joint(other).end_on(link)?, axis(other).cross(axis(joint)));
-            let ahead = (model.local(end) - model.local(own)).cross(axis(joint));
-            let is_near = sine.sign().is_some_and(|sign| sign != 0) && !is_far(model, ahead / sine);
-            is_near.then_some(end)
+        lines_on(model, link).find(|(other, end)| {
+            let sine = axis(*other).cross(axis(joint));
+            let ahead = (model.local(*end) - model.local(own)).cross(axis(joint));
+            *other != joint && sine.sign().is_some_and(|sign| sign != 0) && !is_far(model, ahead / sine)
         })
     };
-    pin.or_else(driven).or_else(point).or_else(crossing)
+    let point_of = |(_, end): (JointId, End)| end;
+    pin.or_else(|| driven().map(point_of))
+        .or_else(|| places_on(model, link).next())
+        .or_else(|| crossing().map(point_of))
 }
 
 /// The first two points of a link at joints of the group, but for those that may lie anywhere on a line.
