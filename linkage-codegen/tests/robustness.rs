@@ -19,7 +19,7 @@ use support::linkages::Random;
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// What the examples leave out: parameters, `f32`, sliders everywhere, two drives, folds, and all that is planned.
-const FURTHER: [&str; 4] = [
+const FURTHER: [&str; 5] = [
     "pub mod crane; units { cm, kN } scalar f32;
      param reach: length = 120cm; param load: mass; param lean: angle = 15deg;
      ground { A: (0, 0), C: 90cm @ lean }
@@ -49,7 +49,17 @@ const FURTHER: [&str; 4] = [
      unknown T: thrust(a.O, b.Q); assemble P: either(O -> S); load K: spring(a.O, b.Q) { rate: 2N/mm, free: _ };
      load KT: torsion(a -> b) { rate: 3N*m/rad }; load I: inertia; load H: thrust(a.O, b.P) = 3N;
      scene v: velocity -> (a.P); scene s: sweep(v); scene e: equilibrium -> (O along a, P about a.P, error_bound);",
+    TRAIN,
 ];
+
+/// Wheels that loads turn.
+const TRAIN: &str = "mod train; units { mm, N } ground { O: (0, 0) } link sun { O -> k: 20mm } link carrier { O -> C: 37.5mm }
+     link planet { C: (0, 0), p: (10mm, 0) } revolute Os: ground.O -> sun.O; revolute Oc: ground.O -> carrier.O;
+     revolute C: carrier -> planet; gear Gs: sun.O -> planet.C, radii (25mm, 12.5mm);
+     gear Gr: ground.O -> planet.C, radii (50mm, 12.5mm), internal; drive q: Os;
+     load A: torsion(ground -> planet) { rate: 2N*mm/rad, free: 10deg }; load B: torsion(planet -> carrier) { rate: 3N*mm/rad, free: _ };
+     scene work: virtual_work; scene statics: equilibrium; scene where_: position -> (sun.angle, planet.angle, carrier.angle);
+     scene check: verify;";
 
 /// All declarations, as words.
 fn declarations() -> Vec<Vec<String>> {
@@ -339,6 +349,28 @@ fn undefined_constants_are_refused() {
         ("0x50", "numbers are decimal"),
     ] {
         assert_eq!(refusal(value, "(1N, 2N)", ""), [problem], "{value}");
+    }
+}
+
+/// Which link keeps wheels apart is not known where something else is wrong, and loads ask how they turn.
+#[test]
+fn wheels_of_a_broken_declaration_are_refused() {
+    let problems = |text: &str| {
+        let refusal = analyse(text.parse().expect("tokens")).err();
+        refusal.map_or_else(Vec::new, |refusal| refusal.errors.iter().map(|error| error.message().to_owned()).collect())
+    };
+    assert_eq!(problems(TRAIN), [""; 0]);
+    for (right, wrong) in [
+        ("ground {", "ground 1N {"),
+        ("revolute C:", "revolute 150mm:"),
+        ("planet.C, radii (50mm", "carrier.C, radii (50mm"),
+        ("sun { O -> k", "sun { O --> k"),
+        ("link planet { C: (0, 0)", "link planet { : (0, 0)"),
+        ("(50mm, 12.5mm)", "(50mm, 60mm)"),
+        ("sun.O -> planet.C", "sun.O -> planet"),
+    ] {
+        assert!(TRAIN.contains(right), "{right}");
+        assert!(!problems(&TRAIN.replace(right, wrong)).is_empty(), "{wrong}");
     }
 }
 

@@ -884,10 +884,11 @@ impl Model {
         })
     }
 
-    /// Coordinates of a point in its link's frame.
+    /// Coordinates of a point in its link's frame; its origin for one that a mistake has left open.
     #[must_use]
     pub fn local(&self, end: End) -> Vector<'_> {
-        self.link(end.link).points[end.point.index()].at.vector(&self.graph)
+        let point = self.link(end.link).points.get(end.point.index());
+        point.map_or_else(|| self.graph.zero_vector(), |point| point.at.vector(&self.graph))
     }
 
     /// Name of a point, as `crank.A`.
@@ -899,7 +900,7 @@ impl Model {
     /// Name of a point alone.
     #[must_use]
     pub fn point_name(&self, end: End) -> &str {
-        &self.link(end.link).points[end.point.index()].name.text
+        self.link(end.link).points.get(end.point.index()).map_or("?", |point| &point.name.text)
     }
 
     /// Distance of two points of a link: as declared, if it was declared as such.
