@@ -258,6 +258,31 @@ fn the_first_position_without_an_answer_is_named() {
 }
 
 #[test]
+fn a_load_that_is_not_finite_is_refused_as_by_the_point_function() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for (index, component) in [(0, 0), (17, 1), (64, 0), (COUNT - 1, 1)] {
+            let (angles, mut gas) = (angles(), gas());
+            gas[index][component] = bad;
+            let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
+            let error = cycle(&inputs(&angles, &gas), &mut rows).expect_err("no load");
+            let (motion, loads) = at(index);
+            let refused = engine::all_at(angles[index], &motion, &engine::Loads { gas: gas[index], ..loads });
+            assert_eq!(error, SweepError::Position { index, error: refused.expect_err("no load") });
+            assert!(rows.iter().all(|row| row[index..].iter().all(|x| x.is_nan())));
+        }
+        // One for all positions, and a speed.
+        let (angles, gas) = (angles(), gas());
+        let rate = engine::CycleInputs { theta_rate: Series::Constant(bad), ..inputs(&angles, &gas) };
+        let spring = engine::CycleInputs { K: Series::Constant(engine::LoadsK { rate: bad }), ..inputs(&angles, &gas) };
+        for inputs in [rate, spring] {
+            let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
+            let error = cycle(&inputs, &mut rows).expect_err("not finite");
+            assert!(matches!(error, SweepError::Position { index: 0, error: Error::NotFinite { .. } }), "{error:?}");
+        }
+    }
+}
+
+#[test]
 fn angles_beyond_the_short_reduction_have_the_bits_of_the_point_function() {
     // Among others: what needs a branch is solved by itself.
     let mut angles = angles();

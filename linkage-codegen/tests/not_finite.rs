@@ -1,8 +1,9 @@
 //! NaN and infinity in every input of every emitted function, one at a time: a typed error, or the same results bit for bit.
 //!
 //! The functions are those of every example and of the declarations beside them, as the interpreter carries them out: what it finds is what
-//! the emitted code computes, as `emitted.rs` and `emitted_random.rs` hold. Not among them: sweeps, which are held to their
-//! scenes elsewhere, `Limits`, and the accelerations that follow from an equation of motion.
+//! the emitted code computes, as `emitted.rs` and `emitted_random.rs` hold. Sweeps, `Limits`, and the accelerations that follow from an
+//! equation of motion are given such numbers as emitted code: in the root package's `sweeps.rs`, `sweeps_of_motion.rs`, `control.rs`, and
+//! in `limits.rs`.
 
 mod support;
 
