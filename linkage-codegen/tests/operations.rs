@@ -406,8 +406,20 @@ fn four_bar() {
     let mut page = page("Four-bar");
     let [least, most] = page.remove("Pose::at").expect("the pose");
     TALLY.set([0; 7]);
-    let _ = four_bar_pose(1.0, TWO_CRANKS);
+    let found = four_bar_pose(1.0, TWO_CRANKS);
     assert_eq!(TALLY.get(), least);
+    let [crank, coupler, rocker] =
+        [found.crank, found.coupler, found.rocker].map(|vector| vector.map(|part| TWO_CRANKS * part.0));
+    let (sin, cos) = 1f64.sin_cos();
+    let off = [
+        crank[0] - 80.0 * cos,
+        crank[1] - 80.0 * sin,
+        coupler[0].hypot(coupler[1]) - 100.0,
+        rocker[0].hypot(rocker[1]) - 120.0,
+        crank[0] + coupler[0] - 140.0 - rocker[0],
+        crank[1] + coupler[1] - rocker[1],
+    ];
+    assert!(off.iter().all(|off| off.abs() < 1e-12) && rocker[1] > 0.0, "{off:?}");
     let own = emitted(&linkage.functions.pose);
     assert_eq!(own, most, "the pose: what is emitted is not what the page says");
     hold(&linkage, &mut page, "statics", statics_at);

@@ -473,6 +473,69 @@ fn no_program_computes_what_cancels() {
     assert!(looked_at > 16_000, "{looked_at}");
 }
 
+/// What is multiplied by constants: how many of them a product has, through what nothing else reads and what has no name.
+struct Constants<'a> {
+    program: &'a Program,
+    uses: Vec<usize>,
+}
+
+impl<'a> Constants<'a> {
+    fn of(program: &'a Program) -> Self {
+        Self { program, uses: program.uses() }
+    }
+
+    fn is_inner(&self, value: ValueId) -> bool {
+        self.program.is_inner(value, &self.uses)
+    }
+
+    /// How many products with constants a value would take in, were it multiplied by one more: none that it has not got already.
+    fn takes_one(&self, value: ValueId) -> bool {
+        match self.program.op(value) {
+            Some(Op::Constant(_)) => true,
+            Some(Op::Neg(a)) => self.is_inner(value) && self.takes_one(*a),
+            Some(Op::Mul(a, b)) => self.is_inner(value) && (self.takes_one(*a) || self.takes_one(*b)),
+            Some(Op::Add(a, b) | Op::Sub(a, b)) => self.is_inner(value) && self.takes_one(*a) && self.takes_one(*b),
+            _ => false,
+        }
+    }
+
+    /// Whether a value has a constant factor.
+    fn has_factor(&self, value: ValueId) -> bool {
+        match self.program.op(value) {
+            Some(Op::Constant(_)) => true,
+            Some(Op::Neg(a)) => self.is_inner(value) && self.has_factor(*a),
+            Some(Op::Mul(a, b)) => self.is_inner(value) && (self.has_factor(*a) || self.has_factor(*b)),
+            _ => false,
+        }
+    }
+
+    /// Whether a constant is multiplied by what could take it.
+    fn is_left(&self, product: ValueId) -> bool {
+        let Some(Op::Mul(a, b)) = self.program.op(product) else { return false };
+        self.has_factor(*a) && self.takes_one(*b) || self.has_factor(*b) && self.takes_one(*a)
+    }
+}
+
+/// No constant is multiplied by what has constants of its own that could take it, but where rounding errors are counted.
+#[test]
+fn constants_are_multiplied_when_compiled() {
+    let (mut multiplied, mut left) = (0, Vec::new());
+    for (name, linkage) in linkages().into_iter().filter(|(_, linkage)| !linkage.model.graph.counts_rounding()) {
+        for (function, program, graph) in programs(&linkage) {
+            let constants = Constants::of(program);
+            for step in &program.steps {
+                let Step::Let(value) = step else { continue };
+                multiplied += usize::from(program.multiple(graph, *value).is_some());
+                if constants.is_left(*value) {
+                    left.push(format!("{name}, {function}: {:?}", program.value(*value)));
+                }
+            }
+        }
+    }
+    assert!(multiplied > 3000, "only {multiplied}");
+    assert!(left.is_empty(), "{} of {multiplied}: {left:#?}", left.len());
+}
+
 /// The names that functions bind and never read behind that, and how many they bind.
 #[derive(Default)]
 struct Reading {

@@ -10,7 +10,7 @@ use super::literals::{ident, literal};
 use crate::graph::number::Number;
 use crate::graph::{Condition, Failure, Graph, Guard, Kernel, Op, Scalar};
 use crate::model::{Model, OWN_PATTERNS};
-use crate::program::{Definition, Program, Step, ValueId};
+use crate::program::{Definition, Program, Step, Value, ValueId};
 
 /// How tightly an expression binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -44,9 +44,61 @@ pub(super) struct Body<'a> {
     graph: &'a Graph,
     /// The name of every value that has its own statement, or is an input.
     names: BTreeMap<ValueId, Ident>,
-    /// What is being reported: values that are written out where they stand.
-    section: String,
     checks: Checks,
+}
+
+/// What stands above values, one after the other: the heading of a new section, and what a value means.
+#[derive(Default)]
+struct Notes<'a> {
+    section: &'a str,
+    meaning: &'a str,
+}
+
+impl<'a> Notes<'a> {
+    /// What stands above the next value. What holds for the one before as well, as for the components of a vector, is not said again.
+    fn above(&mut self, value: &'a Value) -> (Option<&'a str>, Option<&'a str>) {
+        let is_new = !value.section.is_empty() && value.section != self.section;
+        let heading = is_new.then_some(value.section.as_str());
+        let meaning = value.label.as_ref().map_or("", |label| &label.equation);
+        let is_said = heading.is_none() && meaning == self.meaning;
+        self.section = heading.unwrap_or(self.section);
+        self.meaning = meaning;
+        (heading, Some(meaning).filter(|meaning| !meaning.is_empty() && !is_said))
+    }
+}
+
+/// The named values that an unnamed one is part of.
+#[derive(Clone, PartialEq, Eq)]
+enum Reader {
+    /// The only one.
+    One(String),
+    /// What the names of several have in common; may be empty.
+    Several(String),
+}
+
+impl Reader {
+    /// Another reader is found.
+    fn join(known: &mut Option<Self>, other: Option<&Self>) {
+        let joined = match (known.take(), other) {
+            (Some(Self::One(one)), Some(Self::One(other))) if one == *other => Some(Self::One(one)),
+            (Some(Self::One(one) | Self::Several(one)), Some(Self::One(other) | Self::Several(other))) => {
+                Some(Self::Several(in_common(&one, other)))
+            }
+            (known, other) => known.or_else(|| other.cloned()),
+        };
+        *known = joined;
+    }
+}
+
+/// The words that two names both begin or both end with, if they say more than a component.
+fn in_common(one: &str, other: &str) -> String {
+    let [a, b] = [one, other].map(|name| name.split('_').collect::<Vec<_>>());
+    let alike = |(a, b): &(&&str, &&str)| a == b;
+    let first = a.iter().zip(&b).take_while(alike).count();
+    let last = a.iter().rev().zip(b.iter().rev()).take_while(alike).count();
+    let words = if first >= last { &a[..first] } else { &a[a.len() - last..] };
+    let is_component = |word: &&str| ["x", "y", "cos", "sin"].contains(word);
+    if words.iter().all(is_component) { String::new() } else { words.join("_") }
 }
 
 /// What becomes of a check.
@@ -78,7 +130,7 @@ impl<'a> Body<'a> {
             used.insert(name.clone());
             names.insert(value, ident(&name));
         }
-        let mut body = Self { program, graph, names, section: String::new(), checks: Checks::Reported };
+        let mut body = Self { program, graph, names, checks: Checks::Reported };
         let mut uses = program.uses();
         // The results of one call read their arguments together.
         let mut calls = BTreeSet::new();
@@ -87,6 +139,7 @@ impl<'a> Body<'a> {
                 args.iter().for_each(|arg| uses[arg.index()] -= 1);
             }
         }
+        let readers = body.readers();
         for step in &program.steps {
             let Step::Let(value) = step else { continue };
             let own = program.value(*value).label.is_some()
@@ -94,7 +147,7 @@ impl<'a> Body<'a> {
                 || matches!(program.op(*value), Some(Op::Kernel { kernel, .. }) if *kernel != Kernel::MulAdd)
                 || program.outputs.iter().any(|(_, output)| output == value);
             if own {
-                let wanted = body.wanted_name(*value);
+                let wanted = body.wanted_name(*value, &readers);
                 let mut name = wanted.clone();
                 let mut number = 2;
                 while !used.insert(name.clone()) {
@@ -177,57 +230,84 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// The label of a value; of an unlabelled one, what it is part of.
-    fn wanted_name(&self, value: ValueId) -> String {
-        if let Some(label) = &self.program.value(value).label {
-            return label.name.clone();
+    /// The label of a value; of an unlabelled one, what it is, or what it is part of.
+    fn wanted_name(&self, value: ValueId, readers: &[Option<Reader>]) -> String {
+        if let Some(name) = self.given_name(value) {
+            return name;
         }
-        if let Some(path) = self.result_name(value) {
-            return path;
-        }
-        if let Some(Op::Kernel { kernel, part, args }) = self.program.op(value)
-            && *kernel != Kernel::MulAdd
-        {
-            let of = args
-                .first()
-                .and_then(|arg| self.names.get(arg))
-                .map_or_else(|| "angle".to_owned(), ToString::to_string);
-            return match (kernel, part) {
-                (Kernel::SinCos | Kernel::SinCosSum(_), 0) => format!("sin_{of}"),
-                (Kernel::SinCos | Kernel::SinCosSum(_), _) => format!("cos_{of}"),
-                (Kernel::Atan2 | Kernel::MulAdd, _) => format!("angle_{of}"),
-                (Kernel::Unit, part) => {
-                    format!("unit_{}_{}", of.trim_end_matches("_x"), if *part == 0 { "x" } else { "y" })
-                }
-                (Kernel::Search { .. }, part) => format!("found_{part}"),
-                (Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_), part) => format!("solved_{}", part + 1),
-            };
-        }
-        if let Some(Op::Abs(of)) = self.program.op(value)
-            && let Some(of) = self.names.get(of)
-        {
-            return format!("abs_{of}");
-        }
-        let mut reader = value;
-        let mut limited = None;
-        // The first named value that is computed from this one; or what it is compared with.
-        for step in &self.program.steps {
-            if !self.program.operands_of(step).contains(&reader) {
-                continue;
-            }
-            match step {
-                Step::Let(next) => {
-                    let label = self.program.value(*next).label.as_ref().map(|label| label.name.clone());
-                    if let Some(name) = label.or_else(|| self.result_name(*next)) {
-                        return format!("{name}_part");
+        let named = |of: &ValueId| self.names.get(of);
+        match self.program.op(value) {
+            Some(Op::Kernel { kernel, part, args }) if *kernel != Kernel::MulAdd => {
+                let of = args.first().and_then(named).map_or_else(|| "angle".to_owned(), ToString::to_string);
+                return match (kernel, part) {
+                    (Kernel::SinCos | Kernel::SinCosSum(_), 0) => format!("sin_{of}"),
+                    (Kernel::SinCos | Kernel::SinCosSum(_), _) => format!("cos_{of}"),
+                    (Kernel::Atan2 | Kernel::MulAdd, _) => format!("angle_{of}"),
+                    (Kernel::Unit, part) => {
+                        format!("unit_{}_{}", of.trim_end_matches("_x"), if *part == 0 { "x" } else { "y" })
                     }
-                    reader = *next;
+                    (Kernel::Search { .. }, part) => format!("found_{part}"),
+                    (Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_), part) => format!("solved_{}", part + 1),
+                };
+            }
+            Some(Op::Abs(of)) if named(of).is_some() => {
+                return named(of).map_or_else(String::new, |of| format!("abs_{of}"));
+            }
+            _ => {}
+        }
+        match &readers[value.index()] {
+            Some(Reader::One(name)) => format!("{name}_part"),
+            Some(Reader::Several(common)) => match (self.scaled_name(value), common.as_str()) {
+                (Some(name), _) => name,
+                (None, "") => "shared".to_owned(),
+                (None, common) => format!("{common}_part"),
+            },
+            None => "part".to_owned(),
+        }
+    }
+
+    /// The name that a value has from its label, or as a result.
+    fn given_name(&self, value: ValueId) -> Option<String> {
+        let label = self.program.value(value).label.as_ref().map(|label| label.name.clone());
+        label.or_else(|| self.result_name(value))
+    }
+
+    /// The name of a multiple of a named value, or of its opposite.
+    fn scaled_name(&self, value: ValueId) -> Option<String> {
+        let is_constant = |of: &ValueId| self.program.constant(self.graph, *of).is_some();
+        match self.program.op(value)? {
+            Op::Neg(of) => self.names.get(of).map(|of| format!("minus_{of}")),
+            Op::Mul(factor, of) | Op::Mul(of, factor) if is_constant(factor) => {
+                self.names.get(of).map(|of| format!("{of}_scaled"))
+            }
+            _ => None,
+        }
+    }
+
+    /// What reads each value: the named values that are computed from it, by way of unnamed ones; or what it is compared with.
+    fn readers(&self) -> Vec<Option<Reader>> {
+        let mut readers: Vec<Option<Reader>> = vec![None; self.program.values.len()];
+        let mut compared = readers.clone();
+        for step in self.program.steps.iter().rev() {
+            let (known, own) = match step {
+                Step::Let(value) => {
+                    let own = self.given_name(*value).map(Reader::One).or_else(|| readers[value.index()].clone());
+                    let limits = compared[value.index()].clone();
+                    for of in self.program.operands_of(step) {
+                        Reader::join(&mut compared[of.index()], limits.as_ref());
+                    }
+                    (&mut readers, own)
                 }
-                Step::Check { guard, .. } => limited = limited.or_else(|| subject(&guard.failure)),
-                Step::FiniteInput(_) | Step::FiniteResults(_) => {}
+                Step::Check { guard, .. } => {
+                    (&mut compared, subject(&guard.failure).map(|of| Reader::One(format!("{of}_limit"))))
+                }
+                Step::FiniteInput(_) | Step::FiniteResults(_) => continue,
+            };
+            for of in self.program.operands_of(step) {
+                Reader::join(&mut known[of.index()], own.as_ref());
             }
         }
-        limited.map_or_else(|| "part".to_owned(), |of| format!("{of}_limit_part"))
+        readers.into_iter().zip(compared).map(|(reader, limit)| reader.or(limit)).collect()
     }
 
     /// The name of a result; of one of those that are compared with each other, that it is one.
@@ -238,20 +318,15 @@ impl<'a> Body<'a> {
 
     /// The program as equations, a line each, under the headings of its sections; a line above says what an equation means.
     pub(super) fn equations(&self, model: &Model) -> Vec<String> {
-        let mut section = "";
+        let mut notes = Notes::default();
         let mut lines = Vec::new();
         let names = |value| self.names.get(&value).map(ToString::to_string);
         for step in &self.program.steps {
             let Step::Let(of) = step else { continue };
             let Some(name) = names(*of) else { continue };
-            let value = self.program.value(*of);
-            if !value.section.is_empty() && value.section != section {
-                section = &value.section;
-                lines.push(format!("{section}:"));
-            }
-            if let Some(label) = value.label.as_ref().filter(|label| !label.equation.is_empty()) {
-                lines.push(format!("  {}", label.equation));
-            }
+            let (heading, meaning) = notes.above(self.program.value(*of));
+            lines.extend(heading.map(|heading| format!("{heading}:")));
+            lines.extend(meaning.map(|meaning| format!("  {meaning}")));
             let formula = Formula { model, terms: Values { program: self.program, names: &names, of: *of } };
             lines.push(format!("    {name} = {}", formula.of(*of)));
         }
@@ -405,7 +480,8 @@ impl<'a> Body<'a> {
         (statements.into_iter().collect(), body)
     }
 
-    fn each_statement(mut self) -> (Vec<TokenStream>, Self) {
+    fn each_statement(self) -> (Vec<TokenStream>, Self) {
+        let mut notes = Notes::default();
         let mut calls: Calls = BTreeMap::new();
         for step in &self.program.steps {
             if let Step::Let(value) = step
@@ -417,7 +493,7 @@ impl<'a> Body<'a> {
         let mut statements = Vec::new();
         for step in &self.program.steps {
             statements.push(match step {
-                Step::Let(value) => self.let_statement(*value, &mut calls),
+                Step::Let(value) => self.let_statement(*value, &mut calls, &mut notes),
                 _ if self.checks == Checks::Gathered => TokenStream::new(),
                 Step::Check { guard, weaker, .. } => self.check(guard, weaker.as_ref()),
                 Step::FiniteInput(value) => {
@@ -432,53 +508,40 @@ impl<'a> Body<'a> {
         (statements, self)
     }
 
-    fn let_statement(&mut self, value: ValueId, calls: &mut Calls) -> TokenStream {
-        let Some(name) = self.names.get(&value).cloned() else { return TokenStream::new() };
-        let docs = self.docs(value);
-        if let Some(Op::Kernel { kernel, args, .. }) = self.program.op(value) {
-            // The first result that is read brings the statement for all.
-            let Some(parts) = calls.remove(&(*kernel, args.clone())) else { return TokenStream::new() };
-            let call = self.call(*kernel, args);
-            if kernel.parts() == 1 {
-                return quote!(#docs let #name = #call;);
-            }
-            let part = |which: u8| {
-                parts
-                    .iter()
-                    .find(|(part, _)| *part == which)
-                    .and_then(|(_, value)| self.names.get(value))
-                    .map_or_else(|| quote!(_), |name| quote!(#name))
-            };
-            let parts: Vec<TokenStream> = (0..kernel.parts()).map(part).collect();
-            if let (Kernel::Solve(_), Some((distance, unknowns))) = (kernel, parts.split_last()) {
-                return quote!(#docs let ([#(#unknowns),*], #distance) = #call;);
-            }
-            if let Kernel::Search { search, .. } = kernel {
-                let pattern = super::search::pattern(&self.graph.search(*search), &parts);
-                return quote!(#docs let #pattern = #call;);
-            }
-            return quote!(#docs let (#(#parts),*) = #call;);
-        }
-        let code = self.written_out(value).tokens;
-        quote!(#docs let #name = #code;)
+    fn let_statement(&self, value: ValueId, calls: &mut Calls, notes: &mut Notes<'a>) -> TokenStream {
+        let Some(name) = self.names.get(&value) else { return TokenStream::new() };
+        let call = match self.program.op(value) {
+            Some(Op::Kernel { kernel, args, .. }) => match calls.remove(&(*kernel, args.clone())) {
+                Some(parts) => Some((*kernel, args, parts)),
+                // The first result that was read has brought the statement for all.
+                None => return TokenStream::new(),
+            },
+            _ => None,
+        };
+        let (heading, meaning) = notes.above(self.program.value(value));
+        let heading = heading.map(|heading| format!(" — {heading} —"));
+        let docs = heading.into_iter().chain(meaning.map(|meaning| format!(" {meaning}")));
+        let docs: TokenStream = docs.map(|text| quote!(#[doc = #text])).collect();
+        let (pattern, code) = match call {
+            Some((kernel, args, parts)) => (self.pattern(kernel, &parts), self.call(kernel, args)),
+            None => (quote!(#name), self.written_out(value).tokens),
+        };
+        quote!(#docs let #pattern = #code;)
     }
 
-    /// The heading of a new section, and the equation of the value.
-    fn docs(&mut self, value: ValueId) -> TokenStream {
-        let value = self.program.value(value);
-        let mut docs = TokenStream::new();
-        if !value.section.is_empty() && value.section != self.section {
-            self.section.clone_from(&value.section);
-            let heading = format!(" — {} —", value.section);
-            docs.extend(quote!(#[doc = #heading]));
+    /// What the results of a call are bound to.
+    fn pattern(&self, kernel: Kernel, read: &[(u8, ValueId)]) -> TokenStream {
+        let part = |which: u8| {
+            let value = read.iter().find(|(part, _)| *part == which);
+            value.and_then(|(_, value)| self.names.get(value)).map_or_else(|| quote!(_), |name| quote!(#name))
+        };
+        let parts: Vec<TokenStream> = (0..kernel.parts()).map(part).collect();
+        match (kernel, &parts[..]) {
+            (_, [one]) => one.clone(),
+            (Kernel::Solve(_), [unknowns @ .., distance]) => quote!(([#(#unknowns),*], #distance)),
+            (Kernel::Search { search, .. }, _) => super::search::pattern(&self.graph.search(search), &parts),
+            _ => quote!((#(#parts),*)),
         }
-        if let Some(equation) =
-            value.label.as_ref().map(|label| &label.equation).filter(|equation| !equation.is_empty())
-        {
-            let equation = format!(" {equation}");
-            docs.extend(quote!(#[doc = #equation]));
-        }
-        docs
     }
 
     fn condition(&self, guard: &Guard<ValueId>) -> TokenStream {

@@ -178,9 +178,9 @@ fn errors(program: &Program) -> Vec<String> {
             Step::FiniteInput(_) => add("* [`Error::NotFinite`]: a drive is not a finite number.".into()),
             Step::FiniteResults(_) => {
                 let read = match (program.reads_motion(), program.reads_loads()) {
-                    (true, true) => "a rate or a load is not a finite number, or ",
-                    (true, false) => "a rate is not a finite number, or ",
-                    (false, true) => "a load is not a finite number, or ",
+                    (true, true) => "what is read of the rates and the loads is not finite, or ",
+                    (true, false) => "what is read of the rates is not finite, or ",
+                    (false, true) => "what is read of the loads is not finite, or ",
                     (false, false) => "",
                 };
                 add(format!("* [`Error::NotFinite`]: {read}a result is too large for one."));

@@ -498,6 +498,8 @@ struct Arena {
     positive: BTreeSet<NodeId>,
     /// Quotients that are divided, whatever others have the same divisor.
     divided: BTreeSet<NodeId>,
+    /// Whether the rounding of its values is counted.
+    counted: bool,
     /// What was found not to be negative by its form, which is asked for often.
     non_negative: BTreeSet<NodeId>,
     sections: Vec<String>,
@@ -525,6 +527,17 @@ impl Graph {
     #[must_use]
     pub fn with_fused(self, fused: bool) -> Self {
         Self { fused, ..self }
+    }
+
+    /// From here on the rounding of values is counted, of the operations as they stand here.
+    pub fn count_rounding(&self) {
+        self.arena.borrow_mut().counted = true;
+    }
+
+    /// Whether the rounding of values is counted: then passes may only do what the count knows of.
+    #[must_use]
+    pub fn counts_rounding(&self) -> bool {
+        self.arena.borrow().counted
     }
 
     /// Whether products are added without being rounded.

@@ -196,6 +196,7 @@ impl<'g> Rounding<'g> {
     /// Nothing bounded yet.
     #[must_use]
     pub fn new(graph: &'g Graph) -> Self {
+        graph.count_rounding();
         let solutions = graph.noted_solutions();
         // What is there before all numbers of the equations did not come from them, and may be one of them.
         let of = |(index, (equations, values)): (usize, &(Vec<Equation<'g>>, Vec<Expr<'g>>))| {

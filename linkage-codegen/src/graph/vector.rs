@@ -105,13 +105,13 @@ impl<'g> Vector<'g> {
     /// Names both components, `_x` and `_y`.
     #[must_use]
     pub fn named(self, name: &str, equation: &str) -> Self {
-        Self { x: self.x.named(format!("{name}_x"), equation), y: self.y.named(format!("{name}_y"), "") }
+        Self { x: self.x.named(format!("{name}_x"), equation), y: self.y.named(format!("{name}_y"), equation) }
     }
 
     /// Names both components of a direction, `_cos` and `_sin`.
     #[must_use]
     pub fn named_direction(self, name: &str, equation: &str) -> Self {
-        Self { x: self.x.named(format!("{name}_cos"), equation), y: self.y.named(format!("{name}_sin"), "") }
+        Self { x: self.x.named(format!("{name}_cos"), equation), y: self.y.named(format!("{name}_sin"), equation) }
     }
 }
 

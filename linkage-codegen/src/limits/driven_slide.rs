@@ -14,6 +14,13 @@ use super::{Closing, DrivenSlide, Loop, Shape, Writing, dimension};
 /// A loop that its slide drives. `None` if it closes at no travel.
 pub(super) fn of(chain: &Chain<'_>, closing: &Closing<'_>) -> Option<Loop> {
     let writing = Writing::new(chain, closing);
+    let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
+    let dimensions = [
+        ("r₁", chain.distance_name([1, 2])),
+        ("r₂", chain.distance_name([3, 2])),
+        ("c", format!("offset of {} from {} across the slide", joint(1), joint(3))),
+    ];
+    writing.begin(&dimensions);
     let [r1, r2] = [(1, "r1"), (2, "r2")].map(|(body, symbol)| writing.length(body, symbol));
     let slide = &chain.hinges[0];
     let behind = slide.sides[1].to(chain.hinges[1].sides[0]);
@@ -27,7 +34,6 @@ pub(super) fn of(chain: &Chain<'_>, closing: &Closing<'_>) -> Option<Loop> {
     let near2 = writing.named((difference - c) * (difference + c), "near2", "(r₁ − r₂)² − c²");
     let near = writing.named(near2.non_negative().sqrt(), "near", "√((r₁ − r₂)² − c²), or 0");
     let far = writing.named((far1 * far2).non_negative().sqrt(), "far", "√((r₁ + r₂)² − c²)");
-    let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
     let centre = if slide.forwards { -phase } else { phase };
     let shape = DrivenSlide { centre: centre.id(), near: [near2.id(), near.id()], far: far.id(), joint: joint(2) };
     let names = [0, 1, 2, 3].map(|body| chain.body_name(body));
@@ -40,12 +46,8 @@ pub(super) fn of(chain: &Chain<'_>, closing: &Closing<'_>) -> Option<Loop> {
         names[1],
         names[2]
     );
-    let dimensions = vec![
-        dimension("r₁", &chain.distance_name([1, 2]), r1),
-        dimension("r₂", &chain.distance_name([3, 2]), r2),
-        dimension("c", &format!("offset of {} from {} across the slide", joint(1), joint(3)), c),
-    ];
+    let dimensions = dimensions.iter().zip([r1, r2, c]).map(|(of, value)| dimension(of, value));
     let meaning = format!("x, from {} to {} along the slide,", joint(3), joint(1));
     let origin = writing.origin(meaning, phase);
-    Some(writing.of(title, dimensions, origin, Shape::DrivenSlide(shape)))
+    Some(writing.of(title, dimensions.collect(), origin, Shape::DrivenSlide(shape)))
 }

@@ -377,6 +377,12 @@ impl<'m> Writing<'m> {
         Self { chain: chain.clone(), graph: &chain.model.graph, name: closing.name.clone(), joint }
     }
 
+    /// From here on the symbols of these dimensions are written.
+    fn begin(&self, dimensions: &[(&str, String)]) {
+        let all: Vec<String> = dimensions.iter().map(|(symbol, name)| format!("{symbol} = {name}")).collect();
+        self.graph.begin_section(format!("{SECTION} {}: {}", self.name, all.join(", ")));
+    }
+
     /// The length of a body, under a name; of one that depends on parameters it is checked when they are given.
     fn length(&self, body: usize, symbol: &str) -> Expr<'m> {
         let length = self.chain.length(body);
@@ -480,7 +486,7 @@ impl<'m> Writing<'m> {
 }
 
 /// A length with its symbol.
-fn dimension(symbol: &str, name: &str, value: Expr<'_>) -> (String, NodeId) {
+fn dimension((symbol, name): &(&str, String), value: Expr<'_>) -> (String, NodeId) {
     (format!("{symbol} = {name}"), value.id())
 }
 

@@ -34,6 +34,13 @@ use crate::graph::number::Number;
 pub(super) fn of(chain: &Chain<'_>, ahead: i64, inversion: Inversion, closing: &Closing<'_>) -> Option<Loop> {
     let writing = Writing::new(chain, closing);
     let graph = writing.graph;
+    let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
+    let dimensions = [
+        ("a", chain.distance_name([0, 1])),
+        ("r", chain.distance_name([1, 2])),
+        ("c", format!("eccentricity of {} from {}", joint(2), joint(0))),
+    ];
+    writing.begin(&dimensions);
     let [a, r] = [(0, "a"), (1, "r")].map(|(body, symbol)| writing.length(body, symbol));
     let slide = &chain.hinges[3];
     let on_frame = slide.sides[1].to(chain.hinges[0].sides[0]);
@@ -69,7 +76,6 @@ pub(super) fn of(chain: &Chain<'_>, ahead: i64, inversion: Inversion, closing: &
     let least = writing.twice(m1, f2, "mu_least", "tan²(μ/2) = m₁/f₂, at χ = −90° or a limit");
     let greatest = writing.twice(f1, m2, "mu_greatest", "tan²(μ/2) = f₁/m₂, at χ = 90° or a limit");
 
-    let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
     let dead = |margins: &[Expr<'_>], (angle, name), hinge, posture| Possible {
         margins: margins.iter().map(|margin| margin.id()).collect(),
         at: at(angle, name),
@@ -110,14 +116,10 @@ pub(super) fn of(chain: &Chain<'_>, ahead: i64, inversion: Inversion, closing: &
         ]),
     };
     let title = title(&writing, inversion);
-    let dimensions = vec![
-        dimension("a", &chain.distance_name([0, 1]), a),
-        dimension("r", &chain.distance_name([1, 2]), r),
-        dimension("c", &format!("eccentricity of {} from {}", joint(2), joint(0)), c),
-    ];
+    let dimensions = dimensions.iter().zip([a, r, c]).map(|(of, value)| dimension(of, value));
     let meaning = format!("χ, from the direction of the slide {} to the line {} {},", joint(3), joint(0), joint(1));
     let origin = writing.origin(meaning, phase);
-    Some(writing.of(title, dimensions, origin, Shape::SliderCrank(shape)))
+    Some(writing.of(title, dimensions.collect(), origin, Shape::SliderCrank(shape)))
 }
 
 /// What a loop with its slide beside the driver is.
@@ -137,6 +139,13 @@ fn title(writing: &Writing<'_>, inversion: Inversion) -> String {
 /// A loop with its slide opposite to the driver; `ahead` is 1 if the output's pin lies ahead of the crank's. `None` if it closes at no angle.
 pub(super) fn inverted(chain: &Chain<'_>, ahead: i64, closing: &Closing<'_>) -> Option<Loop> {
     let writing = Writing::new(chain, closing);
+    let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
+    let dimensions = [
+        ("g", chain.distance_name([0, 3])),
+        ("a", chain.distance_name([0, 1])),
+        ("h", format!("offset of {} from the line of the slide through {}", joint(3), joint(1))),
+    ];
+    writing.begin(&dimensions);
     let [a, g] = [(0, "a"), (3, "g")].map(|(body, symbol)| writing.length(body, symbol));
     let slide = &chain.hinges[2];
     let on_crank = slide.sides[0].to(chain.hinges[1].sides[1]);
@@ -160,7 +169,6 @@ pub(super) fn inverted(chain: &Chain<'_>, ahead: i64, closing: &Closing<'_>) -> 
     let first = writing.twice(u1, v2, "nu1", "ν₁: tan²(ν/2) = u₁/v₂");
     let second = writing.twice(v1, u2, "nu2", "ν₂: tan²(ν/2) = v₁/u₂");
     let swing = writing.named(second - first, "swing", "angle of the output between its dead centres: ν₂ − ν₁");
-    let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
     let dead = |margin: Expr<'_>, angle, name| Possible {
         margins: vec![margin.id()],
         at: at(angle, name),
@@ -190,12 +198,8 @@ pub(super) fn inverted(chain: &Chain<'_>, ahead: i64, closing: &Closing<'_>) -> 
         names[2],
         names[3]
     );
-    let dimensions = vec![
-        dimension("g", &chain.distance_name([0, 3]), g),
-        dimension("a", &chain.distance_name([0, 1]), a),
-        dimension("h", &format!("offset of {} from the line of the slide through {}", joint(3), joint(1)), h),
-    ];
+    let dimensions = dimensions.iter().zip([g, a, h]).map(|(of, value)| dimension(of, value));
     let lines = [[0, 3], [0, 1]].map(|[from, to]| format!("the line {} {}", joint(from), joint(to)));
     let origin = writing.origin(format!("ψ, from {} to {},", lines[0], lines[1]), phase);
-    Some(writing.of(title, dimensions, origin, Shape::SliderCrank(shape)))
+    Some(writing.of(title, dimensions.collect(), origin, Shape::SliderCrank(shape)))
 }

@@ -38,6 +38,8 @@ pub(super) struct HalfAngle<'m> {
     pub phase: Number,
     /// The name of the drive.
     name: &'m str,
+    /// What a and b are, as text.
+    pub lengths: String,
 }
 
 impl<'m> HalfAngle<'m> {
@@ -69,13 +71,10 @@ impl<'m> HalfAngle<'m> {
         let half_of = |n: &Number| n.mul(&Number::ratio(1, 2));
         let coordinate = assembly.graph().constant(&Number::ratio(1, 2)) * assembly.coordinate(id);
         let name = &drive.name;
-        let explained = format!(
-            "cos(ψ/2), sin(ψ/2), with ψ the angle from the line {} {} to the line {} {}",
-            model.point_name(far),
-            model.point_name(other),
-            model.point_name(near),
-            model.point_name(moved)
-        );
+        let line = |from, to| format!("{} {}", model.point_name(from), model.point_name(to));
+        let [first, second] = [line(far, other), line(near, moved)];
+        let explained = format!("cos(ψ/2), sin(ψ/2), with ψ the angle from the line {first} to the line {second}");
+        let lengths = format!("a = |{second}|, b = |{first}|");
         let half = if sense > 0 {
             coordinate.direction_plus(&half_of(&phase))
         } else {
@@ -87,7 +86,7 @@ impl<'m> HalfAngle<'m> {
         let whole = Vector::new((c - s) * (c + s), 2 * product);
         let unit = |v: Vector<'m>, size: Expr<'m>| Vector::new(v.x / size, v.y / size);
         let base = assembly.placement.turned(other.link, unit(oq, b));
-        Some(Self { drive: id, a, b, half, whole, base, arm: unit(op, a), sense, phase, name: &name.text })
+        Some(Self { drive: id, a, b, half, whole, base, arm: unit(op, a), sense, phase, name: &name.text, lengths })
     }
 
     /// `Q − P` in ground axes.

@@ -101,14 +101,17 @@ fn solve_core<'m>(
     if rows.len() > WRITTEN_OUT {
         // A pivot is refused where it is no larger than the rounding of its terms.
         let (values, distance) = graph.solved_any(rows);
-        let distance = distance.named(core.name, "smallest pivot of the core, over the size of its terms");
+        let distance =
+            distance.named(core.name, "smallest pivot of the equations that are left, over the size of its terms");
         let checked = |value: Expr<'m>| value.require_above(distance.abs(), graph.epsilons(8), failure());
         return Ok(values.into_iter().map(checked).collect());
     }
     // The determinant is refused where it is no larger than the rounding of its terms.
     let terms = determinant_terms(&matrix);
-    let determinant =
-        terms.iter().fold(graph.zero(), |sum, term| sum + *term).named(core.name, "determinant of the core");
+    let determinant = terms
+        .iter()
+        .fold(graph.zero(), |sum, term| sum + *term)
+        .named(core.name, "determinant of the equations that are left");
     let size = terms.iter().fold(graph.zero(), |sum, term| sum + term.magnitude());
     let rounding = graph.epsilons(8) * size * core.spread;
     let checked = |value: Expr<'m>| value.require_above(determinant.abs(), rounding, failure());

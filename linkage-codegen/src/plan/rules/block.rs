@@ -313,6 +313,15 @@ impl<'p, 'm> Parts<'p, 'm> {
         along.unwrap_or_else(|| self.ground())
     }
 
+    /// The member, or the slide of one, along and across which the forces on a carrier are resolved.
+    fn hangs_on(&self, free: Free) -> Option<&'m str> {
+        let Free::Carrier(carrier) = free else { return None };
+        let (pin, _) = self.resolved_at(carrier)?;
+        let member = self.members.iter().find(|member| [member.near, member.far].contains(&pin))?;
+        let slide = self.is_slide(member.far).then(|| &self.model.joint(member.far).name);
+        Some(&slide.unwrap_or(&self.model.link(member.link).name).text)
+    }
+
     /// The place about which a carrier's moments are taken: the pin at which its forces are resolved, or else its first joint, but for
     /// a tooth or a slot, which holds no point.
     fn centre(&self, carrier: LinkId) -> Vector<'m> {
@@ -407,7 +416,7 @@ fn members(model: &Model, group: &Group) -> Vec<Member> {
 
 impl Rule for Block {
     fn class(&self) -> &'static str {
-        "block"
+        "solved together"
     }
 
     fn is_closed(&self) -> bool {
@@ -443,8 +452,12 @@ impl Rule for Block {
         }
         let equations = equations(&parts, &acts, &ends);
         let along = |index: usize, value: Expr<'m>| {
-            let name = format!("along_{}", model.link(parts.members[index].link).name);
-            value.named(balance.name(&name), "force of the member, from the core")
+            let member = &parts.members[index];
+            let (link, near, far) =
+                (&model.link(member.link).name, &model.joint(member.near).name, &model.joint(member.far).name);
+            let way = if parts.is_slide(member.far) { format!("across {far}") } else { format!("along {link}") };
+            let meaning = format!("{way}, of the force on {link} at {near}: from the equations that are left");
+            value.named(balance.name(&format!("along_{link}")), meaning)
         };
         let unknown = |row: usize, value: Expr<'m>| match parts.unknowns.get(row) {
             Some(Unknown::Member(index)) => along(*index, value),
@@ -572,12 +585,11 @@ fn motion_of_free<'m>(motion: &Motion<'m, '_>, parts: &Parts<'_, 'm>, row: usize
             return motion.named_rate(value, &name.text, "");
         }
         if part < 2 {
-            let which = if parts.axes(*free) == parts.ground() {
-                [("x", "of the ground"), ("y", "of the ground")]
-            } else {
-                [("along", "the member on which it hangs"), ("across", "the member on which it hangs")]
+            let (which, axes) = match parts.hangs_on(*free) {
+                Some(member) => (["along", "across"], format!("{member}, on which it hangs")),
+                None => (["x", "y"], "of the ground".to_owned()),
             };
-            return motion.named_part(value, &name.text, which[part]);
+            return motion.named_part(value, &name.text, (which[part], &axes));
         }
         first += count;
     }

@@ -16,7 +16,7 @@
 //! Velocities: the pin has that of the place on the first guide, and `ṡ₁ = ((c₂ − c₁) × e₂)/(e₁ × e₂)` along e₁, with c the velocities
 //! of the places on the guides.
 
-use super::dyad::{Dyad, Leg, dyad};
+use super::dyad::{Dyad, dyad};
 use super::travels::count;
 use super::{Rule, RuleResult};
 use crate::graph::Vector;
@@ -71,7 +71,10 @@ impl Rule for Prp {
                 dyad.joint_name(second.outer)
             ),
         );
-        let own = (-gap.y / sine).named(format!("t_{first_name}"), format!("t₁ = (g × e₂)/sin_mu_{pin}"));
+        let [first_slide, second_slide] = [first, second].map(|leg| dyad.joint_name(leg.outer));
+        let along_slides = format!("e₁ along {first_slide}, e₂ along {second_slide}");
+        let own =
+            (-gap.y / sine).named(format!("t_{first_name}"), format!("t₁ = (g × e₂)/sin_mu_{pin}, {along_slides}"));
         let other = (own * cosine - gap.x).named(format!("t_{second_name}"), "t₂ = t₁ (e₁·e₂) − g·e₂");
         let along = assembly.placement.slide_direction(first.outer);
         assembly.closed(|| ClosedLoop {
@@ -94,14 +97,17 @@ impl Rule for Prp {
         let pin = dyad.joint_name(dyad.inner);
         let [one, two] = [first, second].map(|leg| balance.placement.slide_direction(leg.outer));
         let loads = first.total(balance).along(one);
-        let along = |leg: &Leg| {
-            format!("±ΣF of the loads on {} along the slide {}", dyad.link_name(leg), dyad.joint_name(leg.outer))
-        };
-        let own =
-            (-loads.x).named(balance.name(&format!("{pin}_along_{}", dyad.joint_name(first.outer))), along(first));
+        let [along_first, along_second] =
+            [first, second].map(|leg| balance.name(&format!("{pin}_along_{}", dyad.joint_name(leg.outer))));
+        let (link, other) = (dyad.link_name(first), dyad.link_name(second));
+        let (slide, its) = (dyad.joint_name(first.outer), dyad.joint_name(second.outer));
+        let of_force = format!("of the force on {link} at {pin}");
+        let meaning = format!("along {slide}, {of_force}: −ΣF of its loads");
+        let own = (-loads.x).named(along_first.as_str(), meaning);
         let needed = second.total(balance).along(two).x;
-        let needed =
-            needed.named(balance.name(&format!("{pin}_along_{}", dyad.joint_name(second.outer))), along(second));
+        let of_force = if own.is_zero() { of_force.as_str() } else { "of the same force" };
+        let meaning = format!("along {its}, {of_force}: ΣF of the loads on {other}");
+        let needed = needed.named(along_second.as_str(), meaning);
         let across = if own.is_zero() && needed.is_zero() {
             balance.graph().zero()
         } else {
@@ -112,9 +118,14 @@ impl Rule for Prp {
                 &dyad.pivot_name(),
                 &dyad.group_name(),
             );
+            let terms = match (own.is_zero(), needed.is_zero()) {
+                (false, false) => format!("({along_second} − {along_first} (e₁·e₂))"),
+                (false, true) => format!("−{along_first} (e₁·e₂)"),
+                (true, _) => along_second,
+            };
             ((needed - own * cosine) / sine).named(
-                balance.name(&format!("{pin}_across_{}", dyad.joint_name(first.outer))),
-                format!("(b − a (e₁·e₂))/{}", dyad.pivot_name()),
+                balance.name(&format!("{pin}_across_{slide}")),
+                format!("across {slide}: {terms}/{}, e₁ along {slide}, e₂ along {its}", dyad.pivot_name()),
             )
         };
         let force = Framed { components: Vector::new(own, across), axes: one };

@@ -75,7 +75,10 @@ impl Rule for Rpp {
                 dyad.link_name(pinned)
             ),
         );
-        let own = (-gap.y / sine).named(format!("t_{outer}"), format!("tₒ = (g × eᵢ)/{}", dyad.pivot_name()));
+        let own = (-gap.y / sine).named(
+            format!("t_{outer}"),
+            format!("tₒ = (g × eᵢ)/{}, eₒ along {outer}, eᵢ along {inner}", dyad.pivot_name()),
+        );
         let further = (gap.x - own * cosine).named(format!("t_{inner}"), "tᵢ = g·eᵢ − tₒ (eₒ·eᵢ)");
         let along = assembly.placement.slide_direction(slider.outer);
         assembly.closed(|| ClosedLoop {
@@ -99,10 +102,8 @@ impl Rule for Rpp {
         let e = balance.placement.slide_direction(slider.outer);
         let load = slider.total(balance).along(e);
         let name = dyad.link_name(slider);
-        let along = load.x.named(
-            balance.name(&format!("{outer}_along")),
-            format!("ΣF of the loads on {name} along the slide {outer}"),
-        );
+        let along_outer = balance.name(&format!("{outer}_along"));
+        let along = load.x.named(along_outer.as_str(), format!("ΣF of the loads on {name} along the slide {outer}"));
         let across = if along.is_zero() {
             along
         } else {
@@ -113,7 +114,7 @@ impl Rule for Rpp {
                 &dyad.group_name(),
             );
             (-(along / sine))
-                .named(balance.name(&format!("{inner}_across")), format!("−{outer}_along/{}", dyad.pivot_name()))
+                .named(balance.name(&format!("{inner}_across")), format!("−{along_outer}/{}", dyad.pivot_name()))
         };
         dyad.guide_inner(balance, pinned, -across);
         if pinned.is_single() {

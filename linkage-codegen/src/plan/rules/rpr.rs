@@ -74,20 +74,26 @@ impl Rule for Rpr {
         let [first, second] = &dyad.legs;
         let slide = dyad.joint_name(dyad.inner);
         let one = balance.graph().one();
-        let moments = dyad.legs.each_ref().map(|leg| {
+        let names = dyad.legs.each_ref().map(|leg| balance.name(&format!("moment_{}", dyad.link_name(leg))));
+        let moments = [0, 1].map(|index| {
+            let leg = &dyad.legs[index];
             let (pin, link) = (dyad.joint_name(leg.outer), dyad.link_name(leg));
             let moment = dyad.moment(balance, leg, one);
-            moment.named(balance.name(&format!("moment_{link}")), format!("ΣM({pin}) of the loads on {link}"))
+            moment.named(names[index].as_str(), format!("ΣM({pin}) of the loads on {link}"))
         });
         let moment = moments[0] + moments[1];
         let across = if moment.is_zero() {
             moment
         } else {
             let reach = reach(&dyad, balance.placement, balance.pivots);
-            (moment / reach).named(
-                balance.name(&format!("{slide}_across")),
-                format!("(moment_{} + moment_{})/{}", dyad.link_name(first), dyad.link_name(second), pivot_name(&dyad)),
-            )
+            let acting = names.iter().zip(moments).filter(|(_, moment)| !moment.is_zero());
+            let terms = match acting.map(|(name, _)| name.as_str()).collect::<Vec<_>>()[..] {
+                [one] => one.to_owned(),
+                ref all => format!("({})", all.join(" + ")),
+            };
+            let (link, other) = (dyad.link_name(first), dyad.link_name(second));
+            let meaning = format!("across the slide, of the force on {other} by {link}: {terms}/{}", pivot_name(&dyad));
+            (moment / reach).named(balance.name(&format!("{slide}_across")), meaning)
         };
         // The couple about the runner from a link on which nothing else acts, or else from the link that carries the runner: there the lever
         // arm of the pin does not change. Moments may be large on the other one, and their rounding more than the couple.
@@ -175,7 +181,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     // From P to the slide and from Q to it, along and across it: the same for every pose, but for drives within the bodies.
     let [from_p, from_q] = dyad.legs.each_ref().map(|leg| dyad.way_to_slide(&assembly.placement, leg));
     let offset = from_p.vector() - from_q.vector();
-    let h = offset.y.named(format!("h_{slide}"), format!("how far {q} is across the slide from {p}"));
+    let h = offset.y.named(format!("h_{slide}"), format!("h, how far {q} is across the slide from {p}"));
     let way = assembly.placement.way(first.far, second.far);
     let d = way.vector().named(&format!("d_{slide}"), &format!("d, from {p} to {q}"));
     let d2 = d.squared().named(format!("D2_{slide}"), "d·d");
@@ -183,15 +189,16 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let slack = driven.fold(way.length(), |sum, (_, within)| sum + within.length());
     // A driven angle between the links makes h and what is fixed along the slide rounded too.
     let length = if is_turned(dyad) { slack + from_p.length() + from_q.length() } else { slack };
-    let rounding = |of: &str, value: Expr<'m>| {
-        value.named(format!("rounding_{of}_{slide}"), format!("what rounding makes of {of}_{slide} = 0"))
+    let rounding = |of: &str, value: Expr<'m>, size: &str| {
+        let meaning = format!("what rounding makes of {of}_{slide} = 0: {size}, Λ the lengths that make up d");
+        value.named(format!("rounding_{of}_{slide}"), meaning)
     };
     // Coincident pins leave the direction open, unless h keeps them apart.
     let apart = (h.abs() - graph.epsilons(4) * length).sign() == Some(1);
     let d2 = if apart {
         d2
     } else {
-        let close = rounding("D2", (graph.epsilons(2) * length).squared());
+        let close = rounding("D2", (graph.epsilons(2) * length).squared(), "(2ε Λ)²");
         let failure = Failure::CoincidentPivots { group: dyad.group_name(), joint: slide.into() };
         d2.require_above(d2, close, failure).known_positive()
     };
@@ -200,7 +207,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         (s, s)
     } else {
         let s2 = (d2 - h.squared()).named(format!("s2_{slide}"), format!("s² = D2_{slide} − h²"));
-        let limit = rounding("s2", graph.epsilons(2) * (h.squared() + h.abs() * length));
+        let limit = rounding("s2", graph.epsilons(2) * (h.squared() + h.abs() * length), "2ε |h| (|h| + Λ)");
         let failure = Failure::CannotAssemble {
             group: dyad.group_name(),
             joint: slide.into(),
@@ -210,7 +217,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         let s = side.of(s2.non_negative().sqrt());
         (s, s.where_above(s2, limit))
     };
-    let s = s.named(format!("s_{slide}"), format!("s = ±√(D2_{slide} − h²), + where {q} is ahead of {p}"));
+    let s = s.named(format!("s_{slide}"), format!("s = ±√(D2_{slide} − h²), how far {q} is ahead of {p}"));
     let reach = if h.is_zero() { s } else { reach };
     let reach = reach.named(pivot_name(dyad), "s, zero where it is no larger than its rounding").held();
     let inverse = (graph.one() / d2).named(format!("inverse_D2_{slide}"), "");

@@ -67,22 +67,31 @@ impl Rule for Rrp {
         let u = dyad.direction(balance.placement, rod_leg);
         let load = slider_leg.total(balance).along(e);
         let share = dyad.share(balance, rod_leg);
+        let of_force = format!("of the force on {rod} at {inner}");
         let across = (-share.inner).named(
             balance.name(&format!("{inner}_across_{rod}")),
-            format!("−ΣM({outer})/|{outer} {inner}| of the loads on {rod}"),
+            format!("across {rod}, {of_force}: −ΣM({outer})/|{outer} {inner}| of its loads"),
         );
+        let of_force = if across.is_zero() { of_force.as_str() } else { "of the same force" };
         let along_slide = load.x.named(
             balance.name(&format!("{inner}_along_slide")),
-            format!("ΣF of the loads on {slider} along the slide"),
+            format!("along the slide, {of_force}: ΣF of the loads on {slider}"),
         );
         let side = if across.is_zero() && along_slide.is_zero() {
             balance.graph().zero()
         } else {
             let cosine = balance.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
             let needed = across - along_slide * balance.pivots.sine(u, e);
+            let [across_rod, along_slide_name] =
+                [format!("{inner}_across_{rod}"), format!("{inner}_along_slide")].map(|name| balance.name(&name));
+            let terms = match (across.is_zero(), along_slide.is_zero()) {
+                (false, false) => format!("({across_rod} − {along_slide_name} (u × e))"),
+                (false, true) => across_rod,
+                (true, _) => format!("−{along_slide_name} (u × e)"),
+            };
             (needed / cosine).named(
                 balance.name(&format!("{inner}_across_slide")),
-                format!("({inner}_across_{rod} − {inner}_along_slide (u × e))/(u·e)"),
+                format!("across the slide: {terms}/sin μ, u along {rod}, e along the slide"),
             )
         };
         let force = Framed { components: Vector::new(along_slide, side), axes: e };
@@ -119,11 +128,11 @@ impl Rule for Rrp {
         let rod = dyad.link_name(rod_leg);
         let across = motion.part(&gap, e.perp());
         let rate = if across.is_zero() { across } else { (across / cosine) / dyad.length(rod_leg) };
-        let how = ": the pins' relative {velocity} across the slide over length times u·e";
+        let how = ": the pins' relative {velocity} across the slide over length times sin μ";
         let rate = motion.named_rate(rate, &rod, how);
         let along = motion.part(&gap, u);
         let speed = if along.is_zero() { along } else { -(along / cosine) };
-        let how = format!(": the pins' relative {{velocity}} along {rod} over u·e");
+        let how = format!(": the pins' relative {{velocity}} along {rod} over sin μ");
         let speed = motion.named_sliding(speed, slide, &dyad.link_name(slider_leg), &how);
         dyad.turn(motion, rod_leg, rate)?;
         motion.slides(slide, slider_leg.link(), speed);
@@ -238,27 +247,29 @@ pub(super) fn meet<'m>(
     let graph = r.graph();
     let pivot_name = format!("sin_mu_{inner}");
     let q = way.resolved_along(line);
-    let g = q.y.named(format!("g_{inner}"), format!("g = e × Q, Q from {outer} to {inner} at no travel"));
-    let h2 = ((r - g) * (r + g)).named(format!("h2_{inner}"), "h² = (r − g)(r + g)");
+    let g =
+        q.y.named(format!("g_{inner}"), format!("g = e × Q, e along the line, Q from {outer} to {inner} at no travel"));
+    let h2 = ((r - g) * (r + g)).named(format!("h2_{inner}"), format!("h² = (r − g)(r + g), r = |{outer} {inner}|"));
     let reach = reach_across(way, &line);
     let (h2, rounding) = if (r - reach).sign() == Some(1) {
         (h2.known_positive(), graph.zero())
     } else {
         let rounding = graph.epsilons(4) * (r * (r + (reach + slack)));
-        (h2, rounding.named(format!("rounding_h2_{inner}"), format!("what rounding makes of h2_{inner} = 0")))
+        let size = "4ε r (r + Λ), Λ the lengths that make up g";
+        (h2, rounding.named(format!("rounding_h2_{inner}"), format!("what rounding makes of h2_{inner} = 0: {size}")))
     };
     let failure = Failure::CannotAssemble { group, joint: inner.into(), gap: (g.abs() - r).id() };
     let h2 = h2.require_at_least(h2, -rounding, failure);
     let h = ahead.of(h2.non_negative().sqrt());
     let equation = match ahead {
-        Sign::Plus => "h = √(h²), ahead".to_owned(),
-        Sign::Minus => "h = −√(h²), behind".to_owned(),
-        Sign::Given(..) => format!("h = side_{inner} √(h²)"),
+        Sign::Plus => format!("h = √(h²), {inner} ahead of {outer}"),
+        Sign::Minus => format!("h = −√(h²), {inner} behind {outer}"),
+        Sign::Given(..) => format!("h = side_{inner} √(h²), how far {inner} is ahead of {outer}"),
     };
     let h = h.named(format!("h_{inner}"), equation);
     let (cosine, sine) = (
-        (h / r).named(pivot_name.clone(), "sin μ = u·e = h/r"),
-        (g / r).named(format!("g_over_r_{inner}"), "u·n = g/r"),
+        (h / r).named(pivot_name.clone(), "sin μ = u·e = h/r, u from the one pin to the other"),
+        (g / r).named(format!("g_over_r_{inner}"), "u·n = g/r, n across the line"),
     );
     let pivot = cosine.where_above(h2, rounding);
     let pivot = pivot.named(format!("{pivot_name}_or_zero"), "zero where it is no larger than its rounding").held();

@@ -150,13 +150,16 @@ impl Rule for Rrr {
         let [across_first, across_second] = shares.map(|share| share.inner);
         let (inner, link) = (dyad.joint_name(dyad.inner), dyad.link_name(first));
         let (outer, other) = (dyad.joint_name(first.outer), dyad.joint_name(second.outer));
+        let of_force = format!("of the force on {link} at {inner}");
         let across = (-across_first).named(
             balance.name(&format!("{inner}_across_{link}")),
-            format!("−ΣM({outer})/|{outer} {inner}| of the loads on {link}"),
+            format!("across {link}, {of_force}: −ΣM({outer})/|{outer} {inner}| of its loads"),
         );
+        let second_link = dyad.link_name(second);
+        let of_force = if across.is_zero() { of_force.as_str() } else { "of the same force" };
         let needed = across_second.named(
-            balance.name(&format!("{inner}_across_{}", dyad.link_name(second))),
-            format!("ΣM({other})/|{other} {inner}| of the loads on {}", dyad.link_name(second)),
+            balance.name(&format!("{inner}_across_{second_link}")),
+            format!("across {second_link}, {of_force}: ΣM({other})/|{other} {inner}| of the loads on {second_link}"),
         );
         let force = inner_force(balance, &dyad, [across, needed]);
         let loads = [first, second].map(|leg| balance.total(leg.link()));
@@ -194,6 +197,7 @@ fn inner_force<'m>(balance: &Balance<'m, '_>, dyad: &Dyad<'m>, [across, needed]:
     let first = &dyad.legs[0];
     let [u1, u2] = dyad.legs.each_ref().map(|leg| dyad.direction(balance.placement, leg));
     let (inner, [link, other]) = (dyad.joint_name(dyad.inner), dyad.legs.each_ref().map(|leg| dyad.link_name(leg)));
+    let across_of = |link: &str| balance.name(&format!("{inner}_across_{link}"));
     let zero = balance.graph().zero();
     if across.is_zero() && needed.is_zero() {
         return Framed { components: Vector::new(zero, zero), axes: u1 };
@@ -203,7 +207,7 @@ fn inner_force<'m>(balance: &Balance<'m, '_>, dyad: &Dyad<'m>, [across, needed]:
         // Nothing turns the second link: the force goes along it.
         let along = (across / sine).named(
             balance.name(&format!("{inner}_along_{other}")),
-            format!("{inner}_across_{link}/sin μ: nothing turns {other}"),
+            format!("along {other}, as nothing turns it about its other pin: {}/sin μ", across_of(&link)),
         );
         return Framed { components: Vector::new(along, zero), axes: u2 };
     }
@@ -217,10 +221,12 @@ fn inner_force<'m>(balance: &Balance<'m, '_>, dyad: &Dyad<'m>, [across, needed]:
     } else {
         part / sine
     };
-    let along = along.named(
-        balance.name(&format!("{inner}_along_{link}")),
-        format!("({inner}_across_{link} cos μ − {inner}_across_{other})/sin μ"),
-    );
+    let terms = match (across.is_zero(), needed.is_zero()) {
+        (false, false) => format!("({} cos μ − {})/sin μ", across_of(&link), across_of(&other)),
+        (false, true) => format!("{} cos μ/sin μ", across_of(&link)),
+        (true, _) => format!("−{}/sin μ", across_of(&other)),
+    };
+    let along = along.named(balance.name(&format!("{inner}_along_{link}")), format!("along {link}: {terms}"));
     Framed { components: Vector::new(along, across), axes: u1 }
 }
 
@@ -325,7 +331,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     } else {
         // The direction of a much shorter link carries the rounding of the longer one, and forces balance along the directions as they
         // are.
-        name_sine(dyad, u1.cross(u2), "u₁ × u₂")
+        name_sine(dyad, u1.cross(u2), "product of the directions")
     };
     if let [u1, u2] = closed[..] {
         let legs = [u1.scaled(r1), u2.scaled(-r2)];
@@ -458,23 +464,32 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let length = dyad.legs.iter().fold(way.length(), |sum, leg| sum + dyad.slack(leg));
     let (least, most) = reach(way);
     let never = |bound: Option<Expr<'m>>| bound.and_then(Expr::sign) == Some(1);
-    let rounding = |of: &str, value: Expr<'m>| {
-        value.named(format!("rounding_{of}_{joint}"), format!("what rounding makes of {of}_{joint} = 0"))
+    let rounding = |of: &str, value: Expr<'m>, size: &str| {
+        let meaning = format!("what rounding makes of {of}_{joint} = 0: {size}, Λ the lengths that make up d");
+        value.named(format!("rounding_{of}_{joint}"), meaning)
     };
+    let (sum_name, difference_name) = (dyad.sum_name(), dyad.difference_name());
     let (p, p_rounding) = if never(most.map(|most| s - most)) {
         (p.known_positive(), graph.zero())
     } else {
-        (p, rounding("p", graph.epsilons(2) * (s.squared() + s * length)))
+        (p, rounding("p", graph.epsilons(2) * (s.squared() + s * length), &format!("2ε S (S + Λ), S = {sum_name}")))
     };
     let (q, q_rounding) = if never(least.map(|least| least - m)) {
         (q.known_positive(), graph.zero())
     } else {
-        (q, rounding("q", graph.epsilons(2) * (m.squared() + m * length)))
+        (
+            q,
+            rounding(
+                "q",
+                graph.epsilons(2) * (m.squared() + m * length),
+                &format!("2ε |M| (|M| + Λ), M = {difference_name}"),
+            ),
+        )
     };
     let p = p.require_at_least(p, -p_rounding, gap(dyad, p, true, d2));
     let q = q.require_at_least(q, -q_rounding, gap(dyad, q, false, d2));
     // Coincident outer pins leave the direction open. Where |r₁ − r₂| keeps them apart, q has seen to that.
-    let close = rounding("D2", (2 * graph.epsilons(1) * length).squared());
+    let close = rounding("D2", (2 * graph.epsilons(1) * length).squared(), "(2ε Λ)²");
     let apart = never(least) || (m - graph.epsilons(4) * length).sign() == Some(1);
     let d2 = if apart {
         d2.known_positive()
@@ -560,7 +575,9 @@ fn by_driven_length<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>, driven: 
     let slack = way.length() + dyad.slack(&dyad.legs[leg]);
     let rounding = |of: &str, limit: Expr<'m>| {
         let value = graph.epsilons(2) * (limit.squared() + limit * slack);
-        value.named(format!("rounding_{of}_{joint}"), format!("what rounding makes of {of}_{joint} = 0"))
+        let limit = if of == "p" { format!("D + {rest}") } else { format!("|D − {rest}|") };
+        let size = format!("2ε L (L + Λ), L = {limit}, Λ the lengths that make up d and {name}");
+        value.named(format!("rounding_{of}_{joint}"), format!("what rounding makes of {of}_{joint} = 0: {size}"))
     };
     let failure =
         |gap: Expr<'m>| Failure::CannotAssemble { group: dyad.group_name(), joint: joint.into(), gap: gap.id() };

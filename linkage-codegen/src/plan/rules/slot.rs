@@ -235,21 +235,24 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, group: &Group, parts: &Parts<'m>
         let s = ahead.of(size);
         (s, Vector::new(d.x / s, d.y / s))
     } else {
-        let square = (d2 - h.squared()).named(format!("s2_{at}"), "s² = d·d − h²");
+        let square = (d2 - h.squared())
+            .named(format!("s2_{at}"), format!("s² = d·d − h², h how far the slot's line passes {about}"));
         let rounding = graph.epsilons(2) * (h.squared() + h.abs() * slack + size * way.length());
-        let rounding = rounding.named(format!("rounding_s2_{at}"), format!("what rounding makes of s2_{at} = 0"));
+        let terms = "2ε (h² + |h| Λ + D L), L the lengths that make up d, Λ those that a drive brings into h";
+        let meaning = format!("what rounding makes of s2_{at} = 0: {terms}");
+        let rounding = rounding.named(format!("rounding_s2_{at}"), meaning);
         let gap = (h.abs() - size).id();
         let failure = Failure::CannotAssemble { group: name.into(), joint: at.into(), gap };
         let square = square.require_at_least(square, -rounding, failure);
         let s = ahead.of(square.non_negative().sqrt());
         let equation = match ahead {
-            Sign::Plus => "s = √(s²), ahead".to_owned(),
-            Sign::Minus => "s = −√(s²), behind".to_owned(),
-            Sign::Given(..) => format!("s = side_{at} √(s²)"),
+            Sign::Plus => format!("s = √(s²), its pin ahead of {about}"),
+            Sign::Minus => format!("s = −√(s²), its pin behind {about}"),
+            Sign::Given(..) => format!("s = side_{at} √(s²), how far its pin is ahead of {about}"),
         };
         let s = s.named(format!("s_{at}"), equation);
         let rough = Vector::new(s / d2, -(h / d2)).turned_by(d);
-        let rough = rough.named_direction(&format!("rough_{name}"), "d (s − i h)/(d·d)");
+        let rough = rough.named_direction(&format!("rough_{name}"), "(s d − h d⊥)/(d·d)");
         let correction =
             graph.constant(&crate::graph::number::Number::ratio(1, 2)) * (3 * graph.one() - rough.squared());
         let arm = s.where_above(square, rounding);

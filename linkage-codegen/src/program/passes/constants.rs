@@ -1,6 +1,6 @@
 //! Constant factors are brought together: `(k₁ x)(k₂ y) = (k₁k₂)(x y)`, `k (a x ± b y) = (ka) x ± (kb) y`, `k ((a x)/y) = ((ka) x)/y` and
 //! `(a x)/(k y) = ((a/k) x)/y`, where nothing else reads the inner values. The constants are multiplied exactly and rounded once, and go
-//! to a quotient of a constant where there is one.
+//! to a quotient of a constant where there is one. At last, when factors have found their places, those of products go into sums.
 
 use std::collections::BTreeMap;
 
@@ -57,6 +57,23 @@ pub(super) fn multiply_reciprocals(mut program: Program, graph: &Graph) -> Progr
         }
     }
     program
+}
+
+/// `k (x (a y ± b z))` as `x ((ka) y ± (kb) z)`, however many products and sums are in between, where nothing else reads them.
+///
+/// Of `ka` and `kb` it may be much more that is rounded than of a and b, which errors that are counted would have to know.
+pub(super) fn multiply_into_sums(program: Program, graph: &Graph) -> Program {
+    if graph.counts_rounding() {
+        return program;
+    }
+    let uses = program.uses();
+    let mut merging = Merging { reads: Vec::new(), uses, graph, before: BTreeMap::new(), program };
+    for index in 0..merging.program.steps.len() {
+        if let Step::Let(value) = merging.program.steps[index] {
+            merging.into_sums(value);
+        }
+    }
+    super::unused::remove(merging.finish(), graph)
 }
 
 struct Merging<'g> {
@@ -222,6 +239,58 @@ impl Merging<'_> {
         let product = k.mul(&inner);
         let factor = self.number(before, &product);
         Some(self.add(before, Op::Mul(factor, rest)))
+    }
+
+    /// Multiplies the constant of a product into those that its other factor has.
+    fn into_sums(&mut self, product: ValueId) {
+        let Some(Op::Mul(a, b)) = self.program.op(product).cloned() else { return };
+        for (with, sum) in [(a, b), (b, a)] {
+            let Some(op) = self.program.op(sum).filter(|_| self.takes(sum)).cloned() else { continue };
+            let op = match (self.constant(with), self.is_inner(with).then(|| self.scaled(with)).flatten()) {
+                (Some(k), _) => self.multiplied(product, &k, op),
+                (None, Some((k, rest))) => {
+                    let op = self.multiplied(product, &k, op);
+                    Op::Mul(rest, self.add(product, op))
+                }
+                (None, None) => continue,
+            };
+            self.program.values[product.index()].definition = Definition::Computed(op);
+            return;
+        }
+    }
+
+    /// Whether a value that nothing else reads has constants in all its terms, of which a multiple has others.
+    fn takes(&self, value: ValueId) -> bool {
+        let of = |value: &ValueId| self.constant(*value).is_some() || self.takes(*value);
+        self.is_inner(value)
+            && match self.program.op(value) {
+                Some(Op::Neg(a)) => of(a),
+                Some(Op::Mul(a, b)) => of(a) || of(b),
+                Some(Op::Add(a, b) | Op::Sub(a, b)) => of(a) && of(b),
+                _ => false,
+            }
+    }
+
+    /// The multiple of what takes the factor.
+    fn multiplied(&mut self, before: ValueId, k: &Number, op: Op<ValueId>) -> Op<ValueId> {
+        match op {
+            Op::Mul(a, b) if self.constant(a).is_some() || self.takes(a) => Op::Mul(self.factor(before, k, a), b),
+            Op::Mul(a, b) => Op::Mul(a, self.factor(before, k, b)),
+            sum => sum.map(|term| self.factor(before, k, term)),
+        }
+    }
+
+    /// `k` times a constant, or a value that takes it.
+    fn factor(&mut self, before: ValueId, k: &Number, value: ValueId) -> ValueId {
+        match (self.program.op(value).cloned(), self.scaled(value)) {
+            (_, Some((own, rest))) if k.mul(&own).is_one() => rest,
+            (Some(Op::Constant(own)), _) => self.number(before, &k.mul(&self.graph.number(own))),
+            (Some(op), _) => {
+                let op = self.multiplied(before, k, op);
+                self.add(before, op)
+            }
+            (None, _) => value,
+        }
     }
 
     fn number(&mut self, before: ValueId, number: &Number) -> ValueId {

@@ -25,7 +25,7 @@ use crate::graph::{Graph, Guard, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 14] = [
+pub const PASSES: [(&str, Pass); 15] = [
     ("pivots", pivots::compare_directly),
     ("checks", checks::ask_once),
     ("reciprocals", reciprocals::share),
@@ -36,6 +36,7 @@ pub const PASSES: [(&str, Pass); 14] = [
     ("constants at reciprocals", constants::multiply_reciprocals),
     ("late", late::multiply_last),
     ("common factors", common::factor),
+    ("constants of sums", constants::multiply_into_sums),
     ("repeated", repeated::compute_once),
     ("signs", signs::absorb),
     ("finite", finite::check_once),

@@ -114,13 +114,14 @@ impl<'a, 'm> Opening<'a, 'm> {
         let (area, divided) =
             if gives_sine { (2 * (r1 * r2), format!("/{}", dyad.area_name())) } else { (graph.one(), String::new()) };
         let spread = ((span / area) * arms.sine_squared())
-            .named(format!("spread_{joint}"), format!("4ab sin²(ψ/2){divided}, a and b the arms of ψ"));
+            .named(format!("spread_{joint}"), format!("4ab sin²(ψ/2){divided}, {}", arms.lengths));
         let d = arms.separation();
         let d = if swapped { -d } else { d }.named(&format!("d_{joint}"), &dyad.separation_meaning());
         let theta = graph.symbol(Symbol::Drive(arms.drive)).abs();
         let fixed = graph.constant(&arms.phase.abs().add(&Number::one()));
         let rounding = graph.epsilons(2) * (theta + fixed);
-        let rounding = rounding.named(format!("rounding_psi_{joint}"), "what rounding makes of ψ at a fold");
+        let rounding =
+            rounding.named(format!("rounding_psi_{joint}"), "what rounding makes of ψ at a fold, twice its ε");
         let apart = arms.b - arms.a;
         let d2 = (apart.squared() / area + spread)
             .named(format!("D2_{joint}"), format!("d·d{divided} = (b − a)²{divided} + spread_{joint}"));
