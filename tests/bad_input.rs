@@ -129,6 +129,17 @@ macro_rules! scalar {
                 }
             }
 
+            /// How near the fold is cannot be known where the rounding of the angle is about a turn.
+            #[test]
+            fn an_angle_whose_rounding_is_about_a_turn() {
+                for theta in [1.0 / $scalar::EPSILON, -1e3 / $scalar::EPSILON] {
+                    let expected = |error: &Error| matches!(error, Error::DeadCentre { .. });
+                    all_fail(folding(theta, [1.0, 2.0, 3.0]), &["place", "place_at"], expected);
+                }
+                let outcomes = folding(0.01 / $scalar::EPSILON, [1.0, 2.0, 3.0]);
+                assert!(outcomes.iter().all(|(_, outcome)| outcome.is_ok()), "{outcomes:?}");
+            }
+
             #[test]
             fn a_drive_that_is_not_finite() {
                 for theta in NOT_FINITE {

@@ -171,7 +171,11 @@ impl<'m> Scope<'m> {
             return Ok(Quantity { expr: graph.constant(&value), dimension });
         };
         let Some(unit) = unit(suffix) else {
-            return Err(Diagnostic::new(place, format!("there is no unit `{suffix}`")).suggest(suffix, unit_names()));
+            let problem = Diagnostic::new(place, format!("there is no unit `{suffix}`"));
+            return Err(match meant(suffix) {
+                Some(meant) => problem.help(format!("did you mean `{meant}`?")),
+                None => problem.suggest(suffix, unit_names()),
+            });
         };
         let value = value.mul(&self.model.units.size_of(&unit));
         Ok(Quantity { expr: graph.constant(&value), dimension: Some(unit.dimension) })
@@ -295,4 +299,15 @@ impl<'m> Scope<'m> {
             }
         }
     }
+}
+
+/// What is written otherwise elsewhere: a moment as one word, an inch by its abbreviation.
+fn meant(suffix: &str) -> Option<String> {
+    if suffix == "in" {
+        return Some("inch".to_owned());
+    }
+    let places = suffix.char_indices().map(|(place, _)| suffix.split_at(place));
+    let is = |name: &str, dimension: Dimension| unit(name).is_some_and(|unit| unit.dimension == dimension);
+    let mut moments = places.filter(|(force, arm)| is(force, Dimension::FORCE) && is(arm, Dimension::LENGTH));
+    moments.next().map(|(force, arm)| format!("{force}*{arm}"))
 }

@@ -193,8 +193,14 @@ fn effort(scope: Scope<'_>, unknown: &ast::Unknown) -> Result<UnknownKind, Diagn
             };
             if a == b {
                 let problem = format!("a torque on `{to}` by itself");
-                return Err(Diagnostic::new(from.place().to(to.place()), problem)
-                    .help(format!("say which other link it comes from: `torque(ground -> {to})`")));
+                let help = match scope.model.moving_links().next() {
+                    Some(link) if a == GROUND.index() => {
+                        let link = &scope.model.link(link).name;
+                        format!("say on which other link it acts: `torque(ground -> {link})`")
+                    }
+                    _ => format!("say which other link it comes from: `torque(ground -> {to})`"),
+                };
+                return Err(Diagnostic::new(from.place().to(to.place()), problem).help(help));
             }
             Ok(UnknownKind::Torque(LinkId::new(a), LinkId::new(b)))
         }
@@ -216,6 +222,13 @@ fn effort(scope: Scope<'_>, unknown: &ast::Unknown) -> Result<UnknownKind, Diagn
         }
         Effort::Thrust(ends) => Ok(two_points(scope, ends)?.map_or(nothing, UnknownKind::Thrust)),
         Effort::Drive(drive) => {
+            let joint = scope.names.entry(&drive.text).filter(|entry| entry.role == Role::Joint);
+            let driven = |own: &&Drive| joint.is_some_and(|joint| own.joint.index() == joint.index);
+            if let Some(own) = scope.model.drives.iter().find(driven) {
+                let problem = format!("`{drive}` is a joint, and a drive is needed here");
+                return Err(Diagnostic::new(drive.place(), problem)
+                    .help(format!("it is driven by `{0}`: write `effort({0})`", own.name)));
+            }
             let Some(id) = scope.names.find(Role::Drive, drive)?.map(DriveId::new) else { return Ok(nothing) };
             let taken = |unknown: &&Unknown| matches!(unknown.kind, UnknownKind::Drive(own) if own == id);
             if let Some(other) = scope.model.unknowns.iter().find(taken) {

@@ -35,7 +35,7 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
             told = true;
             sink.report(
                 Diagnostic::new(given.name.place().to(given.method.place()), "there is no load to balance")
-                    .help("declare one, as in `load F: force(coupler.C);`; only `position`, `velocity` and `acceleration` scenes need none"),
+                    .help("declare one, as in `load F: force(coupler.C);`; only scenes of motion need none"),
             );
         }
         let scene = Scene { name: given.name.clone(), method, loads, results, derivative: None, refused };

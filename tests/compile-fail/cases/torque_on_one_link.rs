@@ -17,6 +17,8 @@ linkage! {
 
     drive theta: A0;
     unknown T12: torque(crank);
+    unknown T13: torque(ground -> ground);
+    unknown T14: torque(rocker -> rocker);
     assemble B: left(A -> B0);
 
     load F13: force(coupler.C);

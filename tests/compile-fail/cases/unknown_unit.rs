@@ -8,7 +8,7 @@ linkage! {
     ground       { A0: (0, 0), B0: (140mm, 0) }
     link crank   { A0 -> A: 80mn }
     link coupler { A -> B: 100mm, C: left(A -> B, 70mm, 80mm) }
-    link rocker  { B0 -> B: 120mm, D: (90mm, 0) }
+    link rocker  { B0 -> B: 5in, D: (90mm, 0) }
 
     revolute A0: ground  -> crank;
     revolute A:  crank   -> coupler;
@@ -21,6 +21,7 @@ linkage! {
 
     load F13: force(coupler.C);
     load F14: force(rocker.D) = 100N @ 200deg;
+    load M:   moment(rocker) = 3Nm;
 
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
