@@ -70,7 +70,7 @@ pub(super) fn multiply_into_sums(program: Program, graph: &Graph) -> Program {
     let mut merging = Merging { reads: Vec::new(), uses, graph, before: BTreeMap::new(), program };
     for index in 0..merging.program.steps.len() {
         if let Step::Let(value) = merging.program.steps[index] {
-            merging.into_sums(value);
+            merging.multiply_sum(value);
         }
     }
     super::unused::remove(merging.finish(), graph)
@@ -242,7 +242,7 @@ impl Merging<'_> {
     }
 
     /// Multiplies the constant of a product into those that its other factor has.
-    fn into_sums(&mut self, product: ValueId) {
+    fn multiply_sum(&mut self, product: ValueId) {
         let Some(Op::Mul(a, b)) = self.program.op(product).cloned() else { return };
         for (with, sum) in [(a, b), (b, a)] {
             let Some(op) = self.program.op(sum).filter(|_| self.takes(sum)).cloned() else { continue };

@@ -1,0 +1,145 @@
+//! Names of values: those that rules have given; of others what they are, or what they are part of.
+
+use super::Body;
+use crate::graph::{Failure, Kernel, Op};
+use crate::program::{Step, ValueId};
+
+impl Body<'_> {
+    /// The label of a value; of an unlabelled one, what it is, or what it is part of.
+    pub(super) fn wanted_name(&self, value: ValueId, readers: &[Option<Reader>]) -> String {
+        if let Some(name) = self.given_name(value) {
+            return name;
+        }
+        if let Some(name) = self.name_by_operation(value) {
+            return name;
+        }
+        match &readers[value.index()] {
+            Some(Reader::One(name)) => format!("{name}_part"),
+            Some(Reader::Several(common)) => match (self.scaled_name(value), common.as_str()) {
+                (Some(name), _) => name,
+                (None, "") => "shared".to_owned(),
+                (None, common) => format!("{common}_part"),
+            },
+            None => "part".to_owned(),
+        }
+    }
+
+    /// The name of what is called by what it is: results of kernels, and absolute values.
+    fn name_by_operation(&self, value: ValueId) -> Option<String> {
+        match self.program.op(value)? {
+            Op::Abs(of) => self.names.get(of).map(|of| format!("abs_{of}")),
+            Op::Kernel { kernel: Kernel::MulAdd, .. } => None,
+            Op::Kernel { kernel, part, args } => {
+                let of = args.first().and_then(|arg| self.names.get(arg));
+                let of = of.map_or_else(|| "angle".to_owned(), ToString::to_string);
+                Some(match (kernel, part) {
+                    (Kernel::SinCos | Kernel::SinCosSum(_), 0) => format!("sin_{of}"),
+                    (Kernel::SinCos | Kernel::SinCosSum(_), _) => format!("cos_{of}"),
+                    (Kernel::Atan2 | Kernel::MulAdd, _) => format!("angle_{of}"),
+                    (Kernel::Unit, part) => {
+                        format!("unit_{}_{}", of.trim_end_matches("_x"), if *part == 0 { "x" } else { "y" })
+                    }
+                    (Kernel::Search { .. }, part) => format!("found_{part}"),
+                    (Kernel::Solve2 | Kernel::Solve3 | Kernel::Solve(_), part) => format!("solved_{}", part + 1),
+                })
+            }
+            _ => None,
+        }
+    }
+
+    /// The name that a value has from its label, or as a result.
+    fn given_name(&self, value: ValueId) -> Option<String> {
+        let label = self.program.value(value).label.as_ref().map(|label| label.name.clone());
+        label.or_else(|| self.result_name(value))
+    }
+
+    /// The name of a multiple of a named value, or of its opposite.
+    fn scaled_name(&self, value: ValueId) -> Option<String> {
+        let is_constant = |of: &ValueId| self.program.constant(self.graph, *of).is_some();
+        match self.program.op(value)? {
+            Op::Neg(of) => self.names.get(of).map(|of| format!("minus_{of}")),
+            Op::Mul(factor, of) | Op::Mul(of, factor) if is_constant(factor) => {
+                self.names.get(of).map(|of| format!("{of}_scaled"))
+            }
+            _ => None,
+        }
+    }
+
+    /// What reads each value: the named values that are computed from it, by way of unnamed ones; or what it is compared with.
+    pub(super) fn readers(&self) -> Vec<Option<Reader>> {
+        let mut readers: Vec<Option<Reader>> = vec![None; self.program.values.len()];
+        let mut compared = readers.clone();
+        for step in self.program.steps.iter().rev() {
+            let (known, own) = match step {
+                Step::Let(value) => {
+                    let own = self.given_name(*value).map(Reader::One).or_else(|| readers[value.index()].clone());
+                    let limits = compared[value.index()].clone();
+                    for of in self.program.operands_of(step) {
+                        Reader::join(&mut compared[of.index()], limits.as_ref());
+                    }
+                    (&mut readers, own)
+                }
+                Step::Check { guard, .. } => {
+                    (&mut compared, subject(&guard.failure).map(|of| Reader::One(format!("{of}_limit"))))
+                }
+                Step::FiniteInput(_) | Step::FiniteResults(_) => continue,
+            };
+            for of in self.program.operands_of(step) {
+                Reader::join(&mut known[of.index()], own.as_ref());
+            }
+        }
+        readers.into_iter().zip(compared).map(|(reader, limit)| reader.or(limit)).collect()
+    }
+
+    /// The name of a result; of one of those that are compared with each other, that it is one.
+    fn result_name(&self, value: ValueId) -> Option<String> {
+        let (path, _) = self.program.outputs.iter().find(|(_, output)| *output == value)?;
+        Some(if path.is_empty() { "compared".to_owned() } else { path.replace('.', "_") })
+    }
+}
+
+/// The named values that an unnamed one is part of.
+#[derive(Clone, PartialEq, Eq)]
+pub(super) enum Reader {
+    /// The only one.
+    One(String),
+    /// What the names of several have in common; may be empty.
+    Several(String),
+}
+
+impl Reader {
+    /// Another reader is found.
+    fn join(known: &mut Option<Self>, other: Option<&Self>) {
+        let joined = match (known.take(), other) {
+            (Some(Self::One(one)), Some(Self::One(other))) if one == *other => Some(Self::One(one)),
+            (Some(Self::One(one) | Self::Several(one)), Some(Self::One(other) | Self::Several(other))) => {
+                Some(Self::Several(in_common(&one, other)))
+            }
+            (known, other) => known.or_else(|| other.cloned()),
+        };
+        *known = joined;
+    }
+}
+
+/// The words that two names both begin or both end with, if they say more than a component.
+fn in_common(one: &str, other: &str) -> String {
+    let [a, b] = [one, other].map(|name| name.split('_').collect::<Vec<_>>());
+    let alike = |(a, b): &(&&str, &&str)| a == b;
+    let first = a.iter().zip(&b).take_while(alike).count();
+    let last = a.iter().rev().zip(b.iter().rev()).take_while(alike).count();
+    let words = if first >= last { &a[..first] } else { &a[a.len() - last..] };
+    let is_component = |word: &&str| ["x", "y", "cos", "sin"].contains(word);
+    if words.iter().all(is_component) { String::new() } else { words.join("_") }
+}
+
+/// What a check is about, as a part of a name.
+fn subject(failure: &Failure<ValueId>) -> Option<String> {
+    match failure {
+        Failure::DeadCentre { pivot, .. } => Some(pivot.clone()),
+        Failure::CannotAssemble { joint, .. } | Failure::CoincidentPivots { joint, .. } => Some(joint.clone()),
+        Failure::OtherSide { joint } => Some(format!("side_of_{joint}")),
+        Failure::CoincidentEnds { of } => Some(of.clone()),
+        Failure::NoDirection { .. } => Some("size".to_owned()),
+        Failure::NoConvergence { .. } | Failure::Parameter { .. } => None,
+    }
+}
