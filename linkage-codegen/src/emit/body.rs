@@ -374,6 +374,10 @@ impl<'a> Body<'a> {
         }
         let mut statements = Vec::new();
         for step in &self.program.steps {
+            if !matches!(step, Step::Let(_)) && self.checks != Checks::Gathered {
+                // Behind a check it is said again.
+                notes.meaning = "";
+            }
             statements.push(match step {
                 Step::Let(value) => self.let_statement(*value, &mut calls, &mut notes),
                 _ if self.checks == Checks::Gathered => TokenStream::new(),

@@ -128,8 +128,11 @@ fn in_common(one: &str, other: &str) -> String {
     let first = a.iter().zip(&b).take_while(alike).count();
     let last = a.iter().rev().zip(b.iter().rev()).take_while(alike).count();
     let words = if first >= last { &a[..first] } else { &a[a.len() - last..] };
-    let is_component = |word: &&str| ["x", "y", "cos", "sin"].contains(word);
-    if words.iter().all(is_component) { String::new() } else { words.join("_") }
+    // A name begins with a letter, and a component or a number alone says nothing.
+    let begins = |word: &&str| word.starts_with(char::is_alphabetic);
+    let words = &words[words.iter().position(begins).unwrap_or(words.len())..];
+    let says_nothing = |word: &&str| ["x", "y", "cos", "sin"].contains(word) || !begins(word);
+    if words.iter().all(says_nothing) { String::new() } else { words.join("_") }
 }
 
 /// What a check is about, as a part of a name.
@@ -141,5 +144,28 @@ fn subject(failure: &Failure<ValueId>) -> Option<String> {
         Failure::CoincidentEnds { of } => Some(of.clone()),
         Failure::NoDirection { .. } => Some("size".to_owned()),
         Failure::NoConvergence { .. } | Failure::Parameter { .. } => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_common;
+
+    #[test]
+    fn what_names_have_in_common_is_a_name_too() {
+        for (one, other, common) in [
+            ("A_x", "A_y", "A"),
+            ("F13_T12", "F14_T12", "T12"),
+            ("B_x", "A_x", ""),
+            ("da_B_2_x", "inertia_coupler_2_x", ""),
+            ("B_2_y", "C_2_y", ""),
+            ("2_a_x", "3_a_x", "a_x"),
+            ("v_β_x", "v_β_y", "v_β"),
+            ("sum", "", ""),
+            ("", "", ""),
+        ] {
+            assert_eq!(in_common(one, other), common, "{one}, {other}");
+            assert_eq!(in_common(other, one), common, "{other}, {one}");
+        }
     }
 }

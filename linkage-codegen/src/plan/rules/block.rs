@@ -314,12 +314,13 @@ impl<'p, 'm> Parts<'p, 'm> {
     }
 
     /// The member, or the slide of one, along and across which the forces on a carrier are resolved.
-    fn hangs_on(&self, free: Free) -> Option<&'m str> {
+    fn hangs_on(&self, free: Free) -> Option<String> {
         let Free::Carrier(carrier) = free else { return None };
         let (pin, _) = self.resolved_at(carrier)?;
         let member = self.members.iter().find(|member| [member.near, member.far].contains(&pin))?;
-        let slide = self.is_slide(member.far).then(|| &self.model.joint(member.far).name);
-        Some(&slide.unwrap_or(&self.model.link(member.link).name).text)
+        let [near, far] = [member.near, member.far].map(|joint| &self.model.joint(joint).name);
+        let link = &self.model.link(member.link).name;
+        Some(if self.is_slide(member.far) { far.text.clone() } else { format!("{link} from {far} to {near}") })
     }
 
     /// The place about which a carrier's moments are taken: the pin at which its forces are resolved, or else its first joint, but for
@@ -416,7 +417,7 @@ fn members(model: &Model, group: &Group) -> Vec<Member> {
 
 impl Rule for Block {
     fn class(&self) -> &'static str {
-        "solved together"
+        "block"
     }
 
     fn is_closed(&self) -> bool {
@@ -455,7 +456,11 @@ impl Rule for Block {
             let member = &parts.members[index];
             let (link, near, far) =
                 (&model.link(member.link).name, &model.joint(member.near).name, &model.joint(member.far).name);
-            let way = if parts.is_slide(member.far) { format!("across {far}") } else { format!("along {link}") };
+            let way = if parts.is_slide(member.far) {
+                format!("across {far}")
+            } else {
+                format!("along {link} from {far} to {near}")
+            };
             let meaning = format!("{way}, of the force on {link} at {near}: from the equations that are left");
             value.named(balance.name(&format!("along_{link}")), meaning)
         };

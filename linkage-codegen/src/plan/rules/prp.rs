@@ -105,7 +105,6 @@ impl Rule for Prp {
         let meaning = format!("along {slide}, {of_force}: −ΣF of its loads");
         let own = (-loads.x).named(along_first.as_str(), meaning);
         let needed = second.total(balance).along(two).x;
-        let of_force = if own.is_zero() { of_force.as_str() } else { "of the same force" };
         let meaning = format!("along {its}, {of_force}: ΣF of the loads on {other}");
         let needed = needed.named(along_second.as_str(), meaning);
         let across = if own.is_zero() && needed.is_zero() {
@@ -125,7 +124,7 @@ impl Rule for Prp {
             };
             ((needed - own * cosine) / sine).named(
                 balance.name(&format!("{pin}_across_{slide}")),
-                format!("across {slide}: {terms}/{}, e₁ along {slide}, e₂ along {its}", dyad.pivot_name()),
+                format!("across {slide}, {of_force}: {terms}/{}, e₁ along {slide}, e₂ along {its}", dyad.pivot_name()),
             )
         };
         let force = Framed { components: Vector::new(own, across), axes: one };

@@ -190,7 +190,8 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     // A driven angle between the links makes h and what is fixed along the slide rounded too.
     let length = if is_turned(dyad) { slack + from_p.length() + from_q.length() } else { slack };
     let rounding = |of: &str, value: Expr<'m>, size: &str| {
-        let meaning = format!("what rounding makes of {of}_{slide} = 0: {size}, Λ the lengths that make up d");
+        let meaning =
+            format!("what rounding makes of {of}_{slide} = 0: {size}, Λ the lengths that make up d and driven legs");
         value.named(format!("rounding_{of}_{slide}"), meaning)
     };
     // Coincident pins leave the direction open, unless h keeps them apart.
@@ -206,7 +207,8 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         let s = side.of(d2.sqrt());
         (s, s)
     } else {
-        let s2 = (d2 - h.squared()).named(format!("s2_{slide}"), format!("s² = D2_{slide} − h²"));
+        let s2 = (d2 - h.squared())
+            .named(format!("s2_{slide}"), format!("s² = D2_{slide} − h², h how far {q} is across the slide from {p}"));
         let limit = rounding("s2", graph.epsilons(2) * (h.squared() + h.abs() * length), "2ε |h| (|h| + Λ)");
         let failure = Failure::CannotAssemble {
             group: dyad.group_name(),
@@ -217,7 +219,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         let s = side.of(s2.non_negative().sqrt());
         (s, s.where_above(s2, limit))
     };
-    let s = s.named(format!("s_{slide}"), format!("s = ±√(D2_{slide} − h²), how far {q} is ahead of {p}"));
+    let s = s.named(format!("s_{slide}"), format!("s, how far {q} is ahead of {p}"));
     let reach = if h.is_zero() { s } else { reach };
     let reach = reach.named(pivot_name(dyad), "s, zero where it is no larger than its rounding").held();
     let inverse = (graph.one() / d2).named(format!("inverse_D2_{slide}"), "");

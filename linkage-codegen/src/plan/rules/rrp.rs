@@ -17,7 +17,7 @@ use super::dyad::{Dyad, dyad, towards_unit};
 use super::travels::count;
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
-use crate::graph::{Expr, Failure, Vector};
+use crate::graph::{Expr, Failure, Op, Vector};
 use crate::model::ids::JointId;
 use crate::model::{Model, Side};
 use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Pivot, Sign};
@@ -72,7 +72,6 @@ impl Rule for Rrp {
             balance.name(&format!("{inner}_across_{rod}")),
             format!("across {rod}, {of_force}: −ΣM({outer})/|{outer} {inner}| of its loads"),
         );
-        let of_force = if across.is_zero() { of_force.as_str() } else { "of the same force" };
         let along_slide = load.x.named(
             balance.name(&format!("{inner}_along_slide")),
             format!("along the slide, {of_force}: ΣF of the loads on {slider}"),
@@ -82,16 +81,22 @@ impl Rule for Rrp {
         } else {
             let cosine = balance.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
             let needed = across - along_slide * balance.pivots.sine(u, e);
-            let [across_rod, along_slide_name] =
-                [format!("{inner}_across_{rod}"), format!("{inner}_along_slide")].map(|name| balance.name(&name));
+            // What has no line of its own is said in words.
+            let called = |part: Expr<'_>, name: &str, words: String| match part.op() {
+                Op::Constant(_) | Op::Symbol(_) => format!("({words})"),
+                _ => balance.name(&format!("{inner}_{name}")),
+            };
+            let moment = format!("−ΣM({outer})/|{outer} {inner}| of the loads on {rod}");
+            let across_rod = called(across, &format!("across_{rod}"), moment);
+            let along = called(along_slide, "along_slide", format!("ΣF of the loads on {slider} along the slide"));
             let terms = match (across.is_zero(), along_slide.is_zero()) {
-                (false, false) => format!("({across_rod} − {along_slide_name} (u × e))"),
+                (false, false) => format!("({across_rod} − {along} (u × e))"),
                 (false, true) => across_rod,
-                (true, _) => format!("−{along_slide_name} (u × e)"),
+                (true, _) => format!("−{along} (u × e)"),
             };
             (needed / cosine).named(
                 balance.name(&format!("{inner}_across_slide")),
-                format!("across the slide: {terms}/sin μ, u along {rod}, e along the slide"),
+                format!("across the slide, {of_force}: {terms}/sin μ, u along {rod}, e along the slide"),
             )
         };
         let force = Framed { components: Vector::new(along_slide, side), axes: e };
@@ -255,7 +260,7 @@ pub(super) fn meet<'m>(
         (h2.known_positive(), graph.zero())
     } else {
         let rounding = graph.epsilons(4) * (r * (r + (reach + slack)));
-        let size = "4ε r (r + Λ), Λ the lengths that make up g";
+        let size = "4ε r (r + Λ), Λ the lengths that make up g and a driven rod";
         (h2, rounding.named(format!("rounding_h2_{inner}"), format!("what rounding makes of h2_{inner} = 0: {size}")))
     };
     let failure = Failure::CannotAssemble { group, joint: inner.into(), gap: (g.abs() - r).id() };

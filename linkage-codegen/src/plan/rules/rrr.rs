@@ -32,7 +32,7 @@ use super::dyad::{Dyad, Leg, dyad};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
-use crate::graph::{Expr, Failure, Scalar, Vector};
+use crate::graph::{Expr, Failure, Op, Scalar, Vector};
 use crate::model::{Closure, End, Model, Side};
 use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Pivot, Sign};
 use crate::plan::balance::Balance;
@@ -156,7 +156,6 @@ impl Rule for Rrr {
             format!("across {link}, {of_force}: −ΣM({outer})/|{outer} {inner}| of its loads"),
         );
         let second_link = dyad.link_name(second);
-        let of_force = if across.is_zero() { of_force.as_str() } else { "of the same force" };
         let needed = across_second.named(
             balance.name(&format!("{inner}_across_{second_link}")),
             format!("across {second_link}, {of_force}: ΣM({other})/|{other} {inner}| of the loads on {second_link}"),
@@ -197,7 +196,12 @@ fn inner_force<'m>(balance: &Balance<'m, '_>, dyad: &Dyad<'m>, [across, needed]:
     let first = &dyad.legs[0];
     let [u1, u2] = dyad.legs.each_ref().map(|leg| dyad.direction(balance.placement, leg));
     let (inner, [link, other]) = (dyad.joint_name(dyad.inner), dyad.legs.each_ref().map(|leg| dyad.link_name(leg)));
-    let across_of = |link: &str| balance.name(&format!("{inner}_across_{link}"));
+    let of_force = format!("of the force on {link} at {inner}");
+    // What has no line of its own is said in words.
+    let called = |part: Expr<'m>, link: &str| match part.op() {
+        Op::Constant(_) | Op::Symbol(_) => format!("(what the loads on {link} make of it across {link})"),
+        _ => balance.name(&format!("{inner}_across_{link}")),
+    };
     let zero = balance.graph().zero();
     if across.is_zero() && needed.is_zero() {
         return Framed { components: Vector::new(zero, zero), axes: u1 };
@@ -207,7 +211,7 @@ fn inner_force<'m>(balance: &Balance<'m, '_>, dyad: &Dyad<'m>, [across, needed]:
         // Nothing turns the second link: the force goes along it.
         let along = (across / sine).named(
             balance.name(&format!("{inner}_along_{other}")),
-            format!("along {other}, as nothing turns it about its other pin: {}/sin μ", across_of(&link)),
+            format!("along {other}, {of_force}, as nothing turns {other}: {}/sin μ", called(across, &link)),
         );
         return Framed { components: Vector::new(along, zero), axes: u2 };
     }
@@ -222,11 +226,12 @@ fn inner_force<'m>(balance: &Balance<'m, '_>, dyad: &Dyad<'m>, [across, needed]:
         part / sine
     };
     let terms = match (across.is_zero(), needed.is_zero()) {
-        (false, false) => format!("({} cos μ − {})/sin μ", across_of(&link), across_of(&other)),
-        (false, true) => format!("{} cos μ/sin μ", across_of(&link)),
-        (true, _) => format!("−{}/sin μ", across_of(&other)),
+        (false, false) => format!("({} cos μ − {})/sin μ", called(across, &link), called(needed, &other)),
+        (false, true) => format!("{} cos μ/sin μ", called(across, &link)),
+        (true, _) => format!("−{}/sin μ", called(needed, &other)),
     };
-    let along = along.named(balance.name(&format!("{inner}_along_{link}")), format!("along {link}: {terms}"));
+    let along =
+        along.named(balance.name(&format!("{inner}_along_{link}")), format!("along {link}, {of_force}: {terms}"));
     Framed { components: Vector::new(along, across), axes: u1 }
 }
 
@@ -465,10 +470,12 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let (least, most) = reach(way);
     let never = |bound: Option<Expr<'m>>| bound.and_then(Expr::sign) == Some(1);
     let rounding = |of: &str, value: Expr<'m>, size: &str| {
-        let meaning = format!("what rounding makes of {of}_{joint} = 0: {size}, Λ the lengths that make up d");
+        let meaning =
+            format!("what rounding makes of {of}_{joint} = 0: {size}, Λ the lengths that make up d and driven legs");
         value.named(format!("rounding_{of}_{joint}"), meaning)
     };
-    let (sum_name, difference_name) = (dyad.sum_name(), dyad.difference_name());
+    let plain = |name: String| name.trim_matches(['(', ')']).to_owned();
+    let (sum_name, difference_name) = (plain(dyad.sum_name()), plain(dyad.difference_name()));
     let (p, p_rounding) = if never(most.map(|most| s - most)) {
         (p.known_positive(), graph.zero())
     } else {
@@ -576,7 +583,7 @@ fn by_driven_length<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>, driven: 
     let rounding = |of: &str, limit: Expr<'m>| {
         let value = graph.epsilons(2) * (limit.squared() + limit * slack);
         let limit = if of == "p" { format!("D + {rest}") } else { format!("|D − {rest}|") };
-        let size = format!("2ε L (L + Λ), L = {limit}, Λ the lengths that make up d and {name}");
+        let size = format!("2ε L (L + Λ), L = {limit}, D = |d|, Λ the lengths that make up d and {name}");
         value.named(format!("rounding_{of}_{joint}"), format!("what rounding makes of {of}_{joint} = 0: {size}"))
     };
     let failure =

@@ -120,8 +120,10 @@ impl<'a, 'm> Opening<'a, 'm> {
         let theta = graph.symbol(Symbol::Drive(arms.drive)).abs();
         let fixed = graph.constant(&arms.phase.abs().add(&Number::one()));
         let rounding = graph.epsilons(2) * (theta + fixed);
-        let rounding =
-            rounding.named(format!("rounding_psi_{joint}"), "what rounding makes of ψ at a fold, twice its ε");
+        let drive = &dyad.model.drive(arms.drive).name;
+        let phase = if arms.phase.is_zero() { "" } else { " + |ψ₀|" };
+        let meaning = format!("what rounding makes of ψ at a fold: 2ε (|{drive}|{phase} + 1)");
+        let rounding = rounding.named(format!("rounding_psi_{joint}"), meaning);
         let apart = arms.b - arms.a;
         let d2 = (apart.squared() / area + spread)
             .named(format!("D2_{joint}"), format!("d·d{divided} = (b − a)²{divided} + spread_{joint}"));
