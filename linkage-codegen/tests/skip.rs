@@ -473,7 +473,7 @@ fn no_program_computes_what_cancels() {
     assert!(looked_at > 16_000, "{looked_at}");
 }
 
-/// What is multiplied by constants: how many of them a product has, through what nothing else reads and what has no name.
+/// Where constants are in products and sums, through what nothing else reads and what has no name.
 struct Constants<'a> {
     program: &'a Program,
     uses: Vec<usize>,
@@ -488,7 +488,7 @@ impl<'a> Constants<'a> {
         self.program.is_inner(value, &self.uses)
     }
 
-    /// How many products with constants a value would take in, were it multiplied by one more: none that it has not got already.
+    /// Whether a value has constants in all its terms, so that one more could go into these.
     fn takes_one(&self, value: ValueId) -> bool {
         match self.program.op(value) {
             Some(Op::Constant(_)) => true,

@@ -374,13 +374,9 @@ impl<'a> Body<'a> {
         }
         let mut statements = Vec::new();
         for step in &self.program.steps {
-            if !matches!(step, Step::Let(_)) && self.checks != Checks::Gathered {
-                // Behind a check it is said again.
-                notes.meaning = "";
-            }
-            statements.push(match step {
+            let statement = match step {
                 Step::Let(value) => self.let_statement(*value, &mut calls, &mut notes),
-                _ if self.checks == Checks::Gathered => TokenStream::new(),
+                _ if self.checks == Checks::Gathered => continue,
                 Step::Check { guard, weaker, .. } => self.check(guard, weaker.as_ref()),
                 Step::FiniteInput(value) => {
                     let name = self.value(*value);
@@ -388,7 +384,12 @@ impl<'a> Body<'a> {
                     quote!(if !#name.is_finite() { return Err(Error::NotFinite { what: #text }); })
                 }
                 Step::FiniteResults(checked) => self.finite_results(checked),
-            });
+            };
+            if !matches!(step, Step::Let(_)) {
+                // Behind a check it is said again.
+                notes.meaning = "";
+            }
+            statements.push(statement);
         }
         statements.retain(|statement| !statement.is_empty());
         (statements, self)

@@ -9,18 +9,17 @@
 //! ```
 
 use super::cycles::Chain;
-use super::{Closing, DrivenSlide, Loop, Shape, Writing, dimension};
+use super::{Closing, DrivenSlide, Loop, Shape, Writing};
 
 /// A loop that its slide drives. `None` if it closes at no travel.
 pub(super) fn of(chain: &Chain<'_>, closing: &Closing<'_>) -> Option<Loop> {
-    let writing = Writing::new(chain, closing);
     let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
     let dimensions = [
         ("r₁", chain.distance_name([1, 2])),
         ("r₂", chain.distance_name([3, 2])),
         ("c", format!("offset of {} from {} across the slide", joint(1), joint(3))),
     ];
-    writing.begin(&dimensions);
+    let writing = Writing::new(chain, closing, &dimensions);
     let [r1, r2] = [(1, "r1"), (2, "r2")].map(|(body, symbol)| writing.length(body, symbol));
     let slide = &chain.hinges[0];
     let behind = slide.sides[1].to(chain.hinges[1].sides[0]);
@@ -46,8 +45,7 @@ pub(super) fn of(chain: &Chain<'_>, closing: &Closing<'_>) -> Option<Loop> {
         names[1],
         names[2]
     );
-    let dimensions = dimensions.iter().zip([r1, r2, c]).map(|(of, value)| dimension(of, value));
     let meaning = format!("x, from {} to {} along the slide,", joint(3), joint(1));
     let origin = writing.origin(meaning, phase);
-    Some(writing.of(title, dimensions.collect(), origin, Shape::DrivenSlide(shape)))
+    Some(writing.of(title, &[r1, r2, c], origin, Shape::DrivenSlide(shape)))
 }

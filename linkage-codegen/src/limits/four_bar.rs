@@ -22,16 +22,15 @@
 //! ```
 
 use super::cycles::Chain;
-use super::{Closing, Extreme, FourBar, Loop, Possible, Posture, Shape, Stroke, Turning, Writing, dimension};
+use super::{Closing, Extreme, FourBar, Loop, Possible, Posture, Shape, Stroke, Turning, Writing};
 use crate::graph::Expr;
 
 /// A loop of four pins; `sense` is 1 if the outer pin on the crank, that on the frame and the inner pin follow each other counter-clockwise.
 /// `None` if it closes at no angle.
 pub(super) fn of(chain: &Chain<'_>, sense: i64, closing: &Closing<'_>) -> Option<Loop> {
-    let writing = Writing::new(chain, closing);
     let dimensions = [("g", [0, 3]), ("a", [0, 1]), ("h", [1, 2]), ("b", [3, 2])];
     let dimensions = dimensions.map(|(symbol, ends)| (symbol, chain.distance_name(ends)));
-    writing.begin(&dimensions);
+    let writing = Writing::new(chain, closing, &dimensions);
     let lengths = [(0, "a"), (1, "h"), (2, "b"), (3, "g")];
     let [a, h, b, g] = lengths.map(|(body, symbol)| writing.length(body, symbol));
     let sum = writing.named(g + a + h + b, "sum", "Σ = g + a + h + b");
@@ -120,10 +119,9 @@ pub(super) fn of(chain: &Chain<'_>, sense: i64, closing: &Closing<'_>) -> Option
         names[2],
         names[3]
     );
-    let dimensions = dimensions.iter().zip([g, a, h, b]).map(|(of, value)| dimension(of, value));
     let lines = [[0, 3], [0, 1]].map(|[from, to]| format!("the line {} {}", joint(from), joint(to)));
     let origin = writing.origin(format!("ψ, from {} to {},", lines[0], lines[1]), phase);
-    Some(writing.of(title, dimensions.collect(), origin, Shape::FourBar(shape)))
+    Some(writing.of(title, &[g, a, h, b], origin, Shape::FourBar(shape)))
 }
 
 /// T₁, T₂, T₃.

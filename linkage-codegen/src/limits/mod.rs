@@ -222,7 +222,6 @@ impl Limits {
         let mut loops = Vec::new();
         for (_, chain) in driven(model, topology) {
             for closing in Closing::all(&chain) {
-                model.graph.begin_section(format!("{SECTION} {}", closing.name));
                 loops.extend(found(&chain, &closing).filter(|_| names.insert(closing.name.clone())));
             }
         }
@@ -369,18 +368,17 @@ struct Writing<'m> {
     name: String,
     /// The joint at which it is assembled.
     joint: JointId,
+    /// Its dimensions, each as its symbol and what that is.
+    dimensions: Vec<String>,
 }
 
 impl<'m> Writing<'m> {
-    fn new(chain: &Chain<'m>, closing: &Closing<'_>) -> Self {
-        let joint = closing.closure.joint;
-        Self { chain: chain.clone(), graph: &chain.model.graph, name: closing.name.clone(), joint }
-    }
-
-    /// From here on the symbols of these dimensions are written.
-    fn begin(&self, dimensions: &[(&str, String)]) {
-        let all: Vec<String> = dimensions.iter().map(|(symbol, name)| format!("{symbol} = {name}")).collect();
-        self.graph.begin_section(format!("{SECTION} {}: {}", self.name, all.join(", ")));
+    /// From here on its formulas are written, with the symbols of these dimensions.
+    fn new(chain: &Chain<'m>, closing: &Closing<'_>, dimensions: &[(&str, String)]) -> Self {
+        let (graph, name, joint) = (&chain.model.graph, closing.name.clone(), closing.closure.joint);
+        let dimensions: Vec<String> = dimensions.iter().map(|(symbol, name)| format!("{symbol} = {name}")).collect();
+        graph.begin_section(format!("{SECTION} {name}: {}", dimensions.join(", ")));
+        Self { chain: chain.clone(), graph, name, joint, dimensions }
     }
 
     /// The length of a body, under a name; of one that depends on parameters it is checked when they are given.
@@ -470,11 +468,12 @@ impl<'m> Writing<'m> {
         Origin { meaning, forwards: self.chain.hinges[0].forwards, phase: phase.id() }
     }
 
-    fn of(&self, title: String, dimensions: Vec<(String, NodeId)>, origin: Origin, shape: Shape) -> Loop {
+    fn of(&self, title: String, dimensions: &[Expr<'m>], origin: Origin, shape: Shape) -> Loop {
+        let dimensions = self.dimensions.iter().zip(dimensions);
         Loop {
             name: self.name.clone(),
             title,
-            dimensions,
+            dimensions: dimensions.map(|(text, value)| (text.clone(), value.id())).collect(),
             driver: self.chain.hinges[0].joint,
             coordinate: self.coordinate_name(),
             between: self.between(),
@@ -483,11 +482,6 @@ impl<'m> Writing<'m> {
             known: None,
         }
     }
-}
-
-/// A length with its symbol.
-fn dimension((symbol, name): &(&str, String), value: Expr<'_>) -> (String, NodeId) {
-    (format!("{symbol} = {name}"), value.id())
 }
 
 impl Turning {

@@ -24,23 +24,20 @@
 //! ```
 
 use super::cycles::Chain;
-use super::{
-    Closing, Extreme, Inversion, Loop, Possible, Posture, Shape, SliderCrank, Stroke, Turning, Writing, dimension,
-};
+use super::{Closing, Extreme, Inversion, Loop, Possible, Posture, Shape, SliderCrank, Stroke, Turning, Writing};
 use crate::graph::Expr;
 use crate::graph::number::Number;
 
 /// A loop with its slide on the frame; `ahead` is 1 if the pin on the slider lies ahead of the crank's pin. `None` if it closes at no angle.
 pub(super) fn of(chain: &Chain<'_>, ahead: i64, inversion: Inversion, closing: &Closing<'_>) -> Option<Loop> {
-    let writing = Writing::new(chain, closing);
-    let graph = writing.graph;
     let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
     let dimensions = [
         ("a", chain.distance_name([0, 1])),
         ("r", chain.distance_name([1, 2])),
         ("c", format!("eccentricity of {} from {}", joint(2), joint(0))),
     ];
-    writing.begin(&dimensions);
+    let writing = Writing::new(chain, closing, &dimensions);
+    let graph = writing.graph;
     let [a, r] = [(0, "a"), (1, "r")].map(|(body, symbol)| writing.length(body, symbol));
     let slide = &chain.hinges[3];
     let on_frame = slide.sides[1].to(chain.hinges[0].sides[0]);
@@ -116,10 +113,9 @@ pub(super) fn of(chain: &Chain<'_>, ahead: i64, inversion: Inversion, closing: &
         ]),
     };
     let title = title(&writing, inversion);
-    let dimensions = dimensions.iter().zip([a, r, c]).map(|(of, value)| dimension(of, value));
     let meaning = format!("χ, from the direction of the slide {} to the line {} {},", joint(3), joint(0), joint(1));
     let origin = writing.origin(meaning, phase);
-    Some(writing.of(title, dimensions.collect(), origin, Shape::SliderCrank(shape)))
+    Some(writing.of(title, &[a, r, c], origin, Shape::SliderCrank(shape)))
 }
 
 /// What a loop with its slide beside the driver is.
@@ -138,14 +134,13 @@ fn title(writing: &Writing<'_>, inversion: Inversion) -> String {
 
 /// A loop with its slide opposite to the driver; `ahead` is 1 if the output's pin lies ahead of the crank's. `None` if it closes at no angle.
 pub(super) fn inverted(chain: &Chain<'_>, ahead: i64, closing: &Closing<'_>) -> Option<Loop> {
-    let writing = Writing::new(chain, closing);
     let joint = |hinge: usize| chain.hinge_name(hinge).to_owned();
     let dimensions = [
         ("g", chain.distance_name([0, 3])),
         ("a", chain.distance_name([0, 1])),
         ("h", format!("offset of {} from the line of the slide through {}", joint(3), joint(1))),
     ];
-    writing.begin(&dimensions);
+    let writing = Writing::new(chain, closing, &dimensions);
     let [a, g] = [(0, "a"), (3, "g")].map(|(body, symbol)| writing.length(body, symbol));
     let slide = &chain.hinges[2];
     let on_crank = slide.sides[0].to(chain.hinges[1].sides[1]);
@@ -198,8 +193,7 @@ pub(super) fn inverted(chain: &Chain<'_>, ahead: i64, closing: &Closing<'_>) -> 
         names[2],
         names[3]
     );
-    let dimensions = dimensions.iter().zip([g, a, h]).map(|(of, value)| dimension(of, value));
     let lines = [[0, 3], [0, 1]].map(|[from, to]| format!("the line {} {}", joint(from), joint(to)));
     let origin = writing.origin(format!("ψ, from {} to {},", lines[0], lines[1]), phase);
-    Some(writing.of(title, dimensions.collect(), origin, Shape::SliderCrank(shape)))
+    Some(writing.of(title, &[g, a, h], origin, Shape::SliderCrank(shape)))
 }

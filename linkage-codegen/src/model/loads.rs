@@ -200,12 +200,7 @@ fn kind(scope: Scope<'_>, given: &ast::Load, id: LoadId, sink: &Sink) -> Result<
                     from.place().to(on.place()),
                     format!("a torsion spring on `{on}` by itself"),
                 )
-                .help(match scope.model.moving_links().next() {
-                    Some(link) if on.text == "ground" => {
-                        format!("say on which other link it acts: `torsion(ground -> {})`", scope.model.link(link).name)
-                    }
-                    _ => format!("say which other link reacts it: `torsion(ground -> {on})`"),
-                }));
+                .help(super::motion::between_links(scope.model, "torsion", on, "reacts it")));
             }
             let Some([from, on]) = links.map(|(from, on)| [from, on].map(LinkId::new)) else { return Ok(None) };
             let known = scope.model.driven_angle(from, on).is_some();

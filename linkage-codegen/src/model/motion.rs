@@ -184,6 +184,16 @@ fn count(n: usize, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
+/// What to write in place of a torque or a torsion spring of a link on itself.
+pub(super) fn between_links(model: &Model, word: &str, on: &Name, acts: &str) -> String {
+    match model.moving_links().next() {
+        Some(link) if on.text == "ground" => {
+            format!("say on which other link it acts: `{word}(ground -> {})`", model.link(link).name)
+        }
+        _ => format!("say which other link {acts}: `{word}(ground -> {on})`"),
+    }
+}
+
 fn effort(scope: Scope<'_>, unknown: &ast::Unknown) -> Result<UnknownKind, Diagnostic> {
     let nothing = UnknownKind::Torque(GROUND, GROUND);
     match &unknown.effort {
@@ -193,14 +203,12 @@ fn effort(scope: Scope<'_>, unknown: &ast::Unknown) -> Result<UnknownKind, Diagn
             };
             if a == b {
                 let problem = format!("a torque on `{to}` by itself");
-                let help = match scope.model.moving_links().next() {
-                    Some(link) if a == GROUND.index() => {
-                        let link = &scope.model.link(link).name;
-                        format!("say on which other link it acts: `torque(ground -> {link})`")
-                    }
-                    _ => format!("say which other link it comes from: `torque(ground -> {to})`"),
-                };
-                return Err(Diagnostic::new(from.place().to(to.place()), problem).help(help));
+                return Err(Diagnostic::new(from.place().to(to.place()), problem).help(between_links(
+                    scope.model,
+                    "torque",
+                    to,
+                    "it comes from",
+                )));
             }
             Ok(UnknownKind::Torque(LinkId::new(a), LinkId::new(b)))
         }
@@ -222,12 +230,11 @@ fn effort(scope: Scope<'_>, unknown: &ast::Unknown) -> Result<UnknownKind, Diagn
         }
         Effort::Thrust(ends) => Ok(two_points(scope, ends)?.map_or(nothing, UnknownKind::Thrust)),
         Effort::Drive(drive) => {
-            let joint = scope.names.entry(&drive.text).filter(|entry| entry.role == Role::Joint);
-            let driven = |own: &&Drive| joint.is_some_and(|joint| own.joint.index() == joint.index);
-            if let Some(own) = scope.model.drives.iter().find(driven) {
-                let problem = format!("`{drive}` is a joint, and a drive is needed here");
-                return Err(Diagnostic::new(drive.place(), problem)
-                    .help(format!("it is driven by `{0}`: write `effort({0})`", own.name)));
+            if let Some(joint) = scope.names.entry(&drive.text).filter(|entry| entry.role == Role::Joint)
+                && let Some(own) = scope.model.drives.iter().find(|own| own.joint.index() == joint.index)
+            {
+                let help = format!("it is driven by `{0}`: write `effort({0})`", own.name);
+                return Err(joint.instead_of(Role::Drive, drive).help(help));
             }
             let Some(id) = scope.names.find(Role::Drive, drive)?.map(DriveId::new) else { return Ok(nothing) };
             let taken = |unknown: &&Unknown| matches!(unknown.kind, UnknownKind::Drive(own) if own == id);

@@ -49,6 +49,14 @@ pub(super) struct Entry {
     pub(super) sound: bool,
 }
 
+impl Entry {
+    /// That another role is needed where its name is written.
+    pub(super) fn instead_of(&self, role: Role, name: &Name) -> Diagnostic {
+        let problem = format!("`{name}` is {}, and {} is needed here", self.role.describe(), role.describe());
+        Diagnostic::new(name.place(), problem)
+    }
+}
+
 /// The names of all items.
 pub(super) struct Names {
     entries: BTreeMap<String, Entry>,
@@ -197,11 +205,7 @@ impl Names {
             Some(entry) if entry.role == Role::Broken || entry.role == role && !entry.sound => Ok(None),
             Some(entry) if entry.role == role => Ok(Some(entry.index)),
             None if self.nameless.iter().any(|other| *other == role || *other == Role::Broken) => Ok(None),
-            Some(entry) => Err(Diagnostic::new(
-                name.place(),
-                format!("`{name}` is {}, and {} is needed here", entry.role.describe(), role.describe()),
-            )
-            .suggest(&name.text, self.of(role))),
+            Some(entry) => Err(entry.instead_of(role, name).suggest(&name.text, self.of(role))),
             None => Err(Diagnostic::new(name.place(), format!("there is no {} `{name}`", role.noun()))
                 .suggest(&name.text, self.of(role))),
         }

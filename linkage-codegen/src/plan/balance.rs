@@ -10,7 +10,7 @@ use super::placement::Placement;
 use super::reactions;
 use crate::equations::joints::Component;
 use crate::equations::loads::Action;
-use crate::graph::{Expr, Graph, Vector};
+use crate::graph::{Expr, Graph, Op, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
 use crate::model::{End, JointKind, Model};
 
@@ -380,6 +380,15 @@ impl<'m, 'p> Balance<'m, 'p> {
     #[must_use]
     pub fn name(&self, name: &str) -> String {
         format!("{}{name}", self.prefix)
+    }
+
+    /// What a quantity of this case is called in an equation: its name, or words where it has no line of its own, a number or what is given.
+    #[must_use]
+    pub fn called(&self, quantity: Expr<'m>, name: &str, words: &str) -> String {
+        match quantity.op() {
+            Op::Constant(_) | Op::Symbol(_) => format!("({words})"),
+            _ => self.name(name),
+        }
     }
 
     /// The end of a joint on a link.

@@ -37,7 +37,7 @@ pub(super) struct HalfAngle<'m> {
     /// The constant part of ψ.
     pub phase: Number,
     /// The name of the drive.
-    name: &'m str,
+    pub name: &'m str,
     /// What a and b are, as text.
     pub lengths: String,
 }

@@ -738,3 +738,12 @@ impl<'a> Dyad<'a> {
         placement.way(leg.near, leg.tip)
     }
 }
+
+/// `(a − b)` as text, without a term that is zero.
+pub(super) fn difference([(first, a), (second, b)]: [(Expr<'_>, String); 2]) -> String {
+    match (first.is_zero(), second.is_zero()) {
+        (false, false) => format!("({a} − {b})"),
+        (_, true) => a,
+        (true, false) => format!("−{b}"),
+    }
+}

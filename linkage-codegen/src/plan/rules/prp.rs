@@ -16,7 +16,7 @@
 //! Velocities: the pin has that of the place on the first guide, and `ṡ₁ = ((c₂ − c₁) × e₂)/(e₁ × e₂)` along e₁, with c the velocities
 //! of the places on the guides.
 
-use super::dyad::{Dyad, dyad};
+use super::dyad::{Dyad, difference, dyad};
 use super::travels::count;
 use super::{Rule, RuleResult};
 use crate::graph::Vector;
@@ -98,15 +98,15 @@ impl Rule for Prp {
         let [one, two] = [first, second].map(|leg| balance.placement.slide_direction(leg.outer));
         let loads = first.total(balance).along(one);
         let [along_first, along_second] =
-            [first, second].map(|leg| balance.name(&format!("{pin}_along_{}", dyad.joint_name(leg.outer))));
+            [first, second].map(|leg| format!("{pin}_along_{}", dyad.joint_name(leg.outer)));
         let (link, other) = (dyad.link_name(first), dyad.link_name(second));
         let (slide, its) = (dyad.joint_name(first.outer), dyad.joint_name(second.outer));
         let of_force = format!("of the force on {link} at {pin}");
         let meaning = format!("along {slide}, {of_force}: −ΣF of its loads");
-        let own = (-loads.x).named(along_first.as_str(), meaning);
+        let own = (-loads.x).named(balance.name(&along_first), meaning);
         let needed = second.total(balance).along(two).x;
         let meaning = format!("along {its}, {of_force}: ΣF of the loads on {other}");
-        let needed = needed.named(along_second.as_str(), meaning);
+        let needed = needed.named(balance.name(&along_second), meaning);
         let across = if own.is_zero() && needed.is_zero() {
             balance.graph().zero()
         } else {
@@ -117,11 +117,9 @@ impl Rule for Prp {
                 &dyad.pivot_name(),
                 &dyad.group_name(),
             );
-            let terms = match (own.is_zero(), needed.is_zero()) {
-                (false, false) => format!("({along_second} − {along_first} (e₁·e₂))"),
-                (false, true) => format!("−{along_first} (e₁·e₂)"),
-                (true, _) => along_second,
-            };
+            let own_name = balance.called(own, &along_first, &format!("−ΣF of the loads on {link} along {slide}"));
+            let its_name = balance.called(needed, &along_second, &format!("ΣF of the loads on {other} along {its}"));
+            let terms = difference([(needed, its_name), (own, format!("{own_name} (e₁·e₂)"))]);
             ((needed - own * cosine) / sine).named(
                 balance.name(&format!("{pin}_across_{slide}")),
                 format!("across {slide}, {of_force}: {terms}/{}, e₁ along {slide}, e₂ along {its}", dyad.pivot_name()),

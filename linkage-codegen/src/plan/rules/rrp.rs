@@ -13,11 +13,11 @@
 //! `p e + f n`, `p = e·W`, and with `t = −m/r` across the link `f = (t − p (u × e))/(u·e)`. The guide exerts `N = f − n·W` across
 //! the slide. `u·e = h/r` is the pivot: sin μ, with μ the angle between the link and the normal of the slide.
 
-use super::dyad::{Dyad, dyad, towards_unit};
+use super::dyad::{Dyad, difference, dyad, towards_unit};
 use super::travels::count;
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
-use crate::graph::{Expr, Failure, Op, Vector};
+use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::JointId;
 use crate::model::{Model, Side};
 use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Pivot, Sign};
@@ -81,19 +81,11 @@ impl Rule for Rrp {
         } else {
             let cosine = balance.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
             let needed = across - along_slide * balance.pivots.sine(u, e);
-            // What has no line of its own is said in words.
-            let called = |part: Expr<'_>, name: &str, words: String| match part.op() {
-                Op::Constant(_) | Op::Symbol(_) => format!("({words})"),
-                _ => balance.name(&format!("{inner}_{name}")),
-            };
             let moment = format!("−ΣM({outer})/|{outer} {inner}| of the loads on {rod}");
-            let across_rod = called(across, &format!("across_{rod}"), moment);
-            let along = called(along_slide, "along_slide", format!("ΣF of the loads on {slider} along the slide"));
-            let terms = match (across.is_zero(), along_slide.is_zero()) {
-                (false, false) => format!("({across_rod} − {along} (u × e))"),
-                (false, true) => across_rod,
-                (true, _) => format!("−{along} (u × e)"),
-            };
+            let across_rod = balance.called(across, &format!("{inner}_across_{rod}"), &moment);
+            let force = format!("ΣF of the loads on {slider} along the slide");
+            let along = balance.called(along_slide, &format!("{inner}_along_slide"), &force);
+            let terms = difference([(across, across_rod), (along_slide, format!("{along} (u × e)"))]);
             (needed / cosine).named(
                 balance.name(&format!("{inner}_across_slide")),
                 format!("across the slide, {of_force}: {terms}/sin μ, u along {rod}, e along the slide"),

@@ -28,11 +28,11 @@ mod by_half_angle;
 
 use by_half_angle::{by_half_angle, half_angle, not_folding};
 
-use super::dyad::{Dyad, Leg, dyad};
+use super::dyad::{Dyad, Leg, difference, dyad};
 use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
-use crate::graph::{Expr, Failure, Op, Scalar, Vector};
+use crate::graph::{Expr, Failure, Scalar, Vector};
 use crate::model::{Closure, End, Model, Side};
 use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Pivot, Sign};
 use crate::plan::balance::Balance;
@@ -87,7 +87,7 @@ impl<'a> Dyad<'a> {
 
     fn sum_name(&self) -> String {
         let [first, second] = self.legs.each_ref().map(|leg| self.length_name(leg));
-        format!("({first} + {second})")
+        format!("{first} + {second}")
     }
 
     /// `2 r₁ r₂` as text.
@@ -98,7 +98,7 @@ impl<'a> Dyad<'a> {
 
     fn difference_name(&self) -> String {
         let [first, second] = self.legs.each_ref().map(|leg| self.length_name(leg));
-        format!("({first} − {second})")
+        format!("{first} − {second}")
     }
 
     /// `±(D² + r² − r'²)` of a leg r, over a divisor given as text: positive where it goes along d, from the first outer pin to the second.
@@ -197,11 +197,12 @@ fn inner_force<'m>(balance: &Balance<'m, '_>, dyad: &Dyad<'m>, [across, needed]:
     let [u1, u2] = dyad.legs.each_ref().map(|leg| dyad.direction(balance.placement, leg));
     let (inner, [link, other]) = (dyad.joint_name(dyad.inner), dyad.legs.each_ref().map(|leg| dyad.link_name(leg)));
     let of_force = format!("of the force on {link} at {inner}");
-    // What has no line of its own is said in words.
-    let called = |part: Expr<'m>, link: &str| match part.op() {
-        Op::Constant(_) | Op::Symbol(_) => format!("(what the loads on {link} make of it across {link})"),
-        _ => balance.name(&format!("{inner}_across_{link}")),
+    let called = |part: Expr<'m>, leg: &Leg, sign: &str| {
+        let (link, outer) = (dyad.link_name(leg), dyad.joint_name(leg.outer));
+        let words = format!("{sign}ΣM({outer})/|{outer} {inner}| of the loads on {link}");
+        balance.called(part, &format!("{inner}_across_{link}"), &words)
     };
+    let [across_name, needed_name] = [called(across, first, "−"), called(needed, &dyad.legs[1], "")];
     let zero = balance.graph().zero();
     if across.is_zero() && needed.is_zero() {
         return Framed { components: Vector::new(zero, zero), axes: u1 };
@@ -211,7 +212,7 @@ fn inner_force<'m>(balance: &Balance<'m, '_>, dyad: &Dyad<'m>, [across, needed]:
         // Nothing turns the second link: the force goes along it.
         let along = (across / sine).named(
             balance.name(&format!("{inner}_along_{other}")),
-            format!("along {other}, {of_force}, as nothing turns {other}: {}/sin μ", called(across, &link)),
+            format!("along {other}, {of_force}, as nothing turns {other}: {across_name}/sin μ"),
         );
         return Framed { components: Vector::new(along, zero), axes: u2 };
     }
@@ -225,13 +226,9 @@ fn inner_force<'m>(balance: &Balance<'m, '_>, dyad: &Dyad<'m>, [across, needed]:
     } else {
         part / sine
     };
-    let terms = match (across.is_zero(), needed.is_zero()) {
-        (false, false) => format!("({} cos μ − {})/sin μ", called(across, &link), called(needed, &other)),
-        (false, true) => format!("{} cos μ/sin μ", called(across, &link)),
-        (true, _) => format!("−{}/sin μ", called(needed, &other)),
-    };
+    let terms = difference([(across, format!("{across_name} cos μ")), (needed, needed_name)]);
     let along =
-        along.named(balance.name(&format!("{inner}_along_{link}")), format!("along {link}, {of_force}: {terms}"));
+        along.named(balance.name(&format!("{inner}_along_{link}")), format!("along {link}, {of_force}: {terms}/sin μ"));
     Framed { components: Vector::new(along, across), axes: u1 }
 }
 
@@ -463,8 +460,9 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let (s, m) = (r1 + r2, (r1 - r2).abs());
     let d = way.vector().named(&format!("d_{joint}"), &dyad.separation_meaning());
     let d2 = d.squared().named(format!("D2_{joint}"), "d·d");
-    let p = (s.squared() - d2).named(format!("p_{joint}"), format!("{}² − D2_{joint}", dyad.sum_name()));
-    let q = (d2 - m.squared()).named(format!("q_{joint}"), format!("D2_{joint} − {}²", dyad.difference_name()));
+    let (sum_name, difference_name) = (dyad.sum_name(), dyad.difference_name());
+    let p = (s.squared() - d2).named(format!("p_{joint}"), format!("({sum_name})² − D2_{joint}"));
+    let q = (d2 - m.squared()).named(format!("q_{joint}"), format!("D2_{joint} − ({difference_name})²"));
     // Near p = 0, D is near S, and near q = 0 it is near M; d is rounded to the length of its way, and so are lengths that drives give.
     let length = dyad.legs.iter().fold(way.length(), |sum, leg| sum + dyad.slack(leg));
     let (least, most) = reach(way);
@@ -474,8 +472,6 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
             format!("what rounding makes of {of}_{joint} = 0: {size}, Λ the lengths that make up d and driven legs");
         value.named(format!("rounding_{of}_{joint}"), meaning)
     };
-    let plain = |name: String| name.trim_matches(['(', ')']).to_owned();
-    let (sum_name, difference_name) = (plain(dyad.sum_name()), plain(dyad.difference_name()));
     let (p, p_rounding) = if never(most.map(|most| s - most)) {
         (p.known_positive(), graph.zero())
     } else {

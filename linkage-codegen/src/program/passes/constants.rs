@@ -229,16 +229,8 @@ impl Merging<'_> {
 
     /// A constant, or a constant multiple that nothing else reads, times `k`.
     fn rescaled(&mut self, before: ValueId, k: &Number, term: ValueId) -> Option<ValueId> {
-        if let Some(constant) = self.constant(term) {
-            return Some(self.number(before, &k.mul(&constant)));
-        }
-        if !self.is_inner(term) {
-            return None;
-        }
-        let (inner, rest) = self.scaled(term)?;
-        let product = k.mul(&inner);
-        let factor = self.number(before, &product);
-        Some(self.add(before, Op::Mul(factor, rest)))
+        let takes = self.constant(term).is_some() || self.is_inner(term) && self.scaled(term).is_some();
+        takes.then(|| self.factor(before, k, term))
     }
 
     /// Multiplies the constant of a product into those that its other factor has.

@@ -120,9 +120,13 @@ impl<'a, 'm> Opening<'a, 'm> {
         let theta = graph.symbol(Symbol::Drive(arms.drive)).abs();
         let fixed = graph.constant(&arms.phase.abs().add(&Number::one()));
         let rounding = graph.epsilons(2) * (theta + fixed);
-        let drive = &dyad.model.drive(arms.drive).name;
-        let phase = if arms.phase.is_zero() { "" } else { " + |ψ₀|" };
-        let meaning = format!("what rounding makes of ψ at a fold: 2ε (|{drive}|{phase} + 1)");
+        let name = arms.name;
+        let size = if arms.phase.is_zero() {
+            format!("2ε (|{name}| + 1)")
+        } else {
+            format!("2ε (|{name}| + |ψ₀| + 1), ψ₀ = ψ at {name} = 0")
+        };
+        let meaning = format!("what rounding makes of ψ at a fold: {size}");
         let rounding = rounding.named(format!("rounding_psi_{joint}"), meaning);
         let apart = arms.b - arms.a;
         let d2 = (apart.squared() / area + spread)
@@ -146,18 +150,18 @@ impl<'a, 'm> Opening<'a, 'm> {
         let p = if self.p_by_half {
             let (divisor, divided) = self.divisor(kp.is_zero(), kq.is_zero());
             let p = Margin::by_half(kp, self.span, c.squared(), divisor);
-            p.named(format!("p_{joint}"), format!("({sum}² − d·d){divided}, by cos²(ψ/2)"))
+            p.named(format!("p_{joint}"), format!("(({sum})² − d·d){divided}, by cos²(ψ/2)"))
         } else {
             let p = Margin::by_distance((r1 + r2).squared() - d2, r1 + r2);
-            p.named(format!("p_{joint}"), format!("{sum}² − D2_{joint}"))
+            p.named(format!("p_{joint}"), format!("({sum})² − D2_{joint}"))
         };
         let q = if kq.value().is_some() {
             let (divisor, divided) = self.divisor(kq.is_zero(), p.folds);
             let q = Margin::by_half(kq, self.span, self.arms.sine_squared(), divisor);
-            q.named(format!("q_{joint}"), format!("(d·d − {difference}²){divided}, by sin²(ψ/2)"))
+            q.named(format!("q_{joint}"), format!("(d·d − ({difference})²){divided}, by sin²(ψ/2)"))
         } else {
             let q = Margin::by_distance(d2 - (r1 - r2).squared(), r1 + r2);
-            q.named(format!("q_{joint}"), format!("D2_{joint} − {difference}²"))
+            q.named(format!("q_{joint}"), format!("D2_{joint} − ({difference})²"))
         };
         [p, q]
     }
