@@ -202,10 +202,10 @@ fn derivatives_cost_nothing_elsewhere_and_share_what_they_have_in_common() {
     let [torque, both, slope, linear] =
         ["torque", "both", "slope", "linear"].map(|scene| program(&with, scene).counts());
     assert_eq!([torque.sin_cos, torque.sqrt, torque.div], [both.sin_cos, both.sqrt, both.div]);
-    // Together they take less than one by one, and all three less than the torque at the ends of two differences.
+    // Together they take less than one by one, and all three less than differences, for which the torque is found four times.
     let work = |counts: Counts| counts.add + counts.mul;
     assert!(work(both) < work(slope) + work(linear), "{both}, {slope}, {linear}");
-    assert!(work(both) < 2 * work(torque), "{both}, {torque}");
+    assert!(work(both) < 3 * work(torque), "{both}, {torque}");
     // A load on the crank alone reaches no pin of the dyad.
     let far = program(&with, "far").outputs.iter().map(|(path, _)| path.clone());
     assert!(far.clone().any(|path| path == "F12.x.T12") && far.clone().any(|path| path == "F12.y.B.x"));
@@ -451,14 +451,16 @@ impl<'a> Unrelated<'a> {
 }
 
 /// No value is computed of which nothing is left in any result, because its terms cancel; but for functions with bounds of rounding
-/// errors, which are made of residuals, and for an arm whose numbers happen to balance it.
+/// errors, which are made of residuals; for an arm whose numbers happen to balance it, and for scissors, whose pins are as far from each other
+/// on every stage.
 #[test]
 fn no_program_computes_what_cancels() {
     let mut looked_at = 0;
     for (name, linkage) in linkages() {
         for (function, program, graph) in programs(&linkage) {
             let has_bounds = program.outputs.iter().any(|(path, _)| path.contains("error_bound"));
-            if has_bounds || (name.as_str(), function.as_str()) == ("balanced_arm", "balanced_at") {
+            let happens = [("balanced_arm", "balanced_at"), ("scissor_lift", "held_at"), ("scissor_lift", "thrust_at")];
+            if has_bounds || happens.contains(&(name.as_str(), function.as_str())) {
                 continue;
             }
             let effects = [1, 2].map(|seed| Unrelated::of(program, graph, seed).with_effect());

@@ -378,11 +378,7 @@ impl<'a> Body<'a> {
                 Step::Let(value) => self.let_statement(*value, &mut calls, &mut notes),
                 _ if self.checks == Checks::Gathered => continue,
                 Step::Check { guard, weaker, .. } => self.check(guard, weaker.as_ref()),
-                Step::FiniteInput(value) => {
-                    let name = self.value(*value);
-                    let text = name.to_string();
-                    quote!(if !#name.is_finite() { return Err(Error::NotFinite { what: #text }); })
-                }
+                Step::FiniteInput(value) => self.finite_input(*value),
                 Step::FiniteResults(checked) => self.finite_results(checked),
             };
             if !matches!(step, Step::Let(_)) {
@@ -445,11 +441,18 @@ impl<'a> Body<'a> {
     }
 
     fn check(&self, guard: &Guard<ValueId>, weaker: Option<&Guard<ValueId>>) -> TokenStream {
-        let condition = self.condition(guard);
         if self.checks == Checks::Silent {
+            let condition = self.condition(guard);
             return quote!(if !(#condition) { return None; });
         }
-        let weaker = weaker.map(|weaker| self.check(weaker, None));
+        let weaker = weaker.map(|weaker| self.failing(weaker, &TokenStream::new()));
+        let late = self.asked_late();
+        self.failing(guard, &quote!(#late #weaker))
+    }
+
+    /// Where a condition does not hold: something else that is asked first, then its own failure.
+    fn failing(&self, guard: &Guard<ValueId>, first: &TokenStream) -> TokenStream {
+        let condition = self.condition(guard);
         let failure = match &guard.failure {
             Failure::CannotAssemble { group, joint, gap } => {
                 let gap = self.value(*gap);
@@ -468,7 +471,18 @@ impl<'a> Body<'a> {
             Failure::CoincidentEnds { of } => quote!(Error::CoincidentEnds { of: #of }),
             Failure::Parameter { requirement } => quote!(Error::Parameter { requirement: #requirement }),
         };
-        quote!(if !(#condition) { #weaker return Err(#failure); })
+        quote!(if !(#condition) { #first return Err(#failure); })
+    }
+
+    fn finite_input(&self, value: ValueId) -> TokenStream {
+        let name = self.value(value);
+        let text = name.to_string();
+        quote!(if !#name.is_finite() { return Err(Error::NotFinite { what: #text }); })
+    }
+
+    /// What is asked where something fails, before that is told.
+    fn asked_late(&self) -> TokenStream {
+        self.program.asked_late.iter().map(|value| self.finite_input(*value)).collect()
     }
 
     /// What is checked to be finite, as an array.
@@ -480,7 +494,8 @@ impl<'a> Body<'a> {
     fn finite_results(&self, checked: &[ValueId]) -> TokenStream {
         let values = self.finite(checked);
         let what = if self.program.reads_loads() { "a load or a result" } else { "a result" };
-        quote!(if !math::all_finite(#values) { return Err(Error::NotFinite { what: #what }); })
+        let late = self.asked_late();
+        quote!(if !math::all_finite(#values) { #late return Err(Error::NotFinite { what: #what }); })
     }
 }
 

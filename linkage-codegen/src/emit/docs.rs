@@ -170,12 +170,16 @@ fn errors(program: &Program) -> Vec<String> {
             all.push(line);
         }
     };
+    let not_finite = "* [`Error::NotFinite`]: a drive is not a finite number.";
+    if !program.asked_late.is_empty() {
+        add(not_finite.into());
+    }
     for step in &program.steps {
         match step {
             Step::Check { guard, weaker, .. } => {
                 weaker.iter().chain([guard]).for_each(|guard| add(of_failure(&guard.failure)));
             }
-            Step::FiniteInput(_) => add("* [`Error::NotFinite`]: a drive is not a finite number.".into()),
+            Step::FiniteInput(_) => add(not_finite.into()),
             Step::FiniteResults(_) => {
                 let read = match (program.reads_motion(), program.reads_loads()) {
                     (true, true) => "what is read of the rates and the loads is not finite, or ",

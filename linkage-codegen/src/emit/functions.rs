@@ -468,6 +468,7 @@ pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
 fn without_input_checks(program: &Program) -> Program {
     let mut program = program.clone();
     program.steps.retain(|step| !matches!(step, crate::program::Step::FiniteInput(_)));
+    program.asked_late.clear();
     program
 }
 

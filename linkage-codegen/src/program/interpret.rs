@@ -49,7 +49,9 @@ impl Run<'_> {
                     };
                     if fails(guard) {
                         let guard = weaker.as_ref().filter(|weaker| fails(weaker)).unwrap_or(guard);
-                        return Err(Fault::Failed(guard.failure.map(|_| ())));
+                        let mut late = self.program.asked_late.iter();
+                        let told = late.all(|value| self.value(*value, inputs, &mut values).is_finite());
+                        return Err(if told { Fault::Failed(guard.failure.map(|_| ())) } else { Fault::NotFinite });
                     }
                 }
                 Step::FiniteInput(value) => {

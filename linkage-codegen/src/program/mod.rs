@@ -20,7 +20,7 @@ pub use start::check_start;
 
 use core::iter;
 
-use crate::graph::{Guard, Label, NodeId, Op, Symbol};
+use crate::graph::{Component, Guard, Label, NodeId, Op, Symbol};
 
 /// A value of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -71,6 +71,8 @@ pub struct Value {
     pub section: String,
     /// Whether it is a quotient that is divided, whatever others have the same divisor.
     pub divided: bool,
+    /// What is known of it if it is a component of a link's direction.
+    pub component: Option<Component<ValueId>>,
 }
 
 /// A step of a program.
@@ -100,6 +102,9 @@ pub struct Program {
     pub values: Vec<Value>,
     /// What is done, in order. Inputs and constants need no step.
     pub steps: Vec<Step>,
+    /// Arguments that must be finite numbers, but are asked only where something fails, before what has failed is told: with others a result
+    /// that is checked is not finite.
+    pub asked_late: Vec<ValueId>,
     /// The results, each with its path.
     pub outputs: Vec<(String, ValueId)>,
 }

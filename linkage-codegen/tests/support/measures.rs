@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::general::{Coordinates, General, equations_at, residuals_at, solve_extended};
 use super::numbers::Extended;
-use super::{Arguments, Number, from_pose, index_of, pose};
+use super::{Arguments, Number, from_pose, index_of, pose, scene};
 
 /// The measures of the acceptance bars, in epsilons of the scalar.
 #[derive(Clone, Copy, Debug, Default)]
@@ -60,8 +60,8 @@ impl Measures {
     }
 }
 
-/// Measures a pose and the scenes `all` (equilibrium, all results) and `work` (virtual work, all results) from it. All loads are forces
-/// that are given at run time.
+/// Measures a pose and the scenes `all` (equilibrium, all results) and `work` (virtual work, all results) from it; of a single dyad also what
+/// the function of `all` that goes straight from the drives leaves of the equations there. All loads are forces that are given at run time.
 ///
 /// Residuals of forces are taken at the directions that the pose's vectors have, brought to unit size.
 pub fn measure<T: Number>(
@@ -80,11 +80,18 @@ pub fn measure<T: Number>(
     let closure = residuals_at(&here).iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs())) / (side * epsilon);
     let here = Coordinates::at(linkage, arguments, &normalised(linkage, &extended));
     let general = equations_at(&here);
+    let free_bodies_under = |solution: &[Extended]| -> Vec<FreeBody> {
+        linkage.model.moving_links().map(|link| free_body(&here, &general, solution, link)).collect()
+    };
     let solution = unknowns(linkage, &general, &all);
-    let backward = backward_error(linkage, &general, &solution, longest) / epsilon;
-    let bodies: Vec<FreeBody> =
-        linkage.model.moving_links().map(|link| free_body(&here, &general, &solution, link)).collect();
-    let free_body = free_bodies(linkage, &bodies) / epsilon;
+    let bodies = free_bodies_under(&solution);
+    let mut backward = backward_error(linkage, &general, &solution, longest) / epsilon;
+    let mut free_body = free_bodies(linkage, &bodies) / epsilon;
+    if is_single_dyad(linkage) {
+        let straight = unknowns(linkage, &general, &scene::<T>(linkage, "all", arguments)?);
+        backward = backward.max(backward_error(linkage, &general, &straight, longest) / epsilon);
+        free_body = free_body.max(free_bodies(linkage, &free_bodies_under(&straight)) / epsilon);
+    }
     // Where the unknown acts equilibrium takes its terms from, virtual work from the loads.
     let unknown = &linkage.model.unknowns[0];
     let held = match unknown.kind {
@@ -100,6 +107,16 @@ pub fn measure<T: Number>(
         });
     let torque = over((all[&unknown.name].to_f64() - work[&unknown.name].to_f64()).abs(), terms) / epsilon;
     Ok(Measures { unit, closure, backward, free_body, torque })
+}
+
+/// Whether a driven link moves one dyad, with a slide at most. Near a dead centre of others the function straight from the drives may have
+/// another pose, by as much as rounding makes of it there.
+fn is_single_dyad(linkage: &Linkage) -> bool {
+    let model = &linkage.model;
+    let kinds = || model.joint_ids().map(|joint| &model.joint(joint).kind);
+    let slides = kinds().filter(|kind| matches!(kind, JointKind::Prismatic { .. })).count();
+    let pins = kinds().filter(|kind| matches!(kind, JointKind::Revolute)).count();
+    linkage.topology.motion.len() == 2 && slides <= 1 && slides + pins == 4
 }
 
 /// The sides of the longest loop, at least four: a leg's, and those of the ways over links that are placed before.

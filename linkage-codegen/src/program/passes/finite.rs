@@ -2,7 +2,8 @@
 //! another one that is checked would not be finite either.
 //!
 //! What is infinite or no number stays so in sums, differences, products, roots, as dividend, and as argument of a sine or an angle; only
-//! as divisor or in a comparison can it be lost. So one check stands for all from which the value is formed in these ways.
+//! as divisor or in a comparison can it be lost. So one check stands for all from which the value is formed in these ways, arguments among
+//! them: which of these it was is asked only where something has failed.
 
 use std::collections::BTreeSet;
 
@@ -25,6 +26,25 @@ pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
     }
     steps.retain(|step| !matches!(step, Step::FiniteResults(checked) if checked.is_empty()));
     program.steps = steps;
+    program
+}
+
+/// An argument need not be asked where a checked result is not finite without it: the check of this result is made anyway.
+pub(super) fn ask_late(mut program: Program, _graph: &Graph) -> Program {
+    let checked = program.steps.iter().filter_map(|step| match step {
+        Step::FiniteResults(checked) => Some(checked),
+        _ => None,
+    });
+    let shown = program.shown_by(checked.flatten().copied());
+    let (mut steps, mut late) = (core::mem::take(&mut program.steps), core::mem::take(&mut program.asked_late));
+    steps.retain(|step| match step {
+        Step::FiniteInput(value) if shown.contains(value) => {
+            late.push(*value);
+            false
+        }
+        _ => true,
+    });
+    (program.steps, program.asked_late) = (steps, late);
     program
 }
 
