@@ -133,6 +133,11 @@ impl Program {
         })
     }
 
+    /// The values that are computed, in order.
+    pub fn computed(&self) -> impl Iterator<Item = ValueId> {
+        self.steps.iter().filter_map(|step| if let Step::Let(value) = step { Some(*value) } else { None })
+    }
+
     /// Whether any load is read.
     #[must_use]
     pub fn reads_loads(&self) -> bool {

@@ -14,8 +14,8 @@ use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn scale(mut program: Program, graph: &Graph) -> Program {
     let uses = program.uses();
-    let values = program.steps.iter().filter_map(|step| if let Step::Let(value) = step { Some(*value) } else { None });
-    let mut moments: Vec<Moment> = values.filter_map(|value| moment(&program, graph, &uses, value)).collect();
+    let mut moments: Vec<Moment> =
+        program.computed().filter_map(|value| moment(&program, graph, &uses, value)).collect();
     loop {
         let before = moments.len();
         let arms = arms(&moments);

@@ -13,12 +13,7 @@ pub(super) fn merge(program: Program, graph: &Graph) -> Program {
     let uses = program.uses();
     let reads = reads(&program);
     let mut merging = Merging { uses, reads, graph, before: BTreeMap::new(), program };
-    let order: Vec<ValueId> = merging
-        .program
-        .steps
-        .iter()
-        .filter_map(|step| if let Step::Let(value) = step { Some(*value) } else { None })
-        .collect();
+    let order: Vec<ValueId> = merging.program.computed().collect();
     for value in order {
         merging.value(value);
     }

@@ -8,7 +8,7 @@
 //!
 //! Not where rounding errors are counted, which would have to know of it.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::graph::number::Number;
 use crate::graph::{Component, Graph, Kernel, Label, Op};
@@ -68,21 +68,26 @@ struct Sizes<'a> {
     known: Vec<Option<i32>>,
     /// Sums of powers, each with its factor, that are zero.
     equations: Vec<Vec<(ValueId, i32)>>,
+    /// The equations in which each value is.
+    equations_of: Vec<Vec<usize>>,
+    /// Whether what is read as it is would be found in another size.
+    contradict: bool,
     program: &'a Program,
 }
 
 impl<'a> Sizes<'a> {
     fn of(program: &'a Program, graph: &Graph, direction: &Direction) -> Self {
-        let mut sizes = Self { known: vec![None; program.values.len()], equations: Vec::new(), program };
-        for (value, _) in program.inputs() {
-            sizes.known[value.index()] = Some(0);
+        let count = program.values.len();
+        let (known, equations_of) = (vec![None; count], vec![Vec::new(); count]);
+        let mut sizes = Self { known, equations: Vec::new(), equations_of, contradict: false, program };
+        for component in direction.arms.keys() {
+            sizes.known[component.index()] = Some(1);
         }
-        for (_, value) in &program.outputs {
-            sizes.fix(*value);
-        }
+        program.inputs().for_each(|(value, _)| sizes.fix(value));
+        program.outputs.iter().for_each(|(_, value)| sizes.fix(*value));
         for step in &program.steps {
             match step {
-                Step::Let(value) if direction.arms.contains_key(value) => sizes.known[value.index()] = Some(1),
+                Step::Let(value) if direction.arms.contains_key(value) => {}
                 Step::Let(value) => {
                     sizes.state(graph, *value);
                     // What is known of other directions goes on to hold.
@@ -103,87 +108,77 @@ impl<'a> Sizes<'a> {
 
     /// What is read as it is.
     fn fix(&mut self, value: ValueId) {
-        self.equations.push(vec![(value, 1)]);
+        self.contradict |= *self.known[value.index()].get_or_insert(0) != 0;
+    }
+
+    fn equate(&mut self, terms: Vec<(ValueId, i32)>) {
+        for (value, _) in &terms {
+            self.equations_of[value.index()].push(self.equations.len());
+        }
+        self.equations.push(terms);
     }
 
     fn state(&mut self, graph: &Graph, value: ValueId) {
         let program = self.program;
         let Some(op) = program.op(value) else { return };
         let is_constant = |value: ValueId| program.constant(graph, value).is_some();
-        let mut equal = |operands: &[ValueId]| {
-            for operand in operands.iter().filter(|operand| !is_constant(**operand)) {
-                self.equations.push(vec![(value, 1), (*operand, -1)]);
-            }
-        };
+        let is_computed = |value: &ValueId| !is_constant(*value);
         match *op {
             // A constant in it takes whatever is asked.
             Op::Constant(_) => {}
             Op::Mul(a, b) | Op::Div(a, b) if is_constant(a) || is_constant(b) => {}
-            Op::Mul(a, b) => self.equations.push(vec![(value, 1), (a, -1), (b, -1)]),
-            Op::Div(a, b) => self.equations.push(vec![(value, 1), (a, -1), (b, 1)]),
-            // An angle, and what is brought to unit size, are the same in all sizes.
-            Op::Kernel { kernel: Kernel::Atan2 | Kernel::Unit, ref args, .. } => {
-                self.fix(value);
-                if let [a, b] = args[..]
-                    && !is_constant(a)
-                    && !is_constant(b)
-                {
-                    self.equations.push(vec![(a, 1), (b, -1)]);
-                } else {
-                    args.iter().filter(|arg| !is_constant(**arg)).for_each(|arg| self.fix(*arg));
-                }
+            Op::Mul(a, b) => self.equate(vec![(value, 1), (a, -1), (b, -1)]),
+            Op::Div(a, b) => self.equate(vec![(value, 1), (a, -1), (b, 1)]),
+            Op::Neg(_) | Op::Abs(_) | Op::NonNegative(_) | Op::Add(..) | Op::Sub(..) => {
+                op.operands().into_iter().filter(is_computed).for_each(|a| self.equate(vec![(value, 1), (a, -1)]));
             }
-            Op::Neg(a) | Op::Abs(a) | Op::NonNegative(a) => equal(&[a]),
-            Op::Add(a, b) | Op::Sub(a, b) => equal(&[a, b]),
-            _ => op.operands().into_iter().chain([value]).for_each(|value| {
-                if !is_constant(value) {
-                    self.fix(value);
-                }
-            }),
+            // An angle, and what is brought to unit size, are the same in all sizes of both components.
+            Op::Kernel { kernel: Kernel::Atan2 | Kernel::Unit, ref args, .. } if args.iter().all(is_computed) => {
+                self.fix(value);
+                args.windows(2).for_each(|pair| self.equate(vec![(pair[0], 1), (pair[1], -1)]));
+            }
+            _ => op.operands().into_iter().filter(is_computed).chain([value]).for_each(|value| self.fix(value)),
         }
     }
 
     /// The powers, if there are any that fulfil all equations. What these leave open stays as it is.
     fn solve(mut self) -> Option<Vec<i32>> {
-        let order: Vec<ValueId> = self
-            .program
-            .steps
-            .iter()
-            .filter_map(|step| if let Step::Let(value) = step { Some(*value) } else { None })
-            .collect();
-        let mut open = order.into_iter();
-        loop {
-            while self.conclude()? {}
-            let Some(value) = open.find(|value| self.known[value.index()].is_none()) else { break };
-            self.known[value.index()] = Some(0);
+        if self.contradict {
+            return None;
+        }
+        self.conclude((0..self.equations.len()).collect())?;
+        for value in self.program.computed() {
+            if self.known[value.index()].is_none() {
+                self.known[value.index()] = Some(0);
+                self.conclude(self.equations_of[value.index()].clone())?;
+            }
         }
         Some(self.known.into_iter().map(Option::unwrap_or_default).collect())
     }
 
-    /// Whether another power is found; nothing where equations contradict each other.
-    fn conclude(&mut self) -> Option<bool> {
-        let mut found = false;
-        let mut open = Vec::new();
-        for equation in core::mem::take(&mut self.equations) {
-            let sum: i32 = equation.iter().filter_map(|(value, k)| Some(k * self.known[value.index()]?)).sum();
-            let unknown: BTreeSet<ValueId> =
-                equation.iter().map(|(value, _)| *value).filter(|value| self.known[value.index()].is_none()).collect();
-            match (unknown.len(), unknown.first()) {
-                (1, Some(value)) => {
-                    let k: i32 = equation.iter().filter(|(other, _)| other == value).map(|(_, k)| k).sum();
+    /// Goes through equations of which something new is known, and those of what follows from them; nothing where they contradict each other.
+    fn conclude(&mut self, mut open: Vec<usize>) -> Option<()> {
+        while let Some(equation) = open.pop() {
+            let (mut sum, mut unknown) = (0, BTreeMap::new());
+            for (value, k) in &self.equations[equation] {
+                match self.known[value.index()] {
+                    Some(power) => sum += k * power,
+                    None => *unknown.entry(*value).or_insert(0) += k,
+                }
+            }
+            match unknown.pop_first() {
+                None if sum != 0 => return None,
+                Some((value, k)) if unknown.is_empty() => {
                     if k == 0 || sum % k != 0 {
                         return None;
                     }
                     self.known[value.index()] = Some(-sum / k);
-                    found = true;
+                    open.extend(&self.equations_of[value.index()]);
                 }
-                (0, _) if sum != 0 => return None,
-                (0, _) => {}
-                _ => open.push(equation),
+                _ => {}
             }
         }
-        self.equations = open;
-        Some(found)
+        Some(())
     }
 }
 
@@ -222,14 +217,10 @@ fn resize(program: &mut Program, graph: &Graph, direction: &Direction, sizes: &[
         let step = program.reading(step, &replaced);
         program.steps.push(step);
     }
-    let renamed = |value: &mut ValueId| *value = replaced.get(value).copied().unwrap_or(*value);
-    program.values.iter_mut().filter_map(|value| value.component.as_mut()).for_each(|of| renamed(&mut of.arm));
-    program.outputs.iter_mut().for_each(|(_, value)| renamed(value));
-    for step in &mut program.steps {
-        if let Step::FiniteResults(values) = step {
-            values.iter_mut().for_each(renamed);
-        }
+    for component in program.values.iter_mut().filter_map(|value| value.component.as_mut()) {
+        component.arm = replaced.get(&component.arm).copied().unwrap_or(component.arm);
     }
+    program.rename_results(&replaced);
 }
 
 /// The constant that an operation has, and the power of the reciprocal of the length by which it is multiplied, so that the result has the
@@ -253,22 +244,15 @@ fn constant_of(
 
 /// The name of a value that is found in another size.
 fn resized(label: &Label, size: i32, length: &str) -> Label {
-    let power = match size.unsigned_abs() {
-        1 => String::new(),
-        2 => "²".to_owned(),
-        n => format!("^{n}"),
-    };
     let Label { name, equation } = label;
-    let number = if power.is_empty() { String::new() } else { size.unsigned_abs().to_string() };
-    match size {
-        0 => label.clone(),
-        1.. => {
-            Label { name: format!("{name}_by_length{number}"), equation: format!("{equation}, times {length}{power}") }
-        }
-        _ => {
-            Label { name: format!("{name}_over_length{number}"), equation: format!("{equation}, over {length}{power}") }
-        }
-    }
+    let (number, power) = match size.unsigned_abs() {
+        0 => return label.clone(),
+        1 => (String::new(), String::new()),
+        2 => ("2".to_owned(), "²".to_owned()),
+        n => (n.to_string(), format!("^{n}")),
+    };
+    let (suffix, word) = if size > 0 { ("by", "times") } else { ("over", "over") };
+    Label { name: format!("{name}_{suffix}_length{number}"), equation: format!("{equation}, {word} {length}{power}") }
 }
 
 /// The vector over the length, a constant, without being brought to unit size.

@@ -85,6 +85,17 @@ impl Program {
         }
     }
 
+    /// Results that are other values in place of some.
+    fn rename_results(&mut self, replaced: &BTreeMap<ValueId, ValueId>) {
+        let name = |value: &mut ValueId| *value = replaced.get(value).copied().unwrap_or(*value);
+        self.outputs.iter_mut().for_each(|(_, value)| name(value));
+        for step in &mut self.steps {
+            if let Step::FiniteResults(values) = step {
+                values.iter_mut().for_each(name);
+            }
+        }
+    }
+
     /// What a constant is.
     #[must_use]
     pub fn constant(&self, graph: &Graph, value: ValueId) -> Option<Number> {

@@ -39,14 +39,8 @@ pub(super) fn compute_once(mut program: Program, _graph: &Graph) -> Program {
         }
         steps.push(step);
     }
-    let name = |value: &mut ValueId| *value = replaced.get(value).copied().unwrap_or(*value);
-    program.outputs.iter_mut().for_each(|(_, value)| name(value));
-    for step in &mut steps {
-        if let Step::FiniteResults(values) = step {
-            values.iter_mut().for_each(name);
-        }
-    }
     program.steps = steps;
+    program.rename_results(&replaced);
     program
 }
 
