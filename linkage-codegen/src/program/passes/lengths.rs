@@ -4,11 +4,11 @@
 //! A value that reads u is then found `r`, `r²`, … times as large or as small, which the constants in it take back: those of products with
 //! loads and weights, of quotients, of other lengths. In powers of r, every operation but those with constants says how the size of its
 //! result goes with those of its operands, results and checks have a size of their own; what follows of this is one system of equations. Where
-//! it has no solution, u is v times the constant `1/r`.
+//! it has no solution for a direction, u is v times the constant `1/r`.
 //!
 //! Not where rounding errors are counted, which would have to know of it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::number::Number;
 use crate::graph::{Component, Graph, Kernel, Label, Op};
@@ -18,17 +18,17 @@ pub(super) fn leave(mut program: Program, graph: &Graph) -> Program {
     if graph.counts_rounding() {
         return program;
     }
-    let mut divided = 0;
-    while let Some(direction) = directions(&program).into_iter().nth(divided) {
-        match Sizes::of(&program, graph, &direction).solve() {
-            // It is no more.
-            Some(sizes) => resize(&mut program, graph, &direction, &sizes),
-            None => {
-                divide(&mut program, graph, &direction);
-                divided += 1;
-            }
+    let directions = directions(&program);
+    let equations = Equations::of(&program, &directions);
+    let (mut resized, mut divided) = (Vec::new(), Vec::new());
+    for direction in directions {
+        match equations.solve(&direction) {
+            Some(sizes) => resized.push((direction, sizes)),
+            None => divided.push(direction),
         }
     }
+    divided.iter().for_each(|direction| divide(&mut program, graph, direction));
+    resize(&mut program, graph, &resized);
     super::unused::remove(program, graph)
 }
 
@@ -63,65 +63,67 @@ fn directions(program: &Program) -> Vec<Direction> {
     directions
 }
 
-/// In powers of r, how much smaller each value is found than it is: one for the components of the direction.
-struct Sizes<'a> {
-    known: Vec<Option<i32>>,
+/// How the sizes of values go with each other, in powers of the length of any of the directions.
+struct Equations {
     /// Sums of powers, each with its factor, that are zero.
-    equations: Vec<Vec<(ValueId, i32)>>,
-    /// The equations in which each value is.
-    equations_of: Vec<Vec<usize>>,
-    /// Whether what is read as it is would be found in another size.
-    contradict: bool,
-    program: &'a Program,
+    sums: Vec<Vec<(ValueId, i32)>>,
+    /// The sums in which each value is.
+    sums_of: Vec<Vec<usize>>,
+    /// What is read as it is has the power zero.
+    fixed: Vec<Option<i32>>,
+    /// The components of all directions.
+    components: BTreeSet<ValueId>,
+    /// All computed values.
+    computed: Vec<ValueId>,
 }
 
-impl<'a> Sizes<'a> {
-    fn of(program: &'a Program, graph: &Graph, direction: &Direction) -> Self {
+impl Equations {
+    fn of(program: &Program, directions: &[Direction]) -> Self {
         let count = program.values.len();
-        let (known, equations_of) = (vec![None; count], vec![Vec::new(); count]);
-        let mut sizes = Self { known, equations: Vec::new(), equations_of, contradict: false, program };
-        for component in direction.arms.keys() {
-            sizes.known[component.index()] = Some(1);
-        }
-        program.inputs().for_each(|(value, _)| sizes.fix(value));
-        program.outputs.iter().for_each(|(_, value)| sizes.fix(*value));
+        let mut equations = Self {
+            sums: Vec::new(),
+            sums_of: vec![Vec::new(); count],
+            fixed: vec![None; count],
+            components: directions.iter().flat_map(|direction| direction.arms.keys().copied()).collect(),
+            computed: program.computed().collect(),
+        };
+        program.inputs().for_each(|(value, _)| equations.fix(value));
+        program.outputs.iter().for_each(|(_, value)| equations.fix(*value));
         for step in &program.steps {
             match step {
-                Step::Let(value) if direction.arms.contains_key(value) => {}
                 Step::Let(value) => {
-                    sizes.state(graph, *value);
-                    // What is known of other directions goes on to hold.
+                    // Components have a size of their own; what is known of them goes on to hold.
+                    if !equations.components.contains(value) {
+                        equations.state(program, *value);
+                    }
                     if let Some(Component { arm, .. }) = program.value(*value).component {
-                        sizes.fix(*value);
-                        sizes.fix(arm);
+                        equations.fix(arm);
                     }
                 }
                 Step::Check { report, .. } => {
                     let computed = report.iter().filter_map(|value| program.op(*value)).flat_map(Op::operands);
-                    computed.chain(program.operands_of(step)).for_each(|value| sizes.fix(value));
+                    computed.chain(program.operands_of(step)).for_each(|value| equations.fix(value));
                 }
                 Step::FiniteInput(_) | Step::FiniteResults(_) => {}
             }
         }
-        sizes
+        equations
     }
 
-    /// What is read as it is.
     fn fix(&mut self, value: ValueId) {
-        self.contradict |= *self.known[value.index()].get_or_insert(0) != 0;
+        self.fixed[value.index()] = Some(0);
     }
 
     fn equate(&mut self, terms: Vec<(ValueId, i32)>) {
         for (value, _) in &terms {
-            self.equations_of[value.index()].push(self.equations.len());
+            self.sums_of[value.index()].push(self.sums.len());
         }
-        self.equations.push(terms);
+        self.sums.push(terms);
     }
 
-    fn state(&mut self, graph: &Graph, value: ValueId) {
-        let program = self.program;
+    fn state(&mut self, program: &Program, value: ValueId) {
         let Some(op) = program.op(value) else { return };
-        let is_constant = |value: ValueId| program.constant(graph, value).is_some();
+        let is_constant = |value: ValueId| is_constant(program, value);
         let is_computed = |value: &ValueId| !is_constant(*value);
         match *op {
             // A constant in it takes whatever is asked.
@@ -141,39 +143,42 @@ impl<'a> Sizes<'a> {
         }
     }
 
-    /// The powers, if there are any that fulfil all equations. What these leave open stays as it is.
-    fn solve(mut self) -> Option<Vec<i32>> {
-        if self.contradict {
-            return None;
-        }
-        self.conclude((0..self.equations.len()).collect())?;
-        for value in self.program.computed() {
-            if self.known[value.index()].is_none() {
-                self.known[value.index()] = Some(0);
-                self.conclude(self.equations_of[value.index()].clone())?;
+    /// In powers of the length of one direction, how much smaller each value is found than it is: one for the direction's components. What
+    /// the equations leave open stays as it is; nothing if they contradict each other.
+    fn solve(&self, direction: &Direction) -> Option<Vec<i32>> {
+        let mut known = self.fixed.clone();
+        for component in &self.components {
+            let power = i32::from(direction.arms.contains_key(component));
+            if *known[component.index()].get_or_insert(power) != power {
+                return None;
             }
         }
-        Some(self.known.into_iter().map(Option::unwrap_or_default).collect())
+        self.conclude(&mut known, (0..self.sums.len()).collect())?;
+        for value in &self.computed {
+            if known[value.index()].is_none() {
+                known[value.index()] = Some(0);
+                self.conclude(&mut known, self.sums_of[value.index()].clone())?;
+            }
+        }
+        Some(known.into_iter().map(Option::unwrap_or_default).collect())
     }
 
-    /// Goes through equations of which something new is known, and those of what follows from them; nothing where they contradict each other.
-    fn conclude(&mut self, mut open: Vec<usize>) -> Option<()> {
-        while let Some(equation) = open.pop() {
-            let (mut sum, mut unknown) = (0, BTreeMap::new());
-            for (value, k) in &self.equations[equation] {
-                match self.known[value.index()] {
-                    Some(power) => sum += k * power,
-                    None => *unknown.entry(*value).or_insert(0) += k,
-                }
-            }
-            match unknown.pop_first() {
+    /// Goes through sums of which something new is known, and those of what follows from them; nothing where they contradict each other.
+    fn conclude(&self, known: &mut [Option<i32>], mut open: Vec<usize>) -> Option<()> {
+        while let Some(index) = open.pop() {
+            let terms = &self.sums[index];
+            let power = |value: ValueId| known[value.index()];
+            let sum: i32 = terms.iter().filter_map(|(value, k)| Some(k * power(*value)?)).sum();
+            let mut unknown = terms.iter().map(|(value, _)| *value).filter(|value| power(*value).is_none());
+            match unknown.next() {
                 None if sum != 0 => return None,
-                Some((value, k)) if unknown.is_empty() => {
+                Some(value) if unknown.all(|other| other == value) => {
+                    let k: i32 = terms.iter().filter(|(other, _)| *other == value).map(|(_, k)| k).sum();
                     if k == 0 || sum % k != 0 {
                         return None;
                     }
-                    self.known[value.index()] = Some(-sum / k);
-                    open.extend(&self.equations_of[value.index()]);
+                    known[value.index()] = Some(-sum / k);
+                    open.extend(&self.sums_of[value.index()]);
                 }
                 _ => {}
             }
@@ -182,25 +187,25 @@ impl<'a> Sizes<'a> {
     }
 }
 
-/// The direction is read in the length of its link, and constants take it back.
-fn resize(program: &mut Program, graph: &Graph, direction: &Direction, sizes: &[i32]) {
-    let power = |exponent: i32| {
-        let power = direction.reciprocal.pow(exponent.unsigned_abs());
-        if exponent < 0 { Number::one().div(&power).unwrap_or(power) } else { power }
-    };
-    let size = |value: ValueId| sizes[value.index()];
-    let mut replaced = direction.arms.clone();
+fn is_constant(program: &Program, value: ValueId) -> bool {
+    matches!(program.op(value), Some(Op::Constant(_)))
+}
+
+/// Directions are read in the lengths of their links, and constants take it back.
+fn resize(program: &mut Program, graph: &Graph, directions: &[(Direction, Vec<i32>)]) {
+    let mut replaced: BTreeMap<ValueId, ValueId> =
+        directions.iter().flat_map(|(direction, _)| direction.arms.clone()).collect();
     for step in core::mem::take(&mut program.steps) {
         if let Step::Let(value) = step {
-            if direction.arms.contains_key(&value) {
+            if replaced.contains_key(&value) {
                 continue;
             }
-            if let Some((constant, exponent)) = constant_of(program, graph, value, &size)
-                && exponent != 0
+            if let Some((constant, power)) = constant_of(program, value)
+                && let Some(factor) = factor(directions, &power)
                 && let Some(number) = program.constant(graph, constant)
                 && let Some(op) = program.op(value).cloned()
             {
-                let number = number.mul(&power(exponent));
+                let number = number.mul(&factor);
                 let rest = op.operands().into_iter().find(|operand| *operand != constant);
                 if let (Op::Mul(..), true, Some(rest)) = (&op, number.is_one(), rest) {
                     replaced.insert(value, replaced.get(&rest).copied().unwrap_or(rest));
@@ -211,7 +216,9 @@ fn resize(program: &mut Program, graph: &Graph, direction: &Direction, sizes: &[
                 program.values[value.index()].definition = Definition::Computed(op);
             }
             if let Some(label) = &mut program.values[value.index()].label {
-                *label = resized(label, size(value), &direction.length);
+                for (direction, sizes) in directions {
+                    *label = resized(label, sizes[value.index()], &direction.length);
+                }
             }
         }
         let step = program.reading(step, &replaced);
@@ -223,21 +230,29 @@ fn resize(program: &mut Program, graph: &Graph, direction: &Direction, sizes: &[
     program.rename_results(&replaced);
 }
 
-/// The constant that an operation has, and the power of the reciprocal of the length by which it is multiplied, so that the result has the
-/// size that is asked of it.
-fn constant_of(
-    program: &Program,
-    graph: &Graph,
-    value: ValueId,
-    size: &dyn Fn(ValueId) -> i32,
-) -> Option<(ValueId, i32)> {
-    let is_constant = |value: ValueId| program.constant(graph, value).is_some();
-    let own = size(value);
+/// The product of the reciprocals of all lengths, each to the sum of some powers; nothing if it is one.
+fn factor(directions: &[(Direction, Vec<i32>)], powers: &[(ValueId, i32)]) -> Option<Number> {
+    let mut product: Option<Number> = None;
+    for (Direction { reciprocal, .. }, sizes) in directions {
+        let exponent: i32 = powers.iter().map(|(value, k)| k * sizes[value.index()]).sum();
+        if exponent != 0 {
+            let power = reciprocal.pow(exponent.unsigned_abs());
+            let power = if exponent < 0 { Number::one().div(&power)? } else { power };
+            product = Some(product.map_or_else(|| power.clone(), |product| product.mul(&power)));
+        }
+    }
+    product
+}
+
+/// The constant that an operation has, and the sum of powers of the reciprocal of a length by which it is multiplied, so that the result has
+/// the size that is asked of it.
+fn constant_of(program: &Program, value: ValueId) -> Option<(ValueId, Vec<(ValueId, i32)>)> {
+    let is_constant = |value: ValueId| is_constant(program, value);
     match *program.op(value)? {
-        Op::Mul(k, a) | Op::Mul(a, k) if is_constant(k) => Some((k, size(a) - own)),
-        Op::Div(k, a) if is_constant(k) => Some((k, -size(a) - own)),
-        Op::Div(a, k) if is_constant(k) => Some((k, own - size(a))),
-        Op::Add(k, _) | Op::Add(_, k) | Op::Sub(k, _) | Op::Sub(_, k) if is_constant(k) => Some((k, -own)),
+        Op::Mul(k, a) | Op::Mul(a, k) if is_constant(k) => Some((k, vec![(a, 1), (value, -1)])),
+        Op::Div(k, a) if is_constant(k) => Some((k, vec![(a, -1), (value, -1)])),
+        Op::Div(a, k) if is_constant(k) => Some((k, vec![(a, -1), (value, 1)])),
+        Op::Add(k, _) | Op::Add(_, k) | Op::Sub(k, _) | Op::Sub(_, k) if is_constant(k) => Some((k, vec![(value, -1)])),
         _ => None,
     }
 }
