@@ -202,11 +202,10 @@ fn derivatives_cost_nothing_elsewhere_and_share_what_they_have_in_common() {
     let [torque, both, slope, linear] =
         ["torque", "both", "slope", "linear"].map(|scene| program(&with, scene).counts());
     assert_eq!([torque.sin_cos, torque.sqrt, torque.div], [both.sin_cos, both.sqrt, both.div]);
-    // Together they take less than one by one, and all three less than the torque at the ends of two differences, but for the components of
-    // two directions, which the torque does without.
+    // Together they take less than one by one, and all three less than the torque at the ends of two differences.
     let work = |counts: Counts| counts.add + counts.mul;
     assert!(work(both) < work(slope) + work(linear), "{both}, {slope}, {linear}");
-    assert!(work(both) < 2 * work(torque) + 4, "{both}, {torque}");
+    assert!(work(both) < 2 * work(torque), "{both}, {torque}");
     // A load on the crank alone reaches no pin of the dyad.
     let far = program(&with, "far").outputs.iter().map(|(path, _)| path.clone());
     assert!(far.clone().any(|path| path == "F12.x.T12") && far.clone().any(|path| path == "F12.y.B.x"));
@@ -452,28 +451,23 @@ impl<'a> Unrelated<'a> {
 }
 
 /// No value is computed of which nothing is left in any result, because its terms cancel; but for functions with bounds of rounding
-/// errors, which are made of residuals; for some of an arm whose numbers happen to balance it, and of scissors, whose pins are as far from each
-/// other on every stage.
+/// errors, which are made of residuals, and for an arm whose numbers happen to balance it.
 #[test]
 fn no_program_computes_what_cancels() {
-    const HAPPENS: [(&str, &str, usize); 3] =
-        [("balanced_arm", "balanced_at", 2), ("scissor_lift", "held_at", 3), ("scissor_lift", "thrust_at", 6)];
     let mut looked_at = 0;
     for (name, linkage) in linkages() {
         for (function, program, graph) in programs(&linkage) {
             let has_bounds = program.outputs.iter().any(|(path, _)| path.contains("error_bound"));
-            if has_bounds {
+            if has_bounds || (name.as_str(), function.as_str()) == ("balanced_arm", "balanced_at") {
                 continue;
             }
             let effects = [1, 2].map(|seed| Unrelated::of(program, graph, seed).with_effect());
-            let computed = || program.computed();
-            let without: Vec<ValueId> =
-                computed().filter(|value| !effects.iter().any(|of| of[value.index()])).collect();
-            let happens = HAPPENS.iter().find(|(linkage, of, _)| (*linkage, *of) == (&*name, &*function));
-            let expected = happens.map_or(0, |(_, _, count)| *count);
-            let values: Vec<_> = without.iter().map(|value| program.value(*value)).collect();
-            assert_eq!(without.len(), expected, "{name}, {function}: {values:?}");
-            looked_at += computed().count();
+            for step in &program.steps {
+                let Step::Let(value) = step else { continue };
+                let has_effect = effects.iter().any(|effect| effect[value.index()]);
+                assert!(has_effect, "{name}, {function}: {:?}", program.value(*value));
+                looked_at += 1;
+            }
         }
     }
     assert!(looked_at > 16_000, "{looked_at}");

@@ -4,7 +4,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use std::collections::BTreeMap;
 
 use super::number::Number;
-use super::{Component, Condition, Failure, Graph, Guard, Kernel, Label, NodeId, Op, Stage, Vector};
+use super::{Condition, Failure, Graph, Guard, Kernel, Label, NodeId, Op, Stage, Vector};
 
 /// A node together with its graph.
 #[derive(Clone, Copy)]
@@ -103,18 +103,6 @@ impl<'g> Expr<'g> {
     pub fn divided(self) -> Self {
         if let Op::Div(..) = self.op() {
             self.graph.arena.borrow_mut().divided.insert(self.id);
-        }
-        self
-    }
-
-    /// States that the value is a component of a direction: but for a few roundings that of a vector over its length, if that is constant.
-    /// Where no result is the direction itself, the vector then serves as well.
-    #[must_use]
-    pub fn along(self, arm: Self, length: Self, name: &str) -> Self {
-        let reciprocal = length.value().and_then(|length| Number::one().div(&length));
-        if let (None, Some(reciprocal)) = (self.value(), reciprocal) {
-            let component = Component { arm: arm.id, reciprocal, length: name.to_owned() };
-            self.graph.arena.borrow_mut().directions.insert(self.id, component);
         }
         self
     }

@@ -10,11 +10,8 @@
 //!
 //! each as the vector along the link, `v = ±sum e + K e⊥` by `e = d/(2D²)`, which does not wait for the root, brought to unit size: by one
 //! step `v (3 − v·v/r²)/(2r)` where constant lengths are not too different. Where they are of the same order, the vector along the longer
-//! link is that along the shorter one and d, `r₁u₁ − r₂u₂ = d`. If moreover neither is more than twice as long as the other, the vectors have
-//! their lengths but for a few roundings: `sum`, `K` and `e` are exact to a few roundings of `r D`, `r D` and `1/D`, however close the pins come
-//! or the links fold. Where only what is made of them is wanted, they then serve as they are (pass `lengths`).
-//!
-//! `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros the closure knows it better than the directions do.
+//! link is that along the shorter one and d, `r₁u₁ − r₂u₂ = d`. `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros
+//! the closure knows it better than the directions do.
 //!
 //! Where moreover a driven angle ψ opens the outer pins, `D² = (b − a)² + 4ab sin²(ψ/2)`, all areas are divided when the linkage is
 //! compiled, so that the root is `sin μ` at once: by `2 r₁ r₂`, or at a fold so that `cos(ψ/2)` or `sin(ψ/2)` is left of the one margin and
@@ -437,12 +434,7 @@ fn to_unit<'m>(arm: Vector<'m>, [length, other]: [Expr<'m>; 2], link: &str, name
     } else {
         (graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}"))
     };
-    let unit = arm.scaled(factor.named(format!("unit_{link}"), equation));
-    // Of legs of the same order the vectors have their lengths but for a few roundings.
-    if ratio_is_at_most(2, length, other) {
-        return Vector::new(unit.x.along(arm.x, length, name), unit.y.along(arm.y, length, name));
-    }
-    unit
+    arm.scaled(factor.named(format!("unit_{link}"), equation))
 }
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {

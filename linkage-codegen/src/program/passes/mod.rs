@@ -9,7 +9,6 @@ mod cycles;
 mod finite;
 mod fused;
 mod late;
-mod lengths;
 mod pivots;
 mod reciprocals;
 mod repeated;
@@ -26,8 +25,7 @@ use crate::graph::{Graph, Guard, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 17] = [
-    ("lengths", lengths::leave),
+pub const PASSES: [(&str, Pass); 16] = [
     ("pivots", pivots::compare_directly),
     ("checks", checks::ask_once),
     ("reciprocals", reciprocals::share),
@@ -50,8 +48,7 @@ impl Program {
     /// A new value without a name, under the heading of another one.
     fn add(&mut self, op: Op<ValueId>, beside: ValueId) -> ValueId {
         let section = self.value(beside).section.clone();
-        let definition = Definition::Computed(op);
-        self.values.push(Value { definition, label: None, section, divided: false, component: None });
+        self.values.push(Value { definition: Definition::Computed(op), label: None, section, divided: false });
         ValueId::new(self.values.len() - 1)
     }
 
