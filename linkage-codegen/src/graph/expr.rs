@@ -4,7 +4,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use std::collections::BTreeMap;
 
 use super::number::Number;
-use super::{Condition, Failure, Graph, Guard, Kernel, Label, NodeId, Op, Stage, Vector};
+use super::{Component, Condition, Failure, Graph, Guard, Kernel, Label, NodeId, Op, Stage, Vector};
 
 /// A node together with its graph.
 #[derive(Clone, Copy)]
@@ -103,6 +103,18 @@ impl<'g> Expr<'g> {
     pub fn divided(self) -> Self {
         if let Op::Div(..) = self.op() {
             self.graph.arena.borrow_mut().divided.insert(self.id);
+        }
+        self
+    }
+
+    /// States that the value is a component of the direction of a link, and how long this is, if that is constant. Where no result is the
+    /// direction itself, what is made of it may as well be made of a vector of that length. If one is given, it is that but for a few roundings.
+    #[must_use]
+    pub fn along(self, arm: Option<Self>, length: Self, name: &str) -> Self {
+        let reciprocal = length.value().and_then(|length| Number::one().div(&length));
+        if let (None, Some(reciprocal)) = (self.value(), reciprocal) {
+            let component = Component { arm: arm.map(|arm| arm.id), reciprocal, length: name.to_owned() };
+            self.graph.arena.borrow_mut().directions.insert(self.id, component);
         }
         self
     }

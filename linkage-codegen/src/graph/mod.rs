@@ -479,6 +479,17 @@ pub struct Label {
     pub equation: String,
 }
 
+/// A component of the direction of a link that has a constant length.
+#[derive(Clone, Debug)]
+pub struct Component<T = NodeId> {
+    /// That of the vector along the link, if this over the length is the direction but for a few roundings.
+    pub arm: Option<T>,
+    /// The reciprocal of the length.
+    pub reciprocal: number::Number,
+    /// The length, as text: the same in both components, and in no other direction.
+    pub length: String,
+}
+
 #[derive(Default, Debug)]
 struct Arena {
     ops: Vec<Op>,
@@ -498,6 +509,8 @@ struct Arena {
     positive: BTreeSet<NodeId>,
     /// Quotients that are divided, whatever others have the same divisor.
     divided: BTreeSet<NodeId>,
+    /// Components of directions of links that have a constant length.
+    directions: BTreeMap<NodeId, Component>,
     /// Whether the rounding of its values is counted.
     counted: bool,
     /// What was found not to be negative by its form, which is asked for often.
@@ -660,6 +673,12 @@ impl Graph {
     pub fn section(&self, id: NodeId) -> String {
         let arena = self.arena.borrow();
         arena.sections[arena.sections_of[id.index()].0 as usize].clone()
+    }
+
+    /// What is known of a node that is a component of a link's direction.
+    #[must_use]
+    pub fn component(&self, id: NodeId) -> Option<Component> {
+        self.arena.borrow().directions.get(&id).cloned()
     }
 
     /// Whether a node is a quotient that is to be divided.

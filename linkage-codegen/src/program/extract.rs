@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::{Definition, Input, Program, Step, Value, ValueId};
-use crate::graph::{Graph, Guard, NodeId, Op, SearchId, Stage, Symbol};
+use crate::graph::{Component, Graph, Guard, NodeId, Op, SearchId, Stage, Symbol};
 
 /// What a function starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,9 +144,16 @@ impl Building<'_> {
         let id = ValueId::new(self.program.values.len());
         let (label, section) = graph.label_in(self.scene, node);
         let section = section.unwrap_or_else(|| graph.section(node));
-        self.program.values.push(Value { definition, label, section, divided: graph.is_divided(node) });
+        let (divided, component) = (graph.is_divided(node), self.component(node));
+        self.program.values.push(Value { definition, label, section, divided, component });
         self.placed.insert(node, id);
         id
+    }
+
+    /// What is known of a component of a direction.
+    fn component(&self, node: NodeId) -> Option<Component<ValueId>> {
+        let Component { arm, reciprocal, length } = self.extract.graph.component(node)?;
+        Some(Component { arm: arm.and_then(|arm| self.placed.get(&arm).copied()), reciprocal, length })
     }
 
     /// The value of a node; its operands are placed.
@@ -181,7 +188,11 @@ impl Building<'_> {
                         let op = op.map(|operand| self.value(operand));
                         if let Some(same) = self.computed.get(&op) {
                             self.placed.insert(node, *same);
-                            self.program.values[same.index()].divided |= self.extract.graph.is_divided(node);
+                            let graph = self.extract.graph;
+                            let component = self.component(node);
+                            let known = &mut self.program.values[same.index()];
+                            known.divided |= graph.is_divided(node);
+                            known.component = known.component.take().or(component);
                             return *same;
                         }
                         let value = self.add(node, Definition::Computed(op.clone()));

@@ -20,7 +20,7 @@ pub use start::check_start;
 
 use core::iter;
 
-use crate::graph::{Guard, Label, NodeId, Op, Symbol};
+use crate::graph::{Component, Guard, Label, NodeId, Op, Symbol};
 
 /// A value of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -71,6 +71,8 @@ pub struct Value {
     pub section: String,
     /// Whether it is a quotient that is divided, whatever others have the same divisor.
     pub divided: bool,
+    /// What is known of it if it is a component of a link's direction.
+    pub component: Option<Component<ValueId>>,
 }
 
 /// A step of a program.

@@ -264,9 +264,11 @@ pub(super) fn meet<'m>(
         Sign::Given(..) => format!("h = side_{inner} √(h²), how far {inner} is ahead of {outer}"),
     };
     let h = h.named(format!("h_{inner}"), equation);
+    let length = format!("|{outer} {inner}|");
+    let [cosine, sine] = [h, g].map(|part| (part / r).along(Some(part), r, &length));
     let (cosine, sine) = (
-        (h / r).named(pivot_name.clone(), "sin μ = u·e = h/r, u from the one pin to the other"),
-        (g / r).named(format!("g_over_r_{inner}"), "u·n = g/r, n across the line"),
+        cosine.named(pivot_name.clone(), "sin μ = u·e = h/r, u from the one pin to the other"),
+        sine.named(format!("g_over_r_{inner}"), "u·n = g/r, n across the line"),
     );
     let pivot = cosine.where_above(h2, rounding);
     let pivot = pivot.named(format!("{pivot_name}_or_zero"), "zero where it is no larger than its rounding").held();

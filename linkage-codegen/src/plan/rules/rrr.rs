@@ -10,8 +10,12 @@
 //!
 //! each as the vector along the link, `v = ±sum e + K e⊥` by `e = d/(2D²)`, which does not wait for the root, brought to unit size: by one
 //! step `v (3 − v·v/r²)/(2r)` where constant lengths are not too different. Where they are of the same order, the vector along the longer
-//! link is that along the shorter one and d, `r₁u₁ − r₂u₂ = d`. `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros
-//! the closure knows it better than the directions do.
+//! link is that along the shorter one and d, `r₁u₁ − r₂u₂ = d`. If moreover neither is more than twice as long as the other, the vectors have
+//! their lengths but for a few roundings: `sum`, `K` and `e` are exact to a few roundings of `r D`, `r D` and `1/D`, however close the pins come
+//! or the links fold. Where only what is made of them is wanted, that along the second link then serves as it is (pass `lengths`): forces and
+//! velocities have its few roundings once. Those of the first link, along which forces are resolved, they would have twice.
+//!
+//! `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros the closure knows it better than the directions do.
 //!
 //! Where moreover a driven angle ψ opens the outer pins, `D² = (b − a)² + 4ab sin²(ψ/2)`, all areas are divided when the linkage is
 //! compiled, so that the root is `sin μ` at once: by `2 r₁ r₂`, or at a fold so that `cos(ψ/2)` or `sin(ψ/2)` is left of the one margin and
@@ -419,7 +423,15 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     [0, 1].map(|index| {
         let (link, length) = (dyad.link_name(&dyad.legs[index]), dyad.length_name(&dyad.legs[index]));
         let [own, other] = [lengths[index], lengths[1 - index]];
-        to_unit(vectors[index], [own, other], &link, &length)
+        let unit = to_unit(vectors[index], [own, other], &link, &length);
+        let arm = vectors[index];
+        if !lengths_are_alike(arm.graph().scalar(), own, other) {
+            return unit;
+        }
+        // Forces are resolved along the first leg, and products read its direction twice.
+        let serves = index == 1 && ratio_is_at_most(2, own, other);
+        let part = |unit: Expr<'m>, arm: Expr<'m>| unit.along(serves.then_some(arm), own, &length);
+        Vector::new(part(unit.x, arm.x), part(unit.y, arm.y))
     })
 }
 

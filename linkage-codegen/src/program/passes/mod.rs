@@ -9,6 +9,7 @@ mod cycles;
 mod finite;
 mod fused;
 mod late;
+mod lengths;
 mod pivots;
 mod reciprocals;
 mod repeated;
@@ -25,7 +26,8 @@ use crate::graph::{Graph, Guard, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 16] = [
+pub const PASSES: [(&str, Pass); 17] = [
+    ("lengths", lengths::leave),
     ("pivots", pivots::compare_directly),
     ("checks", checks::ask_once),
     ("reciprocals", reciprocals::share),
@@ -48,7 +50,8 @@ impl Program {
     /// A new value without a name, under the heading of another one.
     fn add(&mut self, op: Op<ValueId>, beside: ValueId) -> ValueId {
         let section = self.value(beside).section.clone();
-        self.values.push(Value { definition: Definition::Computed(op), label: None, section, divided: false });
+        let definition = Definition::Computed(op);
+        self.values.push(Value { definition, label: None, section, divided: false, component: None });
         ValueId::new(self.values.len() - 1)
     }
 
