@@ -37,7 +37,7 @@ fn main() -> Result<(), Error> {
     assert!((all.r#for - each.r#mut.r#for - each.r#const.r#for).norm() < 1e-9);
     assert!((r#loop::yield_at(1.0, &loads)?.r#let - each.r#mut.r#let).abs() < 1e-9);
     assert_eq!(r#loop::where_at(1.0)?.r#in, pose.r#in());
-    assert_eq!(pose.struct_fn(), r#loop::where_at(1.0)?.struct_fn);
+    assert!((pose.struct_fn() - r#loop::where_at(1.0)?.struct_fn).norm() < 1e-12);
     assert_eq!(pose.r#move(), 1.0);
     Ok(())
 }
