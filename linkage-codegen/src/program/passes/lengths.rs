@@ -104,7 +104,7 @@ impl Equations {
                     match program.value(*value).component {
                         // In its place another value is read.
                         Some(Component { arm: Some(arm), .. }) if equations.components.contains(value) => {
-                            equations.fix(arm)
+                            equations.fix(arm);
                         }
                         _ => equations.state(program, *value),
                     }
