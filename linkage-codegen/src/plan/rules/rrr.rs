@@ -423,30 +423,31 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     [0, 1].map(|index| {
         let (link, length) = (dyad.link_name(&dyad.legs[index]), dyad.length_name(&dyad.legs[index]));
         let [own, other] = [lengths[index], lengths[1 - index]];
-        let unit = to_unit(vectors[index], [own, other], &link, &length);
-        let arm = vectors[index];
-        if !lengths_are_alike(arm.graph().scalar(), own, other) {
-            return unit;
-        }
         // Forces are resolved along the first leg, and products read its direction twice.
         let serves = index == 1 && ratio_is_at_most(2, own, other);
-        let part = |unit: Expr<'m>, arm: Expr<'m>| unit.along(serves.then_some(arm), own, &length);
-        Vector::new(part(unit.x, arm.x), part(unit.y, arm.y))
+        to_unit((vectors[index], serves), [own, other], &link, &length)
     })
 }
 
 /// A vector of nearly the given length brought to unit size: by one step, `u = v (3 − v·v/r²)/(2r)`, which squares the error; where legs are
-/// so different that this does not suffice, or not known before run time, by root and division.
-fn to_unit<'m>(arm: Vector<'m>, [length, other]: [Expr<'m>; 2], link: &str, name: &str) -> Vector<'m> {
+/// so different that this does not suffice, or not known before run time, by root and division. After one step the vector may serve as the
+/// direction, if it is said to.
+fn to_unit<'m>(
+    (arm, serves): (Vector<'m>, bool),
+    [length, other]: [Expr<'m>; 2],
+    link: &str,
+    name: &str,
+) -> Vector<'m> {
     let graph = arm.graph();
+    let by = |factor: Expr<'m>, equation: String| arm.scaled(factor.named(format!("unit_{link}"), equation));
+    if !lengths_are_alike(graph.scalar(), length, other) {
+        return by(graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}"));
+    }
     let half = |n: i64| graph.constant(&Number::ratio(n, 2));
-    let (factor, equation) = if lengths_are_alike(graph.scalar(), length, other) {
-        let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
-        (factor, format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}"))
-    } else {
-        (graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}"))
-    };
-    arm.scaled(factor.named(format!("unit_{link}"), equation))
+    let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
+    let unit = by(factor, format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}"));
+    let part = |unit: Expr<'m>, arm: Expr<'m>| unit.along(serves.then_some(arm), length, name);
+    Vector::new(part(unit.x, arm.x), part(unit.y, arm.y))
 }
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {
