@@ -1,19 +1,20 @@
 //! Sine and cosine in the two halves of a register of x86-64: the operations of [`Reduced::one_by_one`], or of the fused ones, each on its
-//! number, so the same bits, in half as many instructions. What the quadrant changes stays in the register too.
+//! number, so the same bits, in half as many instructions.
+//!
+//! What the quadrant exchanges and negates is exchanged and negated before the polynomials, not after them, where nothing waits for it: each
+//! half begins as the sine or the cosine that it will be.
 #![allow(
     unsafe_code,
     reason = "calls of functions that name their instructions, a load of two numbers, a barrier to the compiler"
 )]
 
-#[cfg(target_feature = "fma")]
-use core::arch::x86_64::_mm_fmadd_pd;
 use core::arch::x86_64::{
-    __m128d, _mm_add_pd, _mm_and_pd, _mm_cvtsd_f64, _mm_loadu_pd, _mm_mul_pd, _mm_or_pd, _mm_set_pd, _mm_set_sd,
-    _mm_set1_pd, _mm_shuffle_pd, _mm_sub_pd, _mm_unpackhi_pd, _mm_unpacklo_pd, _mm_xor_pd,
+    __m128d, _mm_add_pd, _mm_and_pd, _mm_andnot_pd, _mm_cvtsd_f64, _mm_load_pd, _mm_mul_pd, _mm_set1_pd, _mm_sub_pd,
+    _mm_unpackhi_pd, _mm_xor_pd,
 };
-
 #[cfg(target_feature = "fma")]
-use super::mul_add;
+use core::arch::x86_64::{_mm_fmadd_pd, _mm_fnmadd_pd};
+
 use super::sin_cos::{COSINE, Reduced, SINE};
 
 /// See [`Reduced::sin_cos`].
@@ -24,27 +25,25 @@ pub(super) fn sin_cos(reduced: Reduced) -> (f64, f64) {
     unsafe { in_halves(reduced) }
 }
 
-/// Sine in the lower half. Of the cosine's sum all terms but the first are carried as negatives, so that both are
-/// differences.
+/// Of the cosine's sum all terms but the first are carried as negatives, so that both are differences.
 #[inline]
 #[target_feature(enable = "sse2")]
 fn in_halves(Reduced { quadrant, y, t }: Reduced) -> (f64, f64) {
-    let y2 = twice(y);
-    let z = _mm_mul_pd(y2, y2);
+    let turn = Turn::by(quadrant);
+    let (y, t, one) = (twice(y), _mm_set1_pd(t), _mm_set1_pd(1.0));
+    let z = _mm_mul_pd(y, y);
     let z2 = _mm_mul_pd(z, z);
-    let half = 0.5 * _mm_cvtsd_f64(z);
-    let w = 1.0 - half;
-    let ([s0, s1, s2, s3, s4, s5], [c0, c1, c2, c3, c4, c5]) = (SINE, COSINE);
-    let p0 = _mm_add_pd(both(s0, -c0), _mm_mul_pd(z, both(s1, -c1)));
-    let p1 = _mm_add_pd(both(s2, -c2), _mm_mul_pd(z, both(s3, -c3)));
-    let p2 = _mm_add_pd(both(s4, -c4), _mm_mul_pd(z, both(s5, -c5)));
+    let half = _mm_mul_pd(_mm_set1_pd(0.5), z);
+    let w = _mm_sub_pd(one, half);
+    let lost = _mm_sub_pd(half, _mm_sub_pd(one, w));
+    let [k0, k1, k2, k3, k4, k5] = turn.coefficients.each_ref().map(|of| bits(of));
+    let p0 = _mm_add_pd(k0, _mm_mul_pd(z, k1));
+    let p1 = _mm_add_pd(k2, _mm_mul_pd(z, k3));
+    let p2 = _mm_add_pd(k4, _mm_mul_pd(z, k5));
     let p = _mm_add_pd(_mm_add_pd(p0, _mm_mul_pd(z2, p1)), _mm_mul_pd(_mm_mul_pd(z2, z2), p2));
-    let first = _mm_mul_pd(z, _mm_unpacklo_pd(y2, z));
-    let tail = _mm_mul_pd(_mm_xor_pd(_mm_set1_pd(t), both(0.0, -0.0)), _mm_shuffle_pd::<0b10>(_mm_set_sd(w), y2));
-    // −0 changes no number that it is added to.
-    let tail = _mm_add_pd(both(-0.0, half - (1.0 - w)), tail);
-    let small = _mm_add_pd(_mm_mul_pd(first, p), tail);
-    turned(quadrant, _mm_sub_pd(both(y, w), small))
+    let Parts { first, factor, tail, lost } = turn.parts([y, z, w, t, lost]);
+    let tail = _mm_add_pd(lost, _mm_mul_pd(tail, factor.other));
+    both(_mm_sub_pd(factor.own, _mm_add_pd(_mm_mul_pd(_mm_mul_pd(z, first), p), tail)))
 }
 
 /// See `Reduced::fused_one_by_one`.
@@ -61,57 +60,116 @@ pub(super) fn fused_sin_cos(reduced: Reduced) -> (f64, f64) {
 #[inline]
 #[target_feature(enable = "sse2,fma")]
 fn fused_in_halves(Reduced { quadrant, y, t }: Reduced) -> (f64, f64) {
-    let y2 = twice(y);
-    let z = _mm_mul_pd(y2, y2);
+    let turn = Turn::by(quadrant);
+    let (y, t, one, half) = (twice(y), _mm_set1_pd(t), _mm_set1_pd(1.0), _mm_set1_pd(0.5));
+    let z = _mm_mul_pd(y, y);
     let z2 = _mm_mul_pd(z, z);
-    let square = _mm_cvtsd_f64(z);
-    let w = mul_add(-0.5, square, 1.0);
-    let ([s0, s1, s2, s3, s4, s5], [c0, c1, c2, c3, c4, c5]) = (SINE, COSINE);
-    let low = _mm_fmadd_pd(z, both(s1, -c1), both(s0, -c0));
-    let middle = _mm_fmadd_pd(z, both(s3, -c3), both(s2, -c2));
-    let high = _mm_fmadd_pd(z, both(s5, -c5), both(s4, -c4));
+    let w = _mm_fnmadd_pd(half, z, one);
+    let lost = _mm_fmadd_pd(half, z, _mm_sub_pd(w, one));
+    let [k0, k1, k2, k3, k4, k5] = turn.coefficients.each_ref().map(|of| bits(of));
+    let (low, middle, high) = (_mm_fmadd_pd(z, k1, k0), _mm_fmadd_pd(z, k3, k2), _mm_fmadd_pd(z, k5, k4));
     let p = _mm_fmadd_pd(_mm_mul_pd(z2, z2), high, _mm_fmadd_pd(z2, middle, low));
-    let first = _mm_mul_pd(z, _mm_unpacklo_pd(y2, z));
-    let rest = both(t * w, mul_add(-y, t, mul_add(0.5, square, w - 1.0)));
-    turned(quadrant, _mm_sub_pd(both(y, w), _mm_fmadd_pd(first, p, rest)))
+    let Parts { first, factor, tail, lost } = turn.parts([y, z, w, t, lost]);
+    both(_mm_sub_pd(factor.own, _mm_fmadd_pd(_mm_mul_pd(z, first), p, _mm_fmadd_pd(tail, factor.other, lost))))
 }
 
-/// What a quadrant does to sine and cosine, in bits: which keep their places, which change them, which are negated. From a table, because
-/// what is read takes none of the units that calculate.
-#[repr(align(16))]
+/// What a quadrant makes of the halves, in bits. From a table, because what is read takes none of the units that calculate.
 struct Turn {
-    kept: [u64; 2],
-    exchanged: [u64; 2],
-    negated: [u64; 2],
+    /// Those of S or −C, negated where the half is.
+    coefficients: [Halves; 6],
+    /// All bits of a half that is ± the sine of the reduced angle, none of one that is ± its cosine.
+    is_sine: Halves,
+    /// The sign of a half that is the negative.
+    negated: Halves,
+    /// The sign of the tail: of a cosine it is the opposite.
+    tail_negated: Halves,
 }
 
-const BOTH: [u64; 2] = [u64::MAX; 2];
-const NEITHER: [u64; 2] = [0; 2];
-const MINUS: u64 = 1 << 63;
-
+/// sin x and cos x in the quadrants, as the sine of the reduced angle or its cosine, and whether they are the negatives.
 static TURNS: [Turn; 4] = [
-    Turn { kept: BOTH, exchanged: NEITHER, negated: [0, 0] },
-    Turn { kept: NEITHER, exchanged: BOTH, negated: [0, MINUS] },
-    Turn { kept: BOTH, exchanged: NEITHER, negated: [MINUS, MINUS] },
-    Turn { kept: NEITHER, exchanged: BOTH, negated: [MINUS, 0] },
+    Turn::of([(true, false), (false, false)]),
+    Turn::of([(false, false), (true, true)]),
+    Turn::of([(true, true), (false, true)]),
+    Turn::of([(false, true), (true, false)]),
 ];
 
-/// Sine and cosine of the reduced angle, exchanged and negated as the quadrant says.
-#[inline]
-#[target_feature(enable = "sse2")]
-fn turned(quadrant: u64, found: __m128d) -> (f64, f64) {
-    let Turn { kept, exchanged, negated } = TURNS.get((quadrant & 3) as usize).unwrap_or(&TURNS[0]);
-    let other = _mm_shuffle_pd::<0b01>(found, found);
-    let turned = _mm_or_pd(_mm_and_pd(found, bits(kept)), _mm_and_pd(other, bits(exchanged)));
-    let turned = _mm_xor_pd(turned, bits(negated));
-    (_mm_cvtsd_f64(turned), _mm_cvtsd_f64(_mm_unpackhi_pd(turned, turned)))
+const SIGN: u64 = 1 << 63;
+
+/// The bits of both halves, where an instruction can take them from memory.
+#[derive(Clone, Copy)]
+#[repr(C, align(16))]
+struct Halves([u64; 2]);
+
+/// What the halves are made of, exchanged and negated.
+struct Parts {
+    /// y or z, which the polynomial is multiplied by beside z.
+    first: __m128d,
+    factor: Factor,
+    tail: __m128d,
+    /// What the first term of a cosine has lost.
+    lost: __m128d,
+}
+
+/// The first term of each half, y or w, and what its tail is multiplied by, w or y.
+struct Factor {
+    own: __m128d,
+    other: __m128d,
+}
+
+impl Turn {
+    const fn of(halves: [(bool, bool); 2]) -> Self {
+        const ZERO: Halves = Halves([0; 2]);
+        let mut turn = Self { coefficients: [ZERO; 6], is_sine: ZERO, negated: ZERO, tail_negated: ZERO };
+        let mut half = 0;
+        while half < 2 {
+            let (is_sine, negated) = halves[half];
+            let mut term = 0;
+            while term < 6 {
+                let coefficient = if is_sine { SINE[term] } else { -COSINE[term] };
+                let coefficient = if negated { -coefficient } else { coefficient };
+                turn.coefficients[term].0[half] = coefficient.to_bits();
+                term += 1;
+            }
+            turn.is_sine.0[half] = if is_sine { u64::MAX } else { 0 };
+            turn.negated.0[half] = if negated { SIGN } else { 0 };
+            turn.tail_negated.0[half] = if negated == is_sine { SIGN } else { 0 };
+            half += 1;
+        }
+        turn
+    }
+
+    #[inline]
+    fn by(quadrant: u64) -> &'static Self {
+        TURNS.get((quadrant & 3) as usize).unwrap_or(&TURNS[0])
+    }
+
+    /// Of y, z, w, the tail and what w has lost.
+    #[inline]
+    #[target_feature(enable = "sse2")]
+    fn parts(&self, [y, z, w, t, lost]: [__m128d; 5]) -> Parts {
+        let [is_sine, negated, tail_negated] = [&self.is_sine, &self.negated, &self.tail_negated].map(|of| bits(of));
+        let differing = _mm_and_pd(_mm_xor_pd(y, w), is_sine);
+        Parts {
+            first: _mm_xor_pd(z, _mm_and_pd(_mm_xor_pd(y, z), is_sine)),
+            factor: Factor { own: _mm_xor_pd(_mm_xor_pd(w, differing), negated), other: _mm_xor_pd(y, differing) },
+            tail: _mm_xor_pd(t, tail_negated),
+            lost: _mm_xor_pd(_mm_andnot_pd(is_sine, lost), negated),
+        }
+    }
 }
 
 #[inline]
 #[target_feature(enable = "sse2")]
-fn bits(of: &[u64; 2]) -> __m128d {
-    // SAFETY: sixteen bytes are read of sixteen, wherever they stand.
-    unsafe { _mm_loadu_pd(core::ptr::from_ref(of).cast()) }
+fn bits(of: &Halves) -> __m128d {
+    // SAFETY: sixteen bytes are read of sixteen, at a multiple of sixteen.
+    unsafe { _mm_load_pd(of.0.as_ptr().cast()) }
+}
+
+/// The numbers of both halves.
+#[inline]
+#[target_feature(enable = "sse2")]
+fn both(halves: __m128d) -> (f64, f64) {
+    (_mm_cvtsd_f64(halves), _mm_cvtsd_f64(_mm_unpackhi_pd(halves, halves)))
 }
 
 /// A number in both halves, unknown to the compiler, which would calculate squares of the number alone and spread each over a register.
@@ -122,13 +180,6 @@ fn twice(number: f64) -> __m128d {
     // SAFETY: no instruction at all.
     unsafe { core::arch::asm!("/* {0} */", inout(xmm_reg) halves, options(pure, nomem, nostack, preserves_flags)) };
     halves
-}
-
-/// A number in each half, the first in the lower.
-#[inline]
-#[target_feature(enable = "sse2")]
-fn both(lower: f64, upper: f64) -> __m128d {
-    _mm_set_pd(upper, lower)
 }
 
 #[cfg(test)]
