@@ -11,7 +11,7 @@
 
 use std::collections::BTreeMap;
 
-use super::sizes::{Powers, Scale, Sizes, resize};
+use super::sizes::{Constant, Powers, Scale, Sizes, exchange};
 use crate::graph::number::Number;
 use crate::graph::{Component, Graph, Label, Op};
 use crate::program::{Definition, Program, Step, ValueId};
@@ -24,17 +24,27 @@ pub(super) fn leave(mut program: Program, graph: &Graph) -> Program {
     let arms: BTreeMap<ValueId, ValueId> = directions.iter().flat_map(Direction::arms).collect();
     let equations = Sizes::of(&program, &arms, &|_| false);
     let computed: Vec<ValueId> = program.computed().collect();
-    let (mut scales, mut lengths, mut replaced) = (Vec::new(), Vec::new(), BTreeMap::new());
+    let (mut constants, mut replaced) = (BTreeMap::new(), BTreeMap::new());
     for direction in &directions {
-        if let Some(powers) = sizes(&equations, &directions, direction, &computed) {
-            scales.push(Scale { factor: direction.reciprocal.clone(), powers });
-            lengths.push(&direction.length);
-            replaced.extend(direction.arms());
-        } else {
+        let Some(powers) = sizes(&equations, &directions, direction, &computed) else {
             divide(&mut program, graph, direction);
+            continue;
+        };
+        let scale = Scale { factor: direction.reciprocal.clone(), powers };
+        for value in &computed {
+            let constant = constants.get(value).cloned().or_else(|| Constant::of(&program, graph, *value));
+            if let Some(constant) = constant
+                && let Some(number) = scale.of(&constant)
+            {
+                constants.insert(*value, Constant { number, ..constant });
+            }
+            if let Some(label) = &mut program.values[value.index()].label {
+                *label = resized(label, -scale.power(*value), &direction.length);
+            }
         }
+        replaced.extend(direction.arms());
     }
-    resize(&mut program, graph, &scales, replaced, |index, label, power| resized(label, -power, lengths[index]));
+    exchange(&mut program, graph, &constants, replaced);
     super::unused::remove(program, graph)
 }
 

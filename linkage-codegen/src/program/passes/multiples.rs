@@ -7,9 +7,9 @@
 //!
 //! Not where rounding errors are counted, which would have to know of it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::sizes::{Scale, Sizes, other_operand, rescaled, resize};
+use super::sizes::{Constant, Order, Scale, Sizes, exchange, factor_beside};
 use crate::graph::number::Number;
 use crate::graph::{Graph, Label, Op, Scalar};
 use crate::program::{Program, ValueId};
@@ -18,59 +18,142 @@ pub(super) fn find(mut program: Program, graph: &Graph) -> Program {
     if graph.counts_rounding() {
         return program;
     }
-    let mut multiples = Multiples::default();
-    let mut ways = ways(&program, graph);
-    for value in program.computed().collect::<Vec<_>>() {
-        if let Some(scale) = ways.iter().find_map(|sizes| sparing(&program, graph, sizes, value)) {
-            multiples.take(&mut program, graph, &scale);
-            resize(&mut program, graph, &[scale], BTreeMap::new(), |_, label, _| label.clone());
-            ways = self::ways(&program, graph);
-        }
+    let mut search = Search::of(&program, graph);
+    for value in program.computed() {
+        search.spare(value);
     }
-    multiples.tell(&mut program);
+    let Search { changed, found, .. } = search;
+    found.tell(&mut program);
+    exchange(&mut program, graph, &changed, BTreeMap::new());
     super::unused::remove(program, graph)
 }
 
-/// What the sizes must satisfy if exact dividends stay as they are, and if others take their place.
-fn ways(program: &Program, graph: &Graph) -> [Sizes; 2] {
-    let is_exact = |k| program.constant(graph, k).is_some_and(|k| is_exact(&k, graph.scalar()));
-    [true, false].map(|stays| Sizes::of(program, &BTreeMap::new(), &|k| stays && is_exact(k)))
+/// For the sizes in which values are found.
+struct Search<'p> {
+    program: &'p Program,
+    graph: &'p Graph,
+    scalar: Scalar,
+    /// What the sizes must satisfy if exact dividends stay as they are, and if others take their place.
+    ways: [Sizes; 2],
+    /// What is made of each value.
+    readers: Vec<Vec<ValueId>>,
+    uses: Vec<usize>,
+    /// The constants of operations, as they are by now.
+    constants: Vec<Option<Constant>>,
+    /// Those that have changed.
+    changed: BTreeMap<ValueId, Constant>,
+    found: Multiples,
 }
 
-/// The sizes in which values are found where a product with a constant is its other factor, if products are spared.
-fn sparing(program: &Program, graph: &Graph, sizes: &Sizes, product: ValueId) -> Option<Scale> {
-    let (k, _) = program.multiple(graph, product)?;
-    let scale = Scale { factor: Number::one().div(&k.abs())?, powers: sizes.solve([(product, 1)], &[])? };
-    if scale.powers.values().any(|power| power.abs() > HIGHEST) {
-        return None;
-    }
-    let mut spares = false;
-    for (value, constant, number) in exchanged(program, graph, &scale) {
-        let is_product = matches!(program.op(value), Some(Op::Mul(..)));
-        let was_exact = is_exact(&program.constant(graph, constant)?, graph.scalar());
-        if !is_moderate(&number, graph.scalar()) || !is_product && was_exact && !is_exact(&number, graph.scalar()) {
-            return None;
+impl<'p> Search<'p> {
+    fn of(program: &'p Program, graph: &'p Graph) -> Self {
+        let scalar = graph.scalar();
+        let ways = [(); 2].map(|()| Sizes::of(program, &BTreeMap::new(), &|_| false));
+        let count = program.values.len();
+        let (mut readers, mut constants) = (vec![Vec::new(); count], vec![None; count]);
+        for value in program.computed() {
+            for operand in program.op(value).map(Op::operands).unwrap_or_default() {
+                readers[operand.index()].push(value);
+            }
+            constants[value.index()] = Constant::of(program, graph, value);
         }
-        spares |= is_product && number.abs().is_one();
+        let (changed, found) = (BTreeMap::new(), Multiples::default());
+        let uses = program.uses();
+        let mut search = Self { program, graph, scalar, ways, readers, uses, constants, changed, found };
+        search.keep_dividends();
+        search
     }
-    spares.then_some(scale)
-}
 
-/// Powers beyond this would make numbers too large or too small of factors that are neither.
-const HIGHEST: i32 = 2;
-
-/// The values whose constants change, with the constant and what it becomes.
-fn exchanged(program: &Program, graph: &Graph, scale: &Scale) -> Vec<(ValueId, ValueId, Number)> {
-    let changed = |value: ValueId| {
-        let is_found = |value: &ValueId| scale.powers.contains_key(value);
-        let operands = program.op(value).map(Op::operands)?;
-        if !is_found(&value) && !operands.iter().any(is_found) {
-            return None;
+    /// What the sizes must satisfy if exact dividends stay as they are.
+    fn keep_dividends(&mut self) {
+        let is_exact =
+            |constant: &Option<Constant>| constant.as_ref().is_some_and(|k| is_exact(&k.number, self.scalar));
+        let mut sizes = Sizes::of(self.program, &BTreeMap::new(), &|value| is_exact(&self.constants[value.index()]));
+        for (value, constant) in &self.changed {
+            if let Some(rest) = self.program.op(*value).and_then(|op| factor_beside(op, constant)) {
+                sizes.equate(vec![(*value, 1), (rest, -1)]);
+            }
         }
-        let (constant, number) = rescaled(program, graph, std::slice::from_ref(scale), value)?;
-        Some((value, constant, number))
-    };
-    program.computed().filter_map(changed).collect()
+        self.ways[0] = sizes;
+    }
+
+    /// Leaves out a product with a constant, if values can be found in sizes that allow it.
+    fn spare(&mut self, product: ValueId) {
+        if !matches!(self.program.op(product), Some(Op::Mul(..))) {
+            return;
+        }
+        let factor = match &self.constants[product.index()] {
+            Some(k) if !k.number.abs().is_one() => Number::one().div(&k.number.abs()),
+            _ => None,
+        };
+        let Some(factor) = factor else { return };
+        let ways = self.ways.iter().flat_map(|sizes| [(sizes, Order::FirstMade), (sizes, Order::LastMade)]);
+        let found = ways.filter_map(|(sizes, order)| {
+            let scale = Scale { factor: factor.clone(), powers: sizes.solve_near(product, order)? };
+            let (spares, changed) = self.changed_by(&scale)?;
+            Some((spares, scale, changed))
+        });
+        // Of ways that spare as many the first one.
+        let best = found.reduce(|best, other| if other.0 > best.0 { other } else { best });
+        if let Some((_, scale, changed)) = best {
+            self.take(&scale, changed);
+        }
+    }
+
+    /// How many products are spared, if any are, and the constants that change, if they may.
+    fn changed_by(&self, scale: &Scale) -> Option<(usize, Vec<(ValueId, Constant)>)> {
+        let made_of = |value: &ValueId| self.readers[value.index()].iter().copied().chain([*value]);
+        let reached: BTreeSet<ValueId> = scale.powers.keys().flat_map(made_of).collect();
+        let (mut changed, mut spares) = (Vec::new(), 0);
+        for value in reached {
+            let Some(before) = &self.constants[value.index()] else { continue };
+            let Some(number) = scale.of(before) else { continue };
+            let is_product = matches!(self.program.op(value), Some(Op::Mul(..)));
+            let stays_exact = !is_exact(&before.number, self.scalar) || is_exact(&number, self.scalar);
+            if !is_moderate(&number, self.scalar) || !is_product && !stays_exact {
+                return None;
+            }
+            spares += usize::from(is_product && number.abs().is_one());
+            changed.push((value, Constant { number, ..before.clone() }));
+        }
+        (spares > 0).then_some((spares, changed))
+    }
+
+    /// Values are found in these sizes. From now on what is a product no more has the size of its factor.
+    fn take(&mut self, scale: &Scale, changed: Vec<(ValueId, Constant)>) {
+        let is_quotient = |(value, _): &(ValueId, Constant)| matches!(self.program.op(*value), Some(Op::Div(..)));
+        let dividends_change = changed.iter().any(is_quotient);
+        for (value, constant) in changed {
+            if let Some(rest) = self.program.op(value).and_then(|op| factor_beside(op, &constant)) {
+                self.ways.iter_mut().for_each(|sizes| sizes.equate(vec![(value, 1), (rest, -1)]));
+                if constant.number.is_one() {
+                    self.spared(value, rest);
+                }
+            }
+            self.constants[value.index()] = Some(constant.clone());
+            self.changed.insert(value, constant);
+        }
+        for (value, exponent) in &scale.powers {
+            let factor = self.found.factors.entry(*value).or_insert_with(Number::one);
+            *factor = factor.mul(&power(&scale.factor, *exponent));
+        }
+        if dividends_change {
+            self.keep_dividends();
+        }
+    }
+
+    /// What a product that is left out was called: its other factor is, or where this has a name, equations have the product.
+    fn spared(&mut self, product: ValueId, rest: ValueId) {
+        let named = self.found.named(product);
+        let Some(label) = &self.program.value(named).label else { return };
+        match (&self.program.value(rest).label, self.program.multiple(self.graph, product)) {
+            (Some(of), Some((k, _))) => {
+                self.found.spared.push((label.name.clone(), format!("{}·{}", k.to_f64(), of.name)));
+            }
+            (None, _) if self.uses[rest.index()] == 1 => drop(self.found.renamed.insert(rest, product)),
+            _ => {}
+        }
+    }
 }
 
 /// Whether a constant is far from the ends of the scalar's range.
@@ -97,51 +180,31 @@ struct Multiples {
     factors: BTreeMap<ValueId, Number>,
     /// Names of products that are spared, each with what stands for it in equations.
     spared: Vec<(String, String)>,
+    /// Values without names, with the products in whose places they stand.
+    renamed: BTreeMap<ValueId, ValueId>,
 }
 
 impl Multiples {
-    /// Values will be found in these sizes.
-    fn take(&mut self, program: &mut Program, graph: &Graph, scale: &Scale) {
-        let uses = program.uses();
-        for (product, constant, number) in exchanged(program, graph, scale) {
-            let Some(op @ Op::Mul(..)) = program.op(product).cloned() else { continue };
-            let (Some(rest), Some(label)) = (other_operand(&op, constant), &program.value(product).label) else {
-                continue;
-            };
-            if !number.is_one() {
-                continue;
-            }
-            match &program.value(rest).label {
-                Some(of) => {
-                    let k = program.constant(graph, constant).map_or(f64::NAN, |k| k.to_f64());
-                    self.spared.push((label.name.clone(), format!("{k}·{}", of.name)));
-                }
-                // It stands in the product's place.
-                None if uses[rest.index()] == 1 => {
-                    let mut factor = self.factors.get(&product).cloned().unwrap_or_else(Number::one);
-                    if !scale.powers.contains_key(&rest) {
-                        factor = factor.mul(&power(&scale.factor, scale.powers.get(&product).copied().unwrap_or(0)));
-                    }
-                    self.factors.insert(rest, factor);
-                    program.values[rest.index()].label = Some(label.clone());
-                }
-                None => {}
-            }
+    /// The value of whose name a value has the name.
+    fn named(&self, mut value: ValueId) -> ValueId {
+        while let Some(product) = self.renamed.get(&value) {
+            value = *product;
         }
-        for (value, exponent) in &scale.powers {
-            let factor = self.factors.entry(*value).or_insert_with(Number::one);
-            *factor = factor.mul(&power(&scale.factor, *exponent));
-        }
+        value
     }
 
     /// Names and equations say it.
     fn tell(&self, program: &mut Program) {
+        for rest in self.renamed.keys() {
+            program.values[rest.index()].label = program.value(self.named(*rest)).label.clone();
+        }
         for (index, value) in program.values.iter_mut().enumerate() {
             let Some(Label { name, equation }) = &mut value.label else { continue };
             for (spared, product) in &self.spared {
                 *equation = with_word(equation, spared, product);
             }
-            if let Some(factor) = self.factors.get(&ValueId::new(index)).filter(|factor| !factor.is_one()) {
+            let named = self.named(ValueId::new(index));
+            if let Some(factor) = self.factors.get(&named).filter(|factor| !factor.is_one()) {
                 let of = if equation.is_empty() { &*name } else { &*equation };
                 *equation = format!("{of}, {}", in_words(factor.to_f64()));
                 name.push_str(MULTIPLE);

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::number::Number;
-use crate::graph::{Graph, Kernel, Label, Op};
+use crate::graph::{Graph, Kernel, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
 /// How the sizes of values go with each other, as powers of one and the same factor.
@@ -25,7 +25,8 @@ pub(super) struct Sizes {
 pub(super) type Powers = BTreeMap<ValueId, i32>;
 
 impl Sizes {
-    /// Of a program, in which others are read in place of some values: these are not computed. Some dividends stay as they are.
+    /// Of a program, in which others are read in place of some values: these are not computed. The dividends of
+    /// some values stay as they are.
     pub(super) fn of(
         program: &Program,
         replaced: &BTreeMap<ValueId, ValueId>,
@@ -66,7 +67,8 @@ impl Sizes {
         self.fixed[value.index()] = true;
     }
 
-    fn equate(&mut self, terms: Vec<(ValueId, i32)>) {
+    /// A sum of powers that is zero.
+    pub(super) fn equate(&mut self, terms: Vec<(ValueId, i32)>) {
         for (value, _) in &terms {
             self.sums_of[value.index()].push(self.sums.len());
         }
@@ -81,7 +83,7 @@ impl Sizes {
         match *op {
             // A constant in it takes whatever is asked.
             Op::Constant(_) => {}
-            Op::Div(k, a) if is_constant(k) && stays(k) => self.equate(vec![(value, 1), (a, 1)]),
+            Op::Div(k, a) if is_constant(k) && stays(value) => self.equate(vec![(value, 1), (a, 1)]),
             Op::Mul(a, b) | Op::Div(a, b) if is_constant(a) || is_constant(b) => {}
             Op::Mul(a, b) => self.equate(vec![(value, 1), (a, -1), (b, -1)]),
             Op::Div(a, b) => self.equate(vec![(value, 1), (a, -1), (b, 1)]),
@@ -111,12 +113,33 @@ impl Sizes {
         }
         solution.conclude()?;
         first_of_all.iter().try_for_each(|value| solution.leave(*value))?;
-        while let Some(value) = solution.undecided.pop_first() {
-            solution.leave(value)?;
-        }
-        solution.known.retain(|_, power| *power != 0);
-        Some(solution.known)
+        solution.leave_the_rest()
     }
+
+    /// The same of one value that is found the factor times as large, if that has to do with a few values only, and with no power of the factor
+    /// beyond the second: others would make numbers too large or too small of factors that are neither. What is left open stays as it is as is
+    /// said.
+    pub(super) fn solve_near(&self, value: ValueId, order: Order) -> Option<Powers> {
+        let mut solution = Solution { values: 150, power: 2, ..Solution::of(self) };
+        solution.set(value, 1)?;
+        solution.conclude()?;
+        while let (Order::LastMade, Some(value)) = (order, solution.undecided.pop_last()) {
+            if solution.of_value(value).is_none() {
+                solution.set(value, 0)?;
+                solution.conclude()?;
+            }
+        }
+        solution.leave_the_rest()
+    }
+}
+
+/// Of values that are not decided, which stay as they are first.
+#[derive(Clone, Copy)]
+pub(super) enum Order {
+    /// What others are made of.
+    FirstMade,
+    /// What is made of others.
+    LastMade,
 }
 
 /// What is known of the sizes so far. Of a value that nothing known has to do with nothing is said.
@@ -127,21 +150,26 @@ struct Solution<'s> {
     open: Vec<usize>,
     /// Values that were met when they were not known.
     undecided: BTreeSet<ValueId>,
+    /// How many values may be known, and the highest power.
+    values: usize,
+    power: i32,
 }
 
 impl<'s> Solution<'s> {
     fn of(sizes: &'s Sizes) -> Self {
-        Self { sizes, known: BTreeMap::new(), open: Vec::new(), undecided: BTreeSet::new() }
+        let (known, open, undecided) = (BTreeMap::new(), Vec::new(), BTreeSet::new());
+        Self { sizes, known, open, undecided, values: usize::MAX, power: i32::MAX }
     }
 
-    fn power(&self, value: ValueId) -> Option<i32> {
+    fn of_value(&self, value: ValueId) -> Option<i32> {
         if self.sizes.fixed[value.index()] { Some(0) } else { self.known.get(&value).copied() }
     }
 
     fn set(&mut self, value: ValueId, power: i32) -> Option<()> {
-        match self.power(value) {
+        match self.of_value(value) {
             Some(known) if known != power => return None,
             Some(_) => {}
+            None if power.abs() > self.power || self.known.len() >= self.values => return None,
             None => {
                 self.known.insert(value, power);
                 self.open.extend(&self.sizes.sums_of[value.index()]);
@@ -150,12 +178,21 @@ impl<'s> Solution<'s> {
         Some(())
     }
 
+    /// Leaves all as it is that is not decided by then; the powers that are not zero.
+    fn leave_the_rest(mut self) -> Option<Powers> {
+        while let Some(value) = self.undecided.pop_first() {
+            self.leave(value)?;
+        }
+        self.known.retain(|_, power| *power != 0);
+        Some(self.known)
+    }
+
     /// Leaves a value as it is, if nothing speaks against it, and first of all what it is made of.
     fn leave(&mut self, value: ValueId) -> Option<()> {
         let sizes = self.sizes;
         let mut waiting = vec![(value, false)];
         while let Some((value, operands_are_left)) = waiting.pop() {
-            if self.power(value).is_some() {
+            if self.of_value(value).is_some() {
                 continue;
             }
             if operands_are_left {
@@ -174,21 +211,29 @@ impl<'s> Solution<'s> {
         let sizes = self.sizes;
         while let Some(index) = self.open.pop() {
             let terms = &sizes.sums[index];
-            let sum: i32 = terms.iter().filter_map(|(value, k)| Some(k * self.power(*value)?)).sum();
-            let unknown: BTreeSet<ValueId> =
-                terms.iter().map(|(value, _)| *value).filter(|value| self.power(*value).is_none()).collect();
-            let mut unknowns = unknown.iter();
-            match (unknowns.next(), unknowns.next()) {
-                (None, _) if sum != 0 => return None,
-                (None, _) => {}
-                (Some(value), None) => {
-                    let k: i32 = terms.iter().filter(|(other, _)| other == value).map(|(_, k)| k).sum();
+            let (mut sum, mut unknown) = (0, None);
+            let mut several = false;
+            for (value, k) in terms {
+                match self.of_value(*value) {
+                    Some(power) => sum += k * power,
+                    None => several |= *unknown.get_or_insert(*value) != *value,
+                }
+            }
+            match unknown {
+                None if sum != 0 => return None,
+                None => {}
+                Some(_) if several => {
+                    let unknown = terms.iter().map(|(value, _)| *value);
+                    let unknown: Vec<ValueId> = unknown.filter(|value| self.of_value(*value).is_none()).collect();
+                    self.undecided.extend(unknown);
+                }
+                Some(value) => {
+                    let k: i32 = terms.iter().filter(|(other, _)| *other == value).map(|(_, k)| k).sum();
                     if k == 0 || sum % k != 0 {
                         return None;
                     }
-                    self.set(*value, -sum / k)?;
+                    self.set(value, -sum / k)?;
                 }
-                _ => self.undecided.extend(unknown),
             }
         }
         Some(())
@@ -208,50 +253,75 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    fn power(&self, value: ValueId) -> i32 {
+    pub(super) fn power(&self, value: ValueId) -> i32 {
         self.powers.get(&value).copied().unwrap_or(0)
+    }
+
+    /// What a constant becomes, if it changes.
+    pub(super) fn of(&self, Constant { number, powers, .. }: &Constant) -> Option<Number> {
+        let exponent: i32 = powers.iter().map(|(value, k)| k * self.power(*value)).sum();
+        let power = self.factor.pow(exponent.unsigned_abs());
+        match exponent {
+            0 => None,
+            ..0 => number.div(&power),
+            _ => Some(number.mul(&power)),
+        }
     }
 }
 
-/// Finds values in their sizes, where constants take it back; a product with a constant that is one then is its other factor, or the negative of
-/// it. The names of others change as is said.
-pub(super) fn resize(
+/// The constant of an operation.
+#[derive(Clone)]
+pub(super) struct Constant {
+    /// Its place.
+    pub(super) value: ValueId,
+    pub(super) number: Number,
+    /// The sum of powers by which it is multiplied, so that the result has the size that is asked of it.
+    pub(super) powers: Vec<(ValueId, i32)>,
+}
+
+impl Constant {
+    /// That of an operation that has one.
+    pub(super) fn of(program: &Program, graph: &Graph, value: ValueId) -> Option<Self> {
+        let is_constant = |value: ValueId| is_constant(program, value);
+        let (constant, powers) = match *program.op(value)? {
+            Op::Mul(k, a) | Op::Mul(a, k) if is_constant(k) => (k, vec![(a, -1), (value, 1)]),
+            Op::Div(k, a) if is_constant(k) => (k, vec![(a, 1), (value, 1)]),
+            Op::Div(a, k) if is_constant(k) => (k, vec![(a, 1), (value, -1)]),
+            Op::Add(k, _) | Op::Add(_, k) | Op::Sub(k, _) | Op::Sub(_, k) if is_constant(k) => (k, vec![(value, 1)]),
+            _ => return None,
+        };
+        Some(Self { value: constant, number: program.constant(graph, constant)?, powers })
+    }
+}
+
+/// Operations get other constants; a product with one is its other factor then, with minus one the negative of it. What others are read in
+/// place of is left out.
+pub(super) fn exchange(
     program: &mut Program,
     graph: &Graph,
-    scales: &[Scale],
+    constants: &BTreeMap<ValueId, Constant>,
     mut replaced: BTreeMap<ValueId, ValueId>,
-    renamed: impl Fn(usize, &Label, i32) -> Label,
 ) {
     for step in core::mem::take(&mut program.steps) {
         if let Step::Let(value) = step {
             if replaced.contains_key(&value) {
                 continue;
             }
-            if let Some((constant, number)) = rescaled(program, graph, scales, value)
+            if let Some(constant) = constants.get(&value)
                 && let Some(op) = program.op(value).cloned()
             {
-                let product_with_one = if matches!(op, Op::Mul(..)) && number.abs().is_one() {
-                    other_operand(&op, constant)
-                } else {
-                    None
-                };
-                let op = match product_with_one {
-                    Some(rest) if number.is_one() => {
+                let op = match factor_beside(&op, constant) {
+                    Some(rest) if constant.number.is_one() => {
                         replaced.insert(value, replaced.get(&rest).copied().unwrap_or(rest));
                         continue;
                     }
                     Some(rest) => Op::Neg(rest),
                     None => {
-                        let own = program.add_constant(graph, &number, value);
-                        op.map(|operand| if operand == constant { own } else { operand })
+                        let own = program.add_constant(graph, &constant.number, value);
+                        op.map(|operand| if operand == constant.value { own } else { operand })
                     }
                 };
                 program.values[value.index()].definition = Definition::Computed(op);
-            }
-            if let Some(label) = &mut program.values[value.index()].label {
-                for (index, scale) in scales.iter().enumerate() {
-                    *label = renamed(index, label, scale.power(value));
-                }
             }
         }
         let step = program.reading(step, &replaced);
@@ -263,39 +333,8 @@ pub(super) fn resize(
     program.rename_results(&replaced);
 }
 
-/// The operand of a product that is not the constant.
-pub(super) fn other_operand(op: &Op<ValueId>, constant: ValueId) -> Option<ValueId> {
-    op.operands().into_iter().find(|operand| *operand != constant)
-}
-
-/// The constant that an operation has, and what it becomes, if it changes.
-pub(super) fn rescaled(
-    program: &Program,
-    graph: &Graph,
-    scales: &[Scale],
-    value: ValueId,
-) -> Option<(ValueId, Number)> {
-    let (constant, powers) = constant_of(program, value)?;
-    let mut number = None;
-    for scale in scales {
-        let exponent: i32 = powers.iter().map(|(value, k)| k * scale.power(*value)).sum();
-        if exponent != 0 {
-            let power = scale.factor.pow(exponent.unsigned_abs());
-            let before = number.map_or_else(|| program.constant(graph, constant), Some)?;
-            number = Some(if exponent < 0 { before.div(&power)? } else { before.mul(&power) });
-        }
-    }
-    Some((constant, number?))
-}
-
-/// The constant that an operation has, and the sum of powers by which it is multiplied, so that the result has the size that is asked of it.
-fn constant_of(program: &Program, value: ValueId) -> Option<(ValueId, Vec<(ValueId, i32)>)> {
-    let is_constant = |value: ValueId| is_constant(program, value);
-    match *program.op(value)? {
-        Op::Mul(k, a) | Op::Mul(a, k) if is_constant(k) => Some((k, vec![(a, -1), (value, 1)])),
-        Op::Div(k, a) if is_constant(k) => Some((k, vec![(a, 1), (value, 1)])),
-        Op::Div(a, k) if is_constant(k) => Some((k, vec![(a, 1), (value, -1)])),
-        Op::Add(k, _) | Op::Add(_, k) | Op::Sub(k, _) | Op::Sub(_, k) if is_constant(k) => Some((k, vec![(value, 1)])),
-        _ => None,
-    }
+/// The other factor of a product with one or minus one.
+pub(super) fn factor_beside(op: &Op<ValueId>, constant: &Constant) -> Option<ValueId> {
+    let is_left_out = matches!(op, Op::Mul(..)) && constant.number.abs().is_one();
+    op.operands().into_iter().find(|operand| is_left_out && *operand != constant.value)
 }
