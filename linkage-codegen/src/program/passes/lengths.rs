@@ -25,11 +25,13 @@ pub(super) fn leave(mut program: Program, graph: &Graph) -> Program {
     let equations = Sizes::of(&program, &arms, &|_| false);
     let computed: Vec<ValueId> = program.computed().collect();
     let (mut constants, mut replaced) = (BTreeMap::new(), BTreeMap::new());
-    for direction in &directions {
-        let Some(powers) = sizes(&equations, &directions, direction, &computed) else {
-            divide(&mut program, graph, direction);
-            continue;
-        };
+    let powers = directions.iter().map(|direction| sizes(&equations, &directions, direction, &computed));
+    let powers: Vec<Option<Powers>> = powers.collect();
+    let (resized_ones, divided): (Vec<_>, Vec<_>) =
+        directions.iter().zip(powers).partition(|(_, powers)| powers.is_some());
+    divided.iter().for_each(|(direction, _)| divide(&mut program, graph, direction));
+    for (direction, powers) in resized_ones {
+        let Some(powers) = powers else { continue };
         let scale = Scale { factor: direction.reciprocal.clone(), powers };
         for value in &computed {
             let constant = constants.get(value).cloned().or_else(|| Constant::of(&program, graph, *value));

@@ -206,7 +206,7 @@ impl Multiples {
             let named = self.named(ValueId::new(index));
             if let Some(factor) = self.factors.get(&named).filter(|factor| !factor.is_one()) {
                 let of = if equation.is_empty() { &*name } else { &*equation };
-                *equation = format!("{of}, {}", in_words(factor.to_f64()));
+                *equation = format!("{of}, {}", in_words(factor));
                 name.push_str(MULTIPLE);
             }
         }
@@ -218,37 +218,45 @@ fn power(factor: &Number, exponent: i32) -> Number {
     if exponent < 0 { Number::one().div(&power).unwrap_or(power) } else { power }
 }
 
-fn in_words(factor: f64) -> String {
-    if factor < 1.0 { format!("over {}", factor.recip()) } else { format!("times {factor}") }
+fn in_words(factor: &Number) -> String {
+    match Number::one().div(factor).filter(|_| factor.compare(&Number::one()).is_lt()) {
+        Some(divisor) => format!("over {}", divisor.to_f64()),
+        None => format!("times {}", factor.to_f64()),
+    }
 }
 
-/// A text with another word in the place of one.
-fn with_word(text: &str, word: &str, other: &str) -> String {
-    let is_inside = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
-    let mut changed = String::new();
-    let mut rest = text;
-    while let Some(at) = rest.find(word) {
-        let (before, after) = (&rest[..at], &rest[at + word.len()..]);
-        let is_word = !is_inside(before.chars().next_back()) && !is_inside(after.chars().next());
-        changed.push_str(before);
-        changed.push_str(if is_word { other } else { word });
-        rest = after;
+/// A text with a product in the place of a word, in brackets where it is divided by or raised to a power.
+fn with_word(text: &str, word: &str, product: &str) -> String {
+    let is_inside = |c: char| c == '_' || c.is_ascii_alphanumeric() || (!c.is_ascii() && c.is_alphabetic());
+    let is_power = |c: char| matches!(c, '²' | '³' | '^');
+    let (mut changed, mut end) = (String::new(), 0);
+    for (at, _) in text.match_indices(word) {
+        let (before, after) = (text[..at].chars().next_back(), text[at + word.len()..].chars().next());
+        if before.is_some_and(is_inside) || after.is_some_and(is_inside) {
+            continue;
+        }
+        changed.push_str(&text[end..at]);
+        let is_bound = before.is_some_and(|c| matches!(c, '/' | '√')) || after.is_some_and(is_power);
+        changed.push_str(&if is_bound { format!("({product})") } else { product.to_owned() });
+        end = at + word.len();
     }
-    changed + rest
+    changed + &text[end..]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{in_words, with_word};
+    use super::{Number, in_words, with_word};
 
     #[test]
     fn only_words_are_exchanged() {
         assert_eq!(with_word("D2_B + p_B p_B2 sp_B, p_B", "p_B", "3·x"), "D2_B + 3·x p_B2 sp_B, 3·x");
-        assert_eq!(with_word("", "p_B", "x"), "");
+        assert_eq!(with_word("p_B/p_B + p_B² − √p_B", "p_B", "3·x"), "3·x/(3·x) + (3·x)² − √(3·x)");
+        assert_eq!([with_word("aa", "a", "b"), with_word("", "p_B", "x")], ["aa", ""]);
     }
 
     #[test]
     fn factors_in_words() {
-        assert_eq!([in_words(0.25), in_words(2.5)], ["over 4", "times 2.5"]);
+        let words = [(1, 4), (5, 2), (1, 1_690_000)].map(|(n, d)| in_words(&Number::ratio(n, d)));
+        assert_eq!(words, ["over 4", "times 2.5", "over 1690000"]);
     }
 }

@@ -102,7 +102,9 @@ fn negative_sum(
     (uses, depths): (&mut Vec<usize>, &[usize]),
     steps: &mut Vec<Step>,
 ) -> Op<ValueId> {
-    let [first, second] = if depths[b.index()] < depths[a.index()] { [b, a] } else { [a, b] };
+    // What is new is known as soon as what it negates, at the least.
+    let depth = |value: ValueId| depths.get(value.index()).copied().unwrap_or(0);
+    let [first, second] = if depth(b) < depth(a) { [b, a] } else { [a, b] };
     for (term, other) in [(first, second), (second, first)] {
         if program.is_inner(term, uses)
             && let Some(op) = negative(program, graph, term, uses)

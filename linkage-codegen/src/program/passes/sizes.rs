@@ -123,10 +123,12 @@ impl Sizes {
         let mut solution = Solution { values: 150, power: 2, ..Solution::of(self) };
         solution.set(value, 1)?;
         solution.conclude()?;
-        while let (Order::LastMade, Some(value)) = (order, solution.undecided.pop_last()) {
-            if solution.of_value(value).is_none() {
-                solution.set(value, 0)?;
-                solution.conclude()?;
+        if let Order::LastMade = order {
+            while let Some(value) = solution.undecided.pop_last() {
+                if solution.of_value(value).is_none() {
+                    solution.set(value, 0)?;
+                    solution.conclude()?;
+                }
             }
         }
         solution.leave_the_rest()
@@ -312,7 +314,9 @@ pub(super) fn exchange(
             {
                 let op = match factor_beside(&op, constant) {
                     Some(rest) if constant.number.is_one() => {
-                        replaced.insert(value, replaced.get(&rest).copied().unwrap_or(rest));
+                        let rest = replaced.get(&rest).copied().unwrap_or(rest);
+                        replaced.values_mut().filter(|other| **other == value).for_each(|other| *other = rest);
+                        replaced.insert(value, rest);
                         continue;
                     }
                     Some(rest) => Op::Neg(rest),

@@ -153,7 +153,8 @@ impl Turn {
             first: _mm_xor_pd(z, _mm_and_pd(_mm_xor_pd(y, z), is_sine)),
             factor: Factor { own: _mm_xor_pd(_mm_xor_pd(w, differing), negated), other: _mm_xor_pd(y, differing) },
             tail: _mm_xor_pd(t, tail_negated),
-            lost: _mm_xor_pd(_mm_andnot_pd(is_sine, lost), negated),
+            // Zero for a sine, whatever its sign: −0 from the rest stays −0.
+            lost: _mm_andnot_pd(is_sine, _mm_xor_pd(lost, negated)),
         }
     }
 }
@@ -184,7 +185,10 @@ fn twice(number: f64) -> __m128d {
 
 #[cfg(test)]
 mod tests {
-    use crate::math::f64::{fused_sin_cos, short_fused_sin_cos, short_sin_cos, sin_cos};
+    use crate::math::f64::{
+        fused_sin_cos, fused_sin_cos_sum, short_fused_sin_cos, short_fused_sin_cos_sum, short_sin_cos,
+        short_sin_cos_sum, sin_cos, sin_cos_sum,
+    };
 
     #[test]
     fn halves_have_the_bits_of_one_by_one() {
@@ -195,6 +199,23 @@ mod tests {
             for x in [x, -x] {
                 assert_eq!(bits(sin_cos(x)), bits(short_sin_cos(x)), "{x:e}");
                 assert_eq!(bits(fused_sin_cos(x)), bits(short_fused_sin_cos(x)), "fused, {x:e}");
+            }
+        }
+    }
+
+    /// Where nothing is left of a reduced angle, the sign of zero is the same too.
+    #[test]
+    fn halves_have_the_bits_of_one_by_one_at_quarter_turns() {
+        let bits = |(sin, cos): (f64, f64)| [sin.to_bits(), cos.to_bits()];
+        let (pi, rest) = (core::f64::consts::PI, 1.2246467991473532e-16);
+        for quarters in [-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0] {
+            let (hi, lo) = (0.25 * quarters * pi, 0.25 * quarters * rest);
+            for (hi, lo) in [(hi, lo), (2.0 * hi, 2.0 * lo)] {
+                for x in [0.0, -0.0] {
+                    assert_eq!(bits(sin_cos_sum(x, hi, lo)), bits(short_sin_cos_sum(x, hi, lo)), "{hi:e}");
+                    let fused = [fused_sin_cos_sum(x, hi, lo), short_fused_sin_cos_sum(x, hi, lo)].map(bits);
+                    assert_eq!(fused[0], fused[1], "fused, {hi:e}");
+                }
             }
         }
     }
