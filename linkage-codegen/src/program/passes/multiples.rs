@@ -48,7 +48,7 @@ struct Search<'p> {
 impl<'p> Search<'p> {
     fn of(program: &'p Program, graph: &'p Graph) -> Self {
         let scalar = graph.scalar();
-        let ways = [(); 2].map(|()| Sizes::of(program, &BTreeMap::new(), &|_| false));
+        let ways = [(); 2].map(|()| Sizes::of(program, graph, &BTreeMap::new(), &|_| false));
         let count = program.values.len();
         let (mut readers, mut constants) = (vec![Vec::new(); count], vec![None; count]);
         for value in program.computed() {
@@ -68,7 +68,8 @@ impl<'p> Search<'p> {
     fn keep_dividends(&mut self) {
         let is_exact =
             |constant: &Option<Constant>| constant.as_ref().is_some_and(|k| is_exact(&k.number, self.scalar));
-        let mut sizes = Sizes::of(self.program, &BTreeMap::new(), &|value| is_exact(&self.constants[value.index()]));
+        let mut sizes =
+            Sizes::of(self.program, self.graph, &BTreeMap::new(), &|value| is_exact(&self.constants[value.index()]));
         for (value, constant) in &self.changed {
             if let Some(rest) = self.program.op(*value).and_then(|op| factor_beside(op, constant)) {
                 sizes.equate(vec![(*value, 1), (rest, -1)]);

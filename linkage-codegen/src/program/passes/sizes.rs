@@ -29,6 +29,7 @@ impl Sizes {
     /// some values stay as they are.
     pub(super) fn of(
         program: &Program,
+        graph: &Graph,
         replaced: &BTreeMap<ValueId, ValueId>,
         stays: &dyn Fn(ValueId) -> bool,
     ) -> Self {
@@ -42,9 +43,15 @@ impl Sizes {
             match step {
                 Step::Let(value) if replaced.contains_key(value) => {}
                 Step::Let(value) => sizes.state(program, *value, stays),
-                Step::Check { report, .. } => {
-                    let computed = report.iter().filter_map(|value| program.op(*value)).flat_map(Op::operands);
-                    computed.chain(program.operands_of(step)).for_each(|value| sizes.fix(value));
+                Step::Check { guard, weaker, report } => {
+                    let reported = report.iter().filter_map(|value| program.op(*value)).flat_map(Op::operands);
+                    let guards = [guard].into_iter().chain(weaker);
+                    let told = guards.clone().filter_map(|guard| guard.failure.operand());
+                    // Whether something is more than nothing is the same in all sizes.
+                    let is_nothing = |limit| program.constant(graph, limit).is_some_and(|limit| limit.is_zero());
+                    let compared =
+                        guards.map(|guard| guard.condition.operands()).filter(|[_, limit]| !is_nothing(*limit));
+                    reported.chain(told).chain(compared.flatten()).for_each(|value| sizes.fix(value));
                 }
                 Step::FiniteInput(_) | Step::FiniteResults(_) => {}
             }
