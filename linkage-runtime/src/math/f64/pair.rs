@@ -207,7 +207,7 @@ mod tests {
     #[test]
     fn halves_have_the_bits_of_one_by_one_at_quarter_turns() {
         let bits = |(sin, cos): (f64, f64)| [sin.to_bits(), cos.to_bits()];
-        let (pi, rest) = (core::f64::consts::PI, 1.2246467991473532e-16);
+        let (pi, rest) = (core::f64::consts::PI, 1.224_646_799_147_353_2e-16);
         for quarters in [-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0] {
             let (hi, lo) = (0.25 * quarters * pi, 0.25 * quarters * rest);
             for (hi, lo) in [(hi, lo), (2.0 * hi, 2.0 * lo)] {
