@@ -9,7 +9,7 @@ use linkage_codegen::graph::real::Real;
 use linkage_codegen::graph::{Graph, Kernel, NodeId, Op, Symbol};
 use linkage_codegen::plan::Output;
 use linkage_codegen::program::passes::PASSES;
-use linkage_codegen::program::{Counts, Definition, Extract, Fault, Form, Input, Program, Run, Step, Value, ValueId};
+use linkage_codegen::program::{Definition, Extract, Fault, Form, Input, Program, Run, Step, Value, ValueId};
 use support::families::boom;
 use support::linkages::{Kind, Random, sample, sample_with_search};
 use support::numbers::{Double, Extended};
@@ -195,56 +195,7 @@ fn common_factors_are_multiplied_once() {
     assert!(saved > 40 && named > 10, "{saved} products saved, {named} named");
 }
 
-/// Values that are found in multiples spare products in most functions, add none, and leave all else; no constant of a sum or of a quotient that was
-/// exact becomes one that is not.
-#[test]
-fn multiples_spare_products_alone() {
-    let (mut spared, mut functions, mut exact) = (0, [0, 0], 0);
-    for seed in 0..60 {
-        let scalar = ["f64", "f32"][usize::from(seed % 3 == 2)];
-        let kind = Kind { dyads: 1 + usize::try_from(seed % 3).unwrap(), moving: seed % 2 == 0, scalar, ..KIND };
-        let sample = sample(seed, kind);
-        let linkage = compile(&sample.text);
-        let graph = &linkage.model.graph;
-        for output in &linkage.plan.scenes {
-            for form in [Form::Direct, Form::FromPose] {
-                let program = unoptimised(output, graph, form);
-                let programs = before_and_after("multiples", program, graph);
-                let [before, after] = programs.each_ref().map(Program::counts);
-                let less = before.mul - after.mul;
-                // What becomes the negative of its factor is no product.
-                assert!(after.sign <= before.sign + less, "{before:?} {after:?}\n{}", sample.text);
-                assert_eq!(Counts { mul: before.mul, sign: before.sign, ..after }, before, "{}", sample.text);
-                spared += less;
-                functions[usize::from(less > 0)] += 1;
-                let [before, after] = programs.each_ref().map(|program| exact_constants(program, graph));
-                assert!(after >= before, "{before} {after}\n{}", sample.text);
-                exact += before;
-            }
-        }
-    }
-    assert!(spared > 500 && functions[1] > functions[0] && exact > 100, "{spared} {functions:?} {exact}");
-}
-
-/// How many constants of sums and dividends the scalar has as they are.
-fn exact_constants(program: &Program, graph: &Graph) -> usize {
-    let computed = program.steps.iter().filter_map(|step| match step {
-        Step::Let(value) => program.op(*value),
-        _ => None,
-    });
-    let beside = computed.flat_map(|op| match op {
-        Op::Add(a, b) | Op::Sub(a, b) => vec![*a, *b],
-        Op::Div(a, _) => vec![*a],
-        _ => vec![],
-    });
-    let exact = |number: linkage_codegen::graph::number::Number| {
-        let nearest = linkage_codegen::graph::number::Number::from_f64(number.nearest(graph.scalar()));
-        nearest.is_some_and(|nearest| nearest.sub(&number).is_zero())
-    };
-    beside.filter(|value| program.constant(graph, *value).is_some_and(exact)).count()
-}
-
-/// Nothing is computed twice, but under two names that are lines of the derivation; and no bit of a result changes.
+/// Nothing is computed twice, but under two names; and no bit of a result changes.
 #[test]
 fn what_is_repeated_is_computed_once() {
     let mut saved = 0;

@@ -1,5 +1,5 @@
 //! With `arithmetic fused;` a product that a sum reads is added without being rounded: `a·b + c` is one operation. What has a name of its own
-//! is a line of the derivation and stays a number of its own, rounded as such; only constants are added to it before it is.
+//! is a line of the derivation and stays a number of its own, rounded as such.
 //!
 //! Of two products the one that is known last is added to the other, which has been rounded by then; a change of sign goes to a factor.
 
@@ -40,9 +40,7 @@ fn operands(
     (ready, steps): (&Ready, &mut Vec<Step>),
 ) -> Option<[ValueId; 3]> {
     let ([a, b], minus) = program.op(sum)?.terms()?;
-    let beside_constant = [a, b].into_iter().any(|term| program.constant(graph, term).is_some());
-    let unnamed =
-        |value: ValueId| program.op(value).filter(|_| beside_constant || program.value(value).label.is_none());
+    let unnamed = |value: ValueId| program.op(value).filter(|_| program.value(value).label.is_none());
     let product = |value: ValueId| match unnamed(value)? {
         Op::Mul(x, y) => Some((*x, *y, false)),
         Op::Neg(product) => match unnamed(*product)? {

@@ -10,12 +10,10 @@ mod finite;
 mod fused;
 mod late;
 mod lengths;
-mod multiples;
 mod pivots;
 mod reciprocals;
 mod repeated;
 mod signs;
-mod sizes;
 mod unused;
 
 use std::collections::BTreeMap;
@@ -28,7 +26,7 @@ use crate::graph::{Graph, Guard, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 18] = [
+pub const PASSES: [(&str, Pass); 17] = [
     ("lengths", lengths::leave),
     ("pivots", pivots::compare_directly),
     ("checks", checks::ask_once),
@@ -41,7 +39,6 @@ pub const PASSES: [(&str, Pass); 18] = [
     ("late", late::multiply_last),
     ("common factors", common::factor),
     ("constants of sums", constants::multiply_into_sums),
-    ("multiples", multiples::find),
     ("repeated", repeated::compute_once),
     ("signs", signs::absorb),
     ("finite", finite::check_once),
