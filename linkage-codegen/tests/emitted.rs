@@ -362,7 +362,7 @@ fn fused_arithmetic() {
         interpreted.check("work", &arguments, &fused::work_at(theta, &loads), &pose.and_then(|pose| pose.work(&loads)));
         interpreted.check("places", &arguments, &fused::places_at(theta), &pose.and_then(|pose| pose.places()));
     }
-    assert_eq!(interpreted.linkage.functions.scenes[0].direct.counts().fused, 18);
+    assert_eq!(interpreted.linkage.functions.scenes[0].direct.counts().fused, 22);
 }
 
 #[test]

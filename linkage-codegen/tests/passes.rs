@@ -9,9 +9,9 @@ use linkage_codegen::graph::real::Real;
 use linkage_codegen::graph::{Graph, Kernel, NodeId, Op, Symbol};
 use linkage_codegen::plan::Output;
 use linkage_codegen::program::passes::PASSES;
-use linkage_codegen::program::{Definition, Extract, Fault, Form, Input, Program, Run, Step, Value, ValueId};
+use linkage_codegen::program::{Counts, Definition, Extract, Fault, Form, Input, Program, Run, Step, Value, ValueId};
 use support::families::boom;
-use support::linkages::{Kind, Random, sample, sample_with_search};
+use support::linkages::{Kind, Random, Sample, sample, sample_with_search};
 use support::numbers::{Double, Extended};
 use support::{Arguments, Number, compile, pose};
 
@@ -41,33 +41,55 @@ const KIND: Kind = Kind {
 fn passes_keep_the_results() {
     for seed in 0..40 {
         let kind = Kind { dyads: 1 + usize::try_from(seed % 3).unwrap(), joints: false, ..KIND };
-        let sample = sample(seed, kind);
-        let linkage = compile(&sample.text);
-        let graph = &linkage.model.graph;
-        for output in &linkage.plan.scenes {
-            for form in [Form::Direct, Form::FromPose] {
-                let mut program = unoptimised(output, graph, form);
-                let exact = results::<Extended>(&linkage, &program, &sample.arguments);
-                let size = exact.iter().fold(1.0f64, |m, x| m.max(x.to_f64().abs()));
-                let mut before = program.counts();
-                for (name, pass) in PASSES {
-                    program = pass(program, graph);
-                    let after = results::<Extended>(&linkage, &program, &sample.arguments);
-                    for ((path, _), (a, b)) in program.outputs.iter().zip(exact.iter().zip(&after)) {
-                        let error = a.sub(b).to_f64().abs() / size;
-                        assert!(error < 1e-50, "{name} changes {path} by {error:e}\n{}", sample.text);
-                    }
-                    // A pass may trade a quotient for products; it never adds quotients, roots or kernels.
-                    let counts = program.counts();
-                    assert!(
-                        counts.div <= before.div && counts.sqrt <= before.sqrt && counts.sin_cos <= before.sin_cos,
-                        "{name}"
-                    );
-                    before = counts;
+        check_each_pass(&sample(seed, kind));
+    }
+}
+
+/// Slides that are driven leave directions that are constants, rates products of these.
+#[test]
+fn passes_keep_the_results_of_motion() {
+    for seed in 3000..3040 {
+        let dyads = 1 + usize::try_from(seed % 4).unwrap();
+        check_each_pass(&sample(seed, Kind { dyads, joints: seed % 2 == 1, moving: true, ..KIND }));
+    }
+}
+
+#[test]
+fn passes_keep_the_results_of_fused_arithmetic() {
+    for seed in 0..20 {
+        let mut sample = sample(seed, Kind { moving: seed % 2 == 0, ..KIND });
+        sample.text = sample.text.replacen(';', "; arithmetic fused;", 1);
+        check_each_pass(&sample);
+    }
+}
+
+/// A pass may trade a quotient for products, and with fused arithmetic divide by what it multiplied by the reciprocal of; it never adds
+/// quotients, roots or kernels.
+fn check_each_pass(sample: &Sample) {
+    let linkage = compile(&sample.text);
+    let graph = &linkage.model.graph;
+    for output in &linkage.plan.scenes {
+        for form in [Form::Direct, Form::FromPose] {
+            let mut program = unoptimised(output, graph, form);
+            let exact = results::<Extended>(&linkage, &program, &sample.arguments);
+            let size = exact.iter().fold(1.0f64, |m, x| m.max(x.to_f64().abs()));
+            let mut before = program.counts();
+            for (name, pass) in PASSES {
+                program = pass(program, graph);
+                let after = results::<Extended>(&linkage, &program, &sample.arguments);
+                for ((path, _), (a, b)) in program.outputs.iter().zip(exact.iter().zip(&after)) {
+                    let error = a.sub(b).to_f64().abs() / size;
+                    assert!(error < 1e-50, "{name} changes {path} by {error:e}\n{}", sample.text);
                 }
-                let double = results::<Double>(&linkage, &program, &sample.arguments);
-                assert!(double.iter().all(|x| x.0.is_finite()));
+                let counts = program.counts();
+                assert!(
+                    counts.div <= before.div && counts.sqrt <= before.sqrt && counts.sin_cos <= before.sin_cos,
+                    "{name}"
+                );
+                before = counts;
             }
+            let double = results::<Double>(&linkage, &program, &sample.arguments);
+            assert!(double.iter().all(|x| x.0.is_finite()));
         }
     }
 }
@@ -195,7 +217,56 @@ fn common_factors_are_multiplied_once() {
     assert!(saved > 40 && named > 10, "{saved} products saved, {named} named");
 }
 
-/// Nothing is computed twice, but under two names; and no bit of a result changes.
+/// Values that are found in multiples spare products in most functions, add none, and leave all else; no constant of a sum or of a quotient that was
+/// exact becomes one that is not.
+#[test]
+fn multiples_spare_products_alone() {
+    let (mut spared, mut functions, mut exact) = (0, [0, 0], 0);
+    for seed in 0..60 {
+        let scalar = ["f64", "f32"][usize::from(seed % 3 == 2)];
+        let kind = Kind { dyads: 1 + usize::try_from(seed % 3).unwrap(), moving: seed % 2 == 0, scalar, ..KIND };
+        let sample = sample(seed, kind);
+        let linkage = compile(&sample.text);
+        let graph = &linkage.model.graph;
+        for output in &linkage.plan.scenes {
+            for form in [Form::Direct, Form::FromPose] {
+                let program = unoptimised(output, graph, form);
+                let programs = before_and_after("multiples", program, graph);
+                let [before, after] = programs.each_ref().map(Program::counts);
+                let less = before.mul - after.mul;
+                // What becomes the negative of its factor is no product.
+                assert!(after.sign <= before.sign + less, "{before:?} {after:?}\n{}", sample.text);
+                assert_eq!(Counts { mul: before.mul, sign: before.sign, ..after }, before, "{}", sample.text);
+                spared += less;
+                functions[usize::from(less > 0)] += 1;
+                let [before, after] = programs.each_ref().map(|program| exact_constants(program, graph));
+                assert!(after >= before, "{before} {after}\n{}", sample.text);
+                exact += before;
+            }
+        }
+    }
+    assert!(spared > 500 && functions[1] > functions[0] && exact > 100, "{spared} {functions:?} {exact}");
+}
+
+/// How many constants of sums and dividends the scalar has as they are.
+fn exact_constants(program: &Program, graph: &Graph) -> usize {
+    let computed = program.steps.iter().filter_map(|step| match step {
+        Step::Let(value) => program.op(*value),
+        _ => None,
+    });
+    let beside = computed.flat_map(|op| match op {
+        Op::Add(a, b) | Op::Sub(a, b) => vec![*a, *b],
+        Op::Div(a, _) => vec![*a],
+        _ => vec![],
+    });
+    let exact = |number: linkage_codegen::graph::number::Number| {
+        let nearest = linkage_codegen::graph::number::Number::from_f64(number.nearest(graph.scalar()));
+        nearest.is_some_and(|nearest| nearest.sub(&number).is_zero())
+    };
+    beside.filter(|value| program.constant(graph, *value).is_some_and(exact)).count()
+}
+
+/// Nothing is computed twice, but under two names that are lines of the derivation; and no bit of a result changes.
 #[test]
 fn what_is_repeated_is_computed_once() {
     let mut saved = 0;

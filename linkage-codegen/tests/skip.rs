@@ -202,10 +202,10 @@ fn derivatives_cost_nothing_elsewhere_and_share_what_they_have_in_common() {
     let [torque, both, slope, linear] =
         ["torque", "both", "slope", "linear"].map(|scene| program(&with, scene).counts());
     assert_eq!([torque.sin_cos, torque.sqrt, torque.div], [both.sin_cos, both.sqrt, both.div]);
-    // Together they take less than one by one, and all three less than the torque at the ends of two differences.
+    // Together they take less than one by one, and all three less than the torque at three further places, for three differences.
     let work = |counts: Counts| counts.add + counts.mul;
     assert!(work(both) < work(slope) + work(linear), "{both}, {slope}, {linear}");
-    assert!(work(both) < 2 * work(torque), "{both}, {torque}");
+    assert!(work(both) < 3 * work(torque), "{both}, {torque}");
     // A load on the crank alone reaches no pin of the dyad.
     let far = program(&with, "far").outputs.iter().map(|(path, _)| path.clone());
     assert!(far.clone().any(|path| path == "F12.x.T12") && far.clone().any(|path| path == "F12.y.B.x"));

@@ -59,7 +59,8 @@ impl Body<'_> {
         match self.program.op(value)? {
             Op::Neg(of) => self.names.get(of).map(|of| format!("minus_{of}")),
             Op::Mul(factor, of) | Op::Mul(of, factor) if is_constant(factor) => {
-                self.names.get(of).map(|of| format!("{of}_scaled"))
+                // Of what is a multiple itself it is another one, and gets a number.
+                self.names.get(of).map(|of| format!("{}_scaled", of.to_string().trim_end_matches("_scaled")))
             }
             _ => None,
         }

@@ -20,6 +20,48 @@ pub(super) fn merge(program: Program, graph: &Graph) -> Program {
     merging.finish()
 }
 
+/// Sums, products and quotients of constants are constants, which are rounded once. Graphs have none; factors that are taken out of sums leave
+/// some. One with a name is a line of the derivation.
+pub(super) fn fold(mut program: Program, graph: &Graph) -> Program {
+    if graph.counts_rounding() {
+        return program;
+    }
+    for step in core::mem::take(&mut program.steps) {
+        if let Step::Let(value) = step
+            && let Some(op) = program.op(value).cloned()
+        {
+            let number = |value: ValueId| program.constant(graph, value);
+            if program.value(value).label.is_none()
+                && let Some(number) = constant(&op, number)
+            {
+                let number = graph.intern_number(&number);
+                program.values[value.index()].definition = Definition::Computed(Op::Constant(number));
+                continue;
+            }
+            if let Op::Mul(x, k) = op
+                && number(k).is_some()
+                && number(x).is_none()
+            {
+                program.values[value.index()].definition = Definition::Computed(Op::Mul(k, x));
+            }
+        }
+        program.steps.push(step);
+    }
+    program
+}
+
+/// What an operation makes of constants alone.
+fn constant(op: &Op<ValueId>, number: impl Fn(ValueId) -> Option<Number>) -> Option<Number> {
+    match *op {
+        Op::Neg(a) => Some(number(a)?.neg()),
+        Op::Add(a, b) => Some(number(a)?.add(&number(b)?)),
+        Op::Sub(a, b) => Some(number(a)?.sub(&number(b)?)),
+        Op::Mul(a, b) => Some(number(a)?.mul(&number(b)?)),
+        Op::Div(a, b) => number(a)?.div(&number(b)?),
+        _ => None,
+    }
+}
+
 /// How often each value is read by others than checks.
 fn reads(program: &Program) -> Vec<usize> {
     let values =

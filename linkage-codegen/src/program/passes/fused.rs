@@ -1,7 +1,9 @@
 //! With `arithmetic fused;` a product that a sum reads is added without being rounded: `a·b + c` is one operation. What has a name of its own
-//! is a line of the derivation and stays a number of its own, rounded as such.
+//! is a line of the derivation and stays a number of its own, rounded as such; only constants are added to it before it is.
 //!
 //! Of two products the one that is known last is added to the other, which has been rounded by then; a change of sign goes to a factor.
+//!
+//! Where one product alone reads a reciprocal, it is a quotient instead, which is known later, and rounded once less.
 
 use super::cycles::Ready;
 use crate::graph::{Graph, Kernel, Op};
@@ -11,6 +13,7 @@ pub(super) fn contract(mut program: Program, graph: &Graph) -> Program {
     if !graph.is_fused() {
         return program;
     }
+    divide(&mut program, graph);
     let mut steps = Vec::new();
     let mut ready = Ready::default();
     for step in core::mem::take(&mut program.steps) {
@@ -32,6 +35,23 @@ pub(super) fn contract(mut program: Program, graph: &Graph) -> Program {
     super::unused::remove(program, graph)
 }
 
+/// `x · (1/y)` as `x/y`, where nothing else reads the reciprocal.
+fn divide(program: &mut Program, graph: &Graph) {
+    let uses = program.uses();
+    for value in program.computed().collect::<Vec<_>>() {
+        let Some(&Op::Mul(a, b)) = program.op(value) else { continue };
+        let divisor = |reciprocal: ValueId| match *program.op(reciprocal)? {
+            Op::Div(one, divisor) if program.constant(graph, one)?.is_one() && uses[reciprocal.index()] == 1 => {
+                Some(divisor)
+            }
+            _ => None,
+        };
+        if let Some((x, y)) = divisor(b).map(|y| (a, y)).or_else(|| divisor(a).map(|y| (b, y))) {
+            program.values[value.index()].definition = Definition::Computed(Op::Div(x, y));
+        }
+    }
+}
+
 /// Factors and summand of a sum with a product.
 fn operands(
     program: &mut Program,
@@ -40,7 +60,9 @@ fn operands(
     (ready, steps): (&Ready, &mut Vec<Step>),
 ) -> Option<[ValueId; 3]> {
     let ([a, b], minus) = program.op(sum)?.terms()?;
-    let unnamed = |value: ValueId| program.op(value).filter(|_| program.value(value).label.is_none());
+    let beside_constant = [a, b].into_iter().any(|term| program.constant(graph, term).is_some());
+    let unnamed =
+        |value: ValueId| program.op(value).filter(|_| beside_constant || program.value(value).label.is_none());
     let product = |value: ValueId| match unnamed(value)? {
         Op::Mul(x, y) => Some((*x, *y, false)),
         Op::Neg(product) => match unnamed(*product)? {

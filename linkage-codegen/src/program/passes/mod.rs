@@ -10,10 +10,12 @@ mod finite;
 mod fused;
 mod late;
 mod lengths;
+mod multiples;
 mod pivots;
 mod reciprocals;
 mod repeated;
 mod signs;
+mod sizes;
 mod unused;
 
 use std::collections::BTreeMap;
@@ -26,7 +28,7 @@ use crate::graph::{Graph, Guard, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 17] = [
+pub const PASSES: [(&str, Pass); 19] = [
     ("lengths", lengths::leave),
     ("pivots", pivots::compare_directly),
     ("checks", checks::ask_once),
@@ -38,7 +40,9 @@ pub const PASSES: [(&str, Pass); 17] = [
     ("constants at reciprocals", constants::multiply_reciprocals),
     ("late", late::multiply_last),
     ("common factors", common::factor),
+    ("folded", constants::fold),
     ("constants of sums", constants::multiply_into_sums),
+    ("multiples", multiples::find),
     ("repeated", repeated::compute_once),
     ("signs", signs::absorb),
     ("finite", finite::check_once),

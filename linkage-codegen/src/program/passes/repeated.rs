@@ -6,7 +6,8 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use crate::graph::{Graph, Op};
+use super::multiples::MULTIPLE;
+use crate::graph::{Graph, Label, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn compute_once(mut program: Program, _graph: &Graph) -> Program {
@@ -32,7 +33,7 @@ pub(super) fn compute_once(mut program: Program, _graph: &Graph) -> Program {
             if there != value && may_be_one(&program, there, value) {
                 let label = program.values[value.index()].label.take();
                 let known = &mut program.values[there.index()].label;
-                *known = known.take().or(label);
+                *known = both(known.take(), label);
                 replaced.insert(value, there);
                 continue;
             }
@@ -44,10 +45,26 @@ pub(super) fn compute_once(mut program: Program, _graph: &Graph) -> Program {
     program
 }
 
-/// Whether a value may stand for another one: not where both have names, which are lines of the derivation.
+/// Whether a value may stand for another one: not where both have names, which are lines of the derivation, unless they are multiples of what these
+/// stand for.
 fn may_be_one(program: &Program, there: ValueId, value: ValueId) -> bool {
     let [there, value] = [there, value].map(|value| program.value(value));
-    (there.label.is_none() || value.label.is_none()) && there.divided == value.divided
+    let is_line = |label: &Option<Label>| label.as_ref().is_some_and(|label| !label.name.ends_with(MULTIPLE));
+    let no_line_is_lost = match (&there.label, &value.label) {
+        (Some(_), Some(_)) => ![there, value].into_iter().any(|value| is_line(&value.label)),
+        _ => true,
+    };
+    no_line_is_lost && there.divided == value.divided
+}
+
+/// The name of the first, if it has one, with what both mean.
+fn both(there: Option<Label>, label: Option<Label>) -> Option<Label> {
+    match (there, label) {
+        (Some(Label { name, equation }), Some(label)) if label.equation != equation => {
+            Some(Label { name, equation: format!("{equation}; {}", label.equation) })
+        }
+        (there, label) => there.or(label),
+    }
 }
 
 /// Sums and products of the same in either order are the same.

@@ -8,7 +8,7 @@ use crate::graph::{Graph, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
-    let uses = program.uses();
+    let mut uses = program.uses();
     let depths = depths(&program);
     let mut steps = Vec::with_capacity(program.steps.len());
     for step in core::mem::take(&mut program.steps) {
@@ -17,7 +17,9 @@ pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
             && program.is_inner(inner, &uses)
         {
             let op = match program.op(inner).cloned() {
-                Some(Op::Add(a, b)) => Some(negative_sum(&mut program, graph, [a, b], (&uses, &depths), &mut steps)),
+                Some(Op::Add(a, b)) => {
+                    Some(negative_sum(&mut program, graph, [a, b], (&mut uses, &depths), &mut steps))
+                }
                 // The place of the quotient is taken by what is divided.
                 Some(Op::Div(a, b)) if program.is_inner(a, &uses) => {
                     negative(&mut program, graph, a, &uses).map(|negative| {
@@ -97,10 +99,12 @@ fn negative_sum(
     program: &mut Program,
     graph: &Graph,
     [a, b]: [ValueId; 2],
-    (uses, depths): (&[usize], &[usize]),
+    (uses, depths): (&mut Vec<usize>, &[usize]),
     steps: &mut Vec<Step>,
 ) -> Op<ValueId> {
-    let [first, second] = if depths[b.index()] < depths[a.index()] { [b, a] } else { [a, b] };
+    // What is new is known as soon as what it negates, at the least.
+    let depth = |value: ValueId| depths.get(value.index()).copied().unwrap_or(0);
+    let [first, second] = if depth(b) < depth(a) { [b, a] } else { [a, b] };
     for (term, other) in [(first, second), (second, first)] {
         if program.is_inner(term, uses)
             && let Some(op) = negative(program, graph, term, uses)
@@ -110,6 +114,7 @@ fn negative_sum(
         }
     }
     let negated = program.add(Op::Neg(first), first);
+    uses.resize(program.values.len(), 1);
     steps.push(Step::Let(negated));
     Op::Sub(negated, second)
 }
