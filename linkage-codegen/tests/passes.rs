@@ -12,7 +12,7 @@ use linkage_codegen::program::passes::PASSES;
 use linkage_codegen::program::{Counts, Definition, Extract, Fault, Form, Input, Program, Run, Step, Value, ValueId};
 use support::families::boom;
 use support::linkages::{Kind, Random, Sample, sample, sample_with_search};
-use support::numbers::{Double, Extended};
+use support::numbers::{Double, Extended, Single};
 use support::{Arguments, Number, compile, pose};
 
 fn results<T: Number>(linkage: &Linkage, program: &Program, arguments: &Arguments) -> Vec<T> {
@@ -92,6 +92,72 @@ fn check_each_pass(sample: &Sample) {
             assert!(double.iter().all(|x| x.0.is_finite()));
         }
     }
+}
+
+/// Without the check of the results: where loads and rates are as large as may be for that, and drives are anything at which no other check
+/// fails, all results are finite. With a drive that is not, another check fails, or it is among what must be moderate.
+#[test]
+fn results_of_moderate_arguments_are_finite() {
+    let (mut programs, mut poses) = (0, 0);
+    for seed in 0..60 {
+        let scalar = if seed % 3 == 0 { "f32" } else { "f64" };
+        let sample = sample(seed, Kind { dyads: 1, moving: seed % 2 == 0, scalar, ..KIND });
+        let linkage = compile(&sample.text);
+        let largest = if scalar == "f32" { f64::from(2f32.powi(33).next_down()) } else { 2f64.powi(257).next_down() };
+        let is_check = |step: &Step| matches!(step, Step::FiniteResults(_));
+        for program in linkage.functions.scenes.iter().map(|functions| &functions.direct) {
+            if program.moderate.is_empty() && program.steps.iter().any(is_check) {
+                continue;
+            }
+            programs += 1;
+            let mut unchecked = program.clone();
+            unchecked.steps.retain(|step| !is_check(step));
+            let run = |arguments: &Arguments| match scalar {
+                "f32" => unchecked_results::<Single>(&linkage, &unchecked, arguments),
+                _ => unchecked_results::<Double>(&linkage, &unchecked, arguments),
+            };
+            let mut random = Random(seed);
+            for index in 0..200 {
+                let mut arguments = sample.arguments.clone();
+                let mut sign = |x: &mut f64| *x = if random.chance(0.5) { largest } else { -largest };
+                arguments.loads.iter_mut().flatten().for_each(&mut sign);
+                arguments.motion.iter_mut().flatten().for_each(&mut sign);
+                for drive in &mut arguments.drives {
+                    *drive += random.range(-1.0, 1.0) * 10f64.powi(index % 8 - 4);
+                }
+                let results = run(&arguments);
+                poses += usize::from(results.is_ok());
+                let finite = |results: &Vec<f64>| results.iter().copied().all(f64::is_finite);
+                assert!(results.as_ref().map_or(true, finite), "{results:?} {arguments:?}\n{}", sample.text);
+            }
+            for (value, input) in unchecked.inputs() {
+                if let Input::Symbol(Symbol::Drive(drive)) = input
+                    && !unchecked.moderate.contains(&value)
+                {
+                    for not in [f64::NAN, f64::INFINITY, -f64::INFINITY] {
+                        let mut arguments = sample.arguments.clone();
+                        arguments.drives[drive.index()] = not;
+                        let results = run(&arguments);
+                        assert!(matches!(results, Err(Fault::NotFinite)), "{not} {results:?}\n{}", sample.text);
+                    }
+                }
+            }
+        }
+    }
+    assert!(programs > 60 && poses > 5000, "{programs} programs, {poses} poses");
+}
+
+fn unchecked_results<T: Number>(
+    linkage: &Linkage,
+    program: &Program,
+    arguments: &Arguments,
+) -> Result<Vec<f64>, Fault> {
+    let run = Run { program, graph: &linkage.model.graph };
+    let input = |input: Input| match input {
+        Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
+        Input::Kept(_) | Input::Prepared(_) | Input::Known(_) => T::exactly(f64::NAN),
+    };
+    Ok(run.with(&input)?.iter().map(T::to_f64).collect())
 }
 
 /// A function that starts from a pose computes nothing that the pose holds: no trigonometry and no root.

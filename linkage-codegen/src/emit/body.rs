@@ -158,8 +158,15 @@ impl<'a> Body<'a> {
                 Some(quote!(#value.is_finite()))
             }
             Step::FiniteResults(checked) => {
-                let values = body.finite(checked);
-                Some(quote!(math::each_finite(#values)))
+                // Arguments of a position are known no earlier than others' results.
+                let arguments = &body.program.moderate;
+                Some(if (1..checked.len()).contains(&arguments.len()) {
+                    let arguments = body.array(arguments);
+                    quote!(math::each_moderate(#arguments))
+                } else {
+                    let values = body.array(checked);
+                    quote!(math::each_finite(#values))
+                })
             }
         });
         let conditions = checks.chain(angles).collect();
@@ -485,17 +492,36 @@ impl<'a> Body<'a> {
         self.program.asked_late.iter().map(|value| self.finite_input(*value)).collect()
     }
 
-    /// What is checked to be finite, as an array.
-    fn finite(&self, checked: &[ValueId]) -> TokenStream {
+    /// Values as an array.
+    fn array(&self, checked: &[ValueId]) -> TokenStream {
         let values = checked.iter().map(|value| self.code(*value).tokens);
         quote!([#(#values),*])
     }
 
+    /// What is asked of arguments first, results being finite then: of an angle, what its sine asks anyway.
+    fn moderate(&self) -> Vec<TokenStream> {
+        let sines = self.kernels().filter(|(kernel, _)| *kernel == Kernel::SinCos);
+        let angles: BTreeSet<ValueId> = sines.flat_map(|(_, args)| args).collect();
+        let (angles, others): (Vec<ValueId>, Vec<ValueId>) =
+            self.program.moderate.iter().partition(|value| angles.contains(value));
+        let angles = angles.into_iter().filter_map(|angle| self.is_short(Kernel::SinCos, &[angle]));
+        let others = (!others.is_empty()).then(|| {
+            let values = self.array(&others);
+            quote!(math::all_moderate(#values))
+        });
+        angles.chain(others).collect()
+    }
+
     fn finite_results(&self, checked: &[ValueId]) -> TokenStream {
-        let values = self.finite(checked);
+        let values = self.array(checked);
+        let moderate = match &self.moderate()[..] {
+            [] => TokenStream::new(),
+            [one] => quote!(!#one &&),
+            all => quote!(!(#(#all)&&*) &&),
+        };
         let what = if self.program.reads_loads() { "a load or a result" } else { "a result" };
         let late = self.asked_late();
-        quote!(if !math::all_finite(#values) { #late return Err(Error::NotFinite { what: #what }); })
+        quote!(if #moderate !math::all_finite(#values) { #late return Err(Error::NotFinite { what: #what }); })
     }
 }
 

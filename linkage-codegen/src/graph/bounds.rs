@@ -24,6 +24,24 @@ impl Bounds {
         Self { low: -largest, high: largest }
     }
 
+    /// Of what `all_moderate` lets pass.
+    pub(crate) fn moderate(scalar: Scalar) -> Self {
+        let most = 2f64.powi(match scalar {
+            Scalar::F64 => 257,
+            Scalar::F32 => 33,
+        });
+        Self { low: -most, high: most }
+    }
+
+    /// Of a value within them that is not less than a number.
+    pub(crate) fn not_below(self, least: f64) -> Self {
+        Self { low: self.low.max(least), high: self.high }
+    }
+
+    pub(crate) fn low(self) -> f64 {
+        self.low
+    }
+
     /// Whether a value within them is finite in a scalar.
     pub(crate) fn are_finite(self, scalar: Scalar) -> bool {
         let largest = scalar.largest();

@@ -105,6 +105,8 @@ pub struct Program {
     /// Arguments that must be finite numbers, but are asked only where something fails, before what has failed is told: with others a result
     /// that is checked is not finite.
     pub asked_late: Vec<ValueId>,
+    /// Arguments with which, if they are moderate, all results are finite; none if nothing is known of that.
+    pub moderate: Vec<ValueId>,
     /// The results, each with its path.
     pub outputs: Vec<(String, ValueId)>,
 }

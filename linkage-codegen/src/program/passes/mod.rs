@@ -28,7 +28,7 @@ use crate::graph::{Graph, Guard, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 19] = [
+pub const PASSES: [(&str, Pass); 20] = [
     ("lengths", lengths::leave),
     ("pivots", pivots::compare_directly),
     ("checks", checks::ask_once),
@@ -47,6 +47,7 @@ pub const PASSES: [(&str, Pass); 19] = [
     ("signs", signs::absorb),
     ("finite", finite::check_once),
     ("arguments", finite::ask_late),
+    ("moderate", finite::look_at_arguments),
     ("fused", fused::contract),
 ];
 
