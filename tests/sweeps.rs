@@ -90,6 +90,28 @@ linkage! {
 }
 
 linkage! {
+    /// A four-bar with a couple at run time: it is asked at each position, in place of several results.
+    mod rocker;
+    units { mm, N }
+    emit source;
+    ground       { A0: (0, 0), B0: (140mm, 0) }
+    link crank   { A0 -> A: 80mm }
+    link coupler { A -> B: 100mm }
+    link lever   { B0 -> B: 120mm, D: (90mm, 0) }
+    revolute A0: ground  -> crank;
+    revolute A:  crank   -> coupler;
+    revolute B:  coupler -> lever;
+    revolute B0: ground  -> lever;
+    drive theta: A0;
+    assemble B: left(A -> B0);
+    load M: moment(ground -> coupler);
+    load W: force(crank.A) = 30N @ -90deg;
+    load G: force(lever.D) = 20N @ -90deg;
+    scene pins: equilibrium -> (A0, B0);
+    scene cycle: sweep(pins);
+}
+
+linkage! {
     /// A slider-crank in fused arithmetic.
     mod pump;
     units { mm, N }
@@ -280,6 +302,40 @@ fn a_load_that_is_not_finite_is_refused_as_by_the_point_function() {
             assert!(matches!(error, SweepError::Position { index: 0, error: Error::NotFinite { .. } }), "{error:?}");
         }
     }
+}
+
+#[test]
+fn enormous_loads_are_refused_only_where_results_are_not_finite() {
+    assert!(rocker::SOURCE.contains("math::each_moderate([M])"));
+    let angles: Vec<f64> = (0..130).map(|index| 0.1 + 0.02 * f64::from(index)).collect();
+    let solve = |loads: &[f64]| {
+        let mut rows: [Vec<f64>; 4] = core::array::from_fn(|_| vec![f64::NAN; angles.len()]);
+        let [a, b, c, d] = &mut rows;
+        let results = rocker::Cycle { A0_x: a, A0_y: b, B0_x: c, B0_y: d };
+        let inputs = rocker::CycleInputs { theta: Series::Each(&angles), M: Series::Each(loads) };
+        rocker::cycle(&inputs, results).map(|()| rows)
+    };
+    for index in [0, 5, 63, 64, 129] {
+        for couple in [f64::NAN, f64::INFINITY, -f64::INFINITY, f64::MAX, -1e308, 1e200, -1e100, 2.4e77] {
+            let mut loads = vec![350.0; angles.len()];
+            loads[index] = couple;
+            match (solve(&loads), rocker::pins_at(angles[index], &rocker::Loads { M: couple })) {
+                (Ok(rows), Ok(one)) => {
+                    let one = [one.A0.x, one.A0.y, one.B0.x, one.B0.y];
+                    assert!(one.iter().all(|x| x.is_finite()));
+                    assert_eq!(rows.each_ref().map(|row| row[index].to_bits()), one.map(f64::to_bits));
+                }
+                (Err(error), Err(one)) => assert_eq!(error, SweepError::Position { index, error: one }),
+                others => panic!("{couple} at {index}: {others:?}"),
+            }
+        }
+    }
+    // Next to the fold forces are larger than the couple over the lengths, and that of the largest couple larger than any number.
+    let one = |theta: f64, couple: f64| rocker::pins_at(theta, &rocker::Loads { M: couple }).is_ok();
+    assert_eq!(
+        [one(1.0, 1e300), one(TAU / 2.0 - 1e-4, 1e300), one(TAU / 2.0 - 1e-4, f64::MAX), one(1.0, f64::NAN)],
+        [true, true, false, false]
+    );
 }
 
 #[test]

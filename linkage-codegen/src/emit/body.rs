@@ -158,7 +158,7 @@ impl<'a> Body<'a> {
                 Some(quote!(#value.is_finite()))
             }
             Step::FiniteResults(checked) => {
-                // Arguments of a position are known no earlier than others' results.
+                // A loop over positions waits for neither: what counts is how many there are.
                 let arguments = &body.program.moderate;
                 Some(if (1..checked.len()).contains(&arguments.len()) {
                     let arguments = body.array(arguments);

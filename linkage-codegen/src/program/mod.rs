@@ -102,8 +102,8 @@ pub struct Program {
     pub values: Vec<Value>,
     /// What is done, in order. Inputs and constants need no step.
     pub steps: Vec<Step>,
-    /// Arguments that must be finite numbers, but are asked only where something fails, before what has failed is told: with others a result
-    /// that is checked is not finite.
+    /// Arguments that must be finite numbers, but are asked only where something fails, before what has failed is told: with others a check
+    /// fails anyway.
     pub asked_late: Vec<ValueId>,
     /// Arguments with which, if they are moderate, all results are finite; none if nothing is known of that.
     pub moderate: Vec<ValueId>,

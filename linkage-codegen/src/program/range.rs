@@ -24,9 +24,10 @@ pub fn check_range(model: &Model, functions: &Functions, sink: &Sink) {
     );
 }
 
+/// Those that are read: of others, larger or smaller, some are made.
 fn constants(program: &Program) -> impl Iterator<Item = crate::graph::NumberId> {
-    program.values.iter().filter_map(|value| match value.definition {
-        Definition::Computed(Op::Constant(number)) => Some(number),
+    program.values.iter().zip(program.uses()).filter_map(|(value, uses)| match value.definition {
+        Definition::Computed(Op::Constant(number)) if uses > 0 => Some(number),
         _ => None,
     })
 }

@@ -54,6 +54,7 @@ pub(super) fn fold(mut program: Program, graph: &Graph) -> Program {
 fn constant(op: &Op<ValueId>, number: impl Fn(ValueId) -> Option<Number>) -> Option<Number> {
     match *op {
         Op::Neg(a) => Some(number(a)?.neg()),
+        Op::Abs(a) => Some(number(a)?.abs()),
         Op::Add(a, b) => Some(number(a)?.add(&number(b)?)),
         Op::Sub(a, b) => Some(number(a)?.sub(&number(b)?)),
         Op::Mul(a, b) => Some(number(a)?.mul(&number(b)?)),

@@ -93,13 +93,18 @@ impl Program {
 fn least(program: &Program, graph: &Graph, bounds: &[Bounds], value: ValueId) -> f64 {
     let of = |value: ValueId| least(program, graph, bounds, value);
     let known = bounds[value.index()].low();
+    // What rounding leaves of it.
+    let left = 1.0 - 4.0 * graph.scalar().epsilon().to_f64();
     let found = match program.op(value) {
-        Some(Op::Abs(_)) => 0.0,
+        Some(Op::Abs(_)) => return known.max(0.0),
         Some(Op::Add(a, b)) => of(*a) + of(*b),
-        Some(Op::Mul(a, b)) => of(*a).max(0.0) * of(*b).max(0.0),
+        Some(Op::Mul(a, b)) => match [of(*a), of(*b)] {
+            [a, b] if a >= 0.0 && b >= 0.0 => return known.max(0.0).max(a * b * left),
+            _ => return known,
+        },
         _ => return known,
     };
-    if found > 0.0 { known.max(found * (1.0 - 4.0 * graph.scalar().epsilon().to_f64())) } else { known }
+    if found > 0.0 { known.max(found * left) } else { known }
 }
 
 /// The value without its signs, and without terms too small to take a finite number beyond the largest: it is finite where that is.
@@ -183,7 +188,8 @@ impl Program {
     }
 }
 
-/// What arguments may be. Poses and prepared linkages hold finite numbers only.
+/// What arguments may be. Poses and prepared linkages hold finite numbers only, but for bounds of errors where nothing can be said: these are
+/// read as the lesser of them and the largest number.
 struct Given {
     drives: Bounds,
     /// Loads and rates.
@@ -219,8 +225,12 @@ impl Given {
             Step::Check { guard, .. } => Some(guard.condition.operands()),
             _ => None,
         });
-        let least = above.map(|[value, limit]| (value, least(program, graph, &before, limit))).collect();
-        self.bounds_with(program, graph, &least)
+        let mut most: BTreeMap<ValueId, f64> = BTreeMap::new();
+        for [value, limit] in above {
+            let least = least(program, graph, &before, limit);
+            most.entry(value).and_modify(|known| *known = known.max(least)).or_insert(least);
+        }
+        self.bounds_with(program, graph, &most)
     }
 
     /// The same of values of which some are not less than these numbers.

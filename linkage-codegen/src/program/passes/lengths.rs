@@ -89,7 +89,7 @@ fn directions(program: &Program) -> Vec<Direction> {
     directions
 }
 
-/// The sizes of all values, in powers of the length of one direction, of which its components are found the reciprocal; nothing if the others
+/// The sizes of all values, in powers of the reciprocal of the length of one direction, by which its components are divided; nothing if the others
 /// cannot have theirs then.
 fn sizes(sizes: &Sizes, directions: &[Direction], own: &Direction, computed: &[ValueId]) -> Option<Powers> {
     let components = directions.iter().flat_map(|direction| direction.components.keys());

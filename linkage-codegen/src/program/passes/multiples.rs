@@ -1,10 +1,10 @@
 //! Values are found in multiples of themselves where that spares products: not `k x` but `x`, where what is made of it can be found over k as well
-//! and constants take that back. So a moment times a constant, of which a force is made, leaves it to those of the loads' arms, and a direction
-//! that is read in moments and forces alone to those of both.
+//! and constants take that back. So a moment times a constant, of which a force is made, is found without it: the constants of the loads' arms
+//! have it then.
 //!
 //! Which values go together is what [`Sizes`] says, in powers of k. A constant that the scalar has exactly, in a sum or as a dividend, is never
 //! exchanged for one that it has not. What a root is taken of keeps its size, and all that it is made of: next to a dead centre the pose hangs on
-//! their roundings, which so are the same in all functions of a linkage.
+//! their roundings, which this leaves as they are.
 //!
 //! Not where rounding errors are counted, which would have to know of it.
 
@@ -208,7 +208,8 @@ impl Multiples {
         }
         for (index, value) in program.values.iter_mut().enumerate() {
             let Some(Label { name, equation }) = &mut value.label else { continue };
-            for (spared, product) in &self.spared {
+            // What stands for one may have the name of another that was spared before.
+            for (spared, product) in self.spared.iter().rev() {
                 *equation = with_word(equation, spared, product);
             }
             let named = self.named(ValueId::new(index));

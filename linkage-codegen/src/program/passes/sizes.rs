@@ -47,7 +47,7 @@ impl Sizes {
                     let reported = report.iter().filter_map(|value| program.op(*value)).flat_map(Op::operands);
                     let guards = [guard].into_iter().chain(weaker);
                     let told = guards.clone().filter_map(|guard| guard.failure.operand());
-                    // Whether something is more than nothing is the same in all sizes.
+                    // Whether something is more than nothing is the same in all sizes: factors are positive.
                     let is_nothing = |limit| program.constant(graph, limit).is_some_and(|limit| limit.is_zero());
                     let compared =
                         guards.map(|guard| guard.condition.operands()).filter(|[_, limit]| !is_nothing(*limit));
@@ -269,7 +269,7 @@ fn is_constant(program: &Program, value: ValueId) -> bool {
 
 /// A factor, and the sizes of values as powers of it.
 pub(super) struct Scale {
-    /// By what a value of the power one is multiplied.
+    /// By what a value of the power one is multiplied, which is positive.
     pub(super) factor: Number,
     /// The powers.
     pub(super) powers: Powers,
