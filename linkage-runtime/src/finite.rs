@@ -7,63 +7,12 @@
 macro_rules! finite {
     ($scalar:ident, $four:ident, $four_moderate:ident, $moderate:literal) => {
         /// Whether none is infinite or NaN.
-        ///
-        /// More than two together, which takes fewer instructions; two each by itself, which is known sooner.
-        #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
         #[inline]
         #[must_use]
         pub fn all_finite<const N: usize>(values: [$scalar; N]) -> bool {
-            match values.as_slice() {
-                // In registers of their kind: one for integers, kept for this from the check of the angle on, would have to be saved.
-                [value] => return value.abs() <= $scalar::MAX,
-                [one, other] => return (one.abs() <= $scalar::MAX) & (other.abs() <= $scalar::MAX),
-                _ => {}
-            }
-            $crate::finite::in_fours!(values, $four)
-        }
-
-        /// Whether none is NaN or so large that what is made of all of them, behind the checks of a linkage, could be infinite.
-        ///
-        /// These are arguments, which are known first of all.
-        #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
-        #[inline]
-        #[must_use]
-        pub fn all_moderate<const N: usize>(values: [$scalar; N]) -> bool {
-            match values.as_slice() {
-                [value] => return value.abs() < $scalar::from_bits($moderate),
-                [one, other] => {
-                    return (one.abs() < $scalar::from_bits($moderate)) & (other.abs() < $scalar::from_bits($moderate))
-                }
-                _ => {}
-            }
-            $crate::finite::in_fours!(values, $four_moderate)
-        }
-
-        /// Whether none is NaN or so large that what is made of all of them, behind the checks of a linkage, could be infinite.
-        #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
-        #[inline]
-        #[must_use]
-        pub fn all_moderate<const N: usize>(values: [$scalar; N]) -> bool {
-            each_moderate(values)
-        }
-
-        /// The same for loops that are vectorised, which look at several positions at once.
-        #[inline]
-        #[must_use]
-        pub fn each_moderate<const N: usize>(values: [$scalar; N]) -> bool {
-            let (mut moderate, mut rest) = (true, values.as_slice());
-            while let [value, others @ ..] = rest {
-                moderate &= value.abs() < $scalar::from_bits($moderate);
-                rest = others;
-            }
-            moderate
-        }
-
-        /// Whether none is infinite or NaN.
-        #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
-        #[inline]
-        #[must_use]
-        pub fn all_finite<const N: usize>(values: [$scalar; N]) -> bool {
+            #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+            return $crate::finite::in_fours!(values, $four, value => value.abs() <= $scalar::MAX);
+            #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
             each_finite(values)
         }
 
@@ -71,32 +20,67 @@ macro_rules! finite {
         #[inline]
         #[must_use]
         pub fn each_finite<const N: usize>(values: [$scalar; N]) -> bool {
-            let (mut finite, mut rest) = (true, values.as_slice());
-            while let [value, others @ ..] = rest {
-                finite &= value.is_finite();
-                rest = others;
-            }
-            finite
+            $crate::finite::in_each!(values, value => value.is_finite())
+        }
+
+        /// Whether none is NaN or so large that what is made of all of them, behind the checks of a linkage, could be infinite.
+        ///
+        /// These are arguments, which are known first of all.
+        #[inline]
+        #[must_use]
+        pub fn all_moderate<const N: usize>(values: [$scalar; N]) -> bool {
+            #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+            return $crate::finite::in_fours!(values, $four_moderate, value => value.abs() < $scalar::from_bits($moderate));
+            // As integers: where floating point is software, a comparison of such numbers would be a call.
+            #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+            $crate::finite::in_each!(values, value => value.abs().to_bits() < $moderate)
+        }
+
+        /// The same for loops that are vectorised, which look at several positions at once.
+        #[inline]
+        #[must_use]
+        pub fn each_moderate<const N: usize>(values: [$scalar; N]) -> bool {
+            $crate::finite::in_each!(values, value => value.abs() < $scalar::from_bits($moderate))
         }
     };
 }
 pub(crate) use finite;
 
-/// Whether `$four` marks none of some numbers, of which it looks at four at once.
-#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
-macro_rules! in_fours {
-    ($values:expr, $four:ident) => {{
-        let (mut marks, mut rest) = ($crate::finite::registers::none(), $values.as_slice());
-        while let [a, others @ ..] = rest {
-            // What is missing of the last four is the one before once more, which need not be moved for it.
-            let (b, others) = if let [b, others @ ..] = others { (b, others) } else { (a, others) };
-            let (c, others) = if let [c, others @ ..] = others { (c, others) } else { (b, others) };
-            let (d, others) = if let [d, others @ ..] = others { (d, others) } else { (c, others) };
-            marks = $crate::finite::registers::$four(marks, *a, *b, *c, *d);
+/// Whether something holds for each of some numbers, one after the other.
+macro_rules! in_each {
+    ($values:expr, $value:ident => $holds:expr) => {{
+        let (mut all, mut rest) = (true, $values.as_slice());
+        while let [$value, others @ ..] = rest {
+            all &= $holds;
             rest = others;
         }
-        $crate::finite::registers::is_unmarked(marks)
+        all
     }};
+}
+pub(crate) use in_each;
+
+/// Whether something holds for all of some numbers: `$four` marks those of four for which it does not.
+///
+/// More than two together, which takes fewer instructions; two each by itself, which is known sooner, in registers of their kind: one for
+/// integers, kept for this from the check of the angle on, would have to be saved.
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+macro_rules! in_fours {
+    ($values:expr, $four:ident, $value:ident => $holds:expr) => {
+        if $values.len() <= 2 {
+            $crate::finite::in_each!($values, $value => $holds)
+        } else {
+            let (mut marks, mut rest) = ($crate::finite::registers::none(), $values.as_slice());
+            while let [a, others @ ..] = rest {
+                // What is missing of the last four is the one before once more, which need not be moved for it.
+                let (b, others) = if let [b, others @ ..] = others { (b, others) } else { (a, others) };
+                let (c, others) = if let [c, others @ ..] = others { (c, others) } else { (b, others) };
+                let (d, others) = if let [d, others @ ..] = others { (d, others) } else { (c, others) };
+                marks = $crate::finite::registers::$four(marks, *a, *b, *c, *d);
+                rest = others;
+            }
+            $crate::finite::registers::is_unmarked(marks)
+        }
+    };
 }
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 pub(crate) use in_fours;
@@ -186,49 +170,35 @@ pub(crate) mod registers {
 mod tests {
     use crate::__private::{f32, f64};
 
-    /// Each number that is not finite, in each place of one to nine numbers.
-    #[test]
-    fn what_is_not_finite_is_found_in_every_place() {
-        macro_rules! every_place {
-            ($scalar:ident: $($length:literal)+) => {$({
-                let finite = [0.0, -0.0, 5e-324 as $scalar, -$scalar::MIN_POSITIVE, $scalar::MAX, -$scalar::MAX, 1.0];
-                for x in finite {
-                    assert!($scalar::all_finite([x; $length]) && $scalar::each_finite([x; $length]), "{x:e}");
-                    for not in [$scalar::INFINITY, -$scalar::INFINITY, $scalar::NAN, -$scalar::NAN] {
-                        for place in 0..$length {
-                            let mut values = [x; $length];
-                            values[place] = not;
-                            assert!(!$scalar::all_finite(values) && !$scalar::each_finite(values), "{values:?}");
-                        }
+    /// Each number for which something does not hold, in each place of one to nine numbers for which it does.
+    macro_rules! every_place {
+        ($scalar:ident, $all:ident, $each:ident, $beyond:expr; $($length:literal)+) => {$({
+            let least: $scalar = $beyond;
+            let most = least.next_down();
+            for x in [0.0, -0.0, 5e-324 as $scalar, -$scalar::MIN_POSITIVE, 1.0, most, -most] {
+                assert!($scalar::$all([x; $length]) && $scalar::$each([x; $length]), "{x:e}");
+                for not in [least, -least, $scalar::INFINITY, -$scalar::INFINITY, $scalar::NAN, -$scalar::NAN] {
+                    for place in 0..$length {
+                        let mut values = [x; $length];
+                        values[place] = not;
+                        assert!(!$scalar::$all(values) && !$scalar::$each(values), "{values:?}");
                     }
                 }
-            })+};
-        }
-        assert!(f64::all_finite([]) && f32::all_finite([]));
-        every_place!(f64: 1 2 3 4 5 6 7 8 9);
-        every_place!(f32: 1 2 3 4 5 6 7 8 9);
+            }
+        })+};
     }
 
-    /// Each number that is too large, in each place of one to nine numbers.
+    #[test]
+    fn what_is_not_finite_is_found_in_every_place() {
+        assert!(f64::all_finite([]) && f32::all_finite([]));
+        every_place!(f64, all_finite, each_finite, f64::INFINITY; 1 2 3 4 5 6 7 8 9);
+        every_place!(f32, all_finite, each_finite, f32::INFINITY; 1 2 3 4 5 6 7 8 9);
+    }
+
     #[test]
     fn what_is_not_moderate_is_found_in_every_place() {
-        macro_rules! every_place {
-            ($scalar:ident, $most:expr; $($length:literal)+) => {$({
-                let beyond: $scalar = $most;
-                for x in [0.0, -0.0, 5e-324 as $scalar, -$scalar::MIN_POSITIVE, beyond.next_down(), -beyond.next_down()] {
-                    assert!($scalar::all_moderate([x; $length]) && $scalar::each_moderate([x; $length]), "{x:e}");
-                    for not in [beyond, -beyond, $scalar::MAX, $scalar::INFINITY, -$scalar::INFINITY, $scalar::NAN, -$scalar::NAN] {
-                        for place in 0..$length {
-                            let mut values = [x; $length];
-                            values[place] = not;
-                            assert!(!$scalar::all_moderate(values) && !$scalar::each_moderate(values), "{values:?}");
-                        }
-                    }
-                }
-            })+};
-        }
         assert!(f64::all_moderate([]) && f32::all_moderate([]));
-        every_place!(f64, 2f64.powi(257); 1 2 3 4 5 6 7 8 9);
-        every_place!(f32, 2f32.powi(33); 1 2 3 4 5 6 7 8 9);
+        every_place!(f64, all_moderate, each_moderate, 2f64.powi(257); 1 2 3 4 5 6 7 8 9);
+        every_place!(f32, all_moderate, each_moderate, 2f32.powi(33); 1 2 3 4 5 6 7 8 9);
     }
 }

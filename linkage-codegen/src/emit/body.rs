@@ -159,14 +159,20 @@ impl<'a> Body<'a> {
             }
             Step::FiniteResults(checked) => {
                 // A loop over positions waits for neither: what counts is how many there are.
-                let arguments = &body.program.moderate;
-                Some(if (1..checked.len()).contains(&arguments.len()) {
-                    let arguments = body.array(arguments);
-                    quote!(math::each_moderate(#arguments))
-                } else {
-                    let values = body.array(checked);
-                    quote!(math::each_finite(#values))
-                })
+                let (short, others) = body.moderate();
+                let arguments = Some(&others)
+                    .filter(|others| !(short.is_empty() && others.is_empty()) && others.len() < checked.len());
+                match arguments.map(Vec::as_slice) {
+                    Some([]) => None,
+                    Some(arguments) => {
+                        let arguments = body.array(arguments);
+                        Some(quote!(math::each_moderate(#arguments)))
+                    }
+                    None => {
+                        let values = body.array(checked);
+                        Some(quote!(math::each_finite(#values)))
+                    }
+                }
             }
         });
         let conditions = checks.chain(angles).collect();
@@ -498,23 +504,20 @@ impl<'a> Body<'a> {
         quote!([#(#values),*])
     }
 
-    /// What is asked of arguments first, results being finite then: of an angle, what its sine asks anyway.
-    fn moderate(&self) -> Vec<TokenStream> {
+    /// The arguments that are looked at in place of results: angles of which a sine is taken, which asks whether they are short, and others.
+    fn moderate(&self) -> (Vec<ValueId>, Vec<ValueId>) {
         let sines = self.kernels().filter(|(kernel, _)| *kernel == Kernel::SinCos);
         let angles: BTreeSet<ValueId> = sines.flat_map(|(_, args)| args).collect();
-        let (angles, others): (Vec<ValueId>, Vec<ValueId>) =
-            self.program.moderate.iter().partition(|value| angles.contains(value));
-        let angles = angles.into_iter().filter_map(|angle| self.is_short(Kernel::SinCos, &[angle]));
-        let others = (!others.is_empty()).then(|| {
-            let values = self.array(&others);
-            quote!(math::all_moderate(#values))
-        });
-        angles.chain(others).collect()
+        self.program.moderate.iter().partition(|value| angles.contains(value))
     }
 
     fn finite_results(&self, checked: &[ValueId]) -> TokenStream {
         let values = self.array(checked);
-        let moderate = match &self.moderate()[..] {
+        let (angles, others) = self.moderate();
+        let short = angles.into_iter().filter_map(|angle| self.is_short(Kernel::SinCos, &[angle]));
+        let others =
+            (!others.is_empty()).then(|| self.array(&others)).map(|values| quote!(math::all_moderate(#values)));
+        let moderate = match &short.chain(others).collect::<Vec<_>>()[..] {
             [] => TokenStream::new(),
             [one] => quote!(!#one &&),
             all => quote!(!(#(#all)&&*) &&),

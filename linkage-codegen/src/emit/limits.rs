@@ -240,13 +240,7 @@ fn optional(value: Option<TokenStream>) -> TokenStream {
 
 /// `Limits::of`.
 fn prepared(linkage: &Linkage, program: Option<&Program>) -> TokenStream {
-    let none = Program {
-        values: Vec::new(),
-        steps: Vec::new(),
-        asked_late: Vec::new(),
-        moderate: Vec::new(),
-        outputs: Vec::new(),
-    };
+    let none = Program::default();
     let program = program.unwrap_or(&none);
     let (statements, body) = body(linkage, program).statements();
     let values = Values::new(linkage, program, &body);

@@ -45,13 +45,7 @@ impl Extract<'_> {
         let mut building = Building {
             extract: self,
             scene,
-            program: Program {
-                values: Vec::new(),
-                steps: Vec::new(),
-                asked_late: Vec::new(),
-                moderate: Vec::new(),
-                outputs: Vec::new(),
-            },
+            program: Program::default(),
             placed: BTreeMap::new(),
             computed: HashMap::new(),
         };

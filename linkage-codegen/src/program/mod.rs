@@ -96,7 +96,7 @@ pub enum Step {
 }
 
 /// Straight-line code.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Program {
     /// All values, in an order of evaluation.
     pub values: Vec<Value>,

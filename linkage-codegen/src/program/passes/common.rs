@@ -245,12 +245,7 @@ impl Factoring<'_> {
 
     /// The constant and the divisor of a quotient of a constant that is read that often.
     fn quotient(&self, value: ValueId, reads: usize) -> Option<(Number, ValueId)> {
-        match self.program.op(value) {
-            Some(Op::Div(dividend, divisor)) if self.uses.get(value.index()) == Some(&reads) => {
-                Some((self.program.constant(self.graph, *dividend)?, *divisor))
-            }
-            _ => None,
-        }
+        self.program.quotient(self.graph, value).filter(|_| self.uses.get(value.index()) == Some(&reads))
     }
 
     fn sort(&self, factors: &mut [ValueId]) {

@@ -78,10 +78,7 @@ fn reads(program: &Program) -> Vec<usize> {
 /// `k (x (c/y))` as `x (k (c/y))`, c a constant: the quotient is known before x, which then waits for one product less.
 pub(super) fn multiply_reciprocals(mut program: Program, graph: &Graph) -> Program {
     let uses = program.uses();
-    let is_reciprocal = |program: &Program, value: ValueId| match program.op(value) {
-        Some(Op::Div(dividend, _)) => program.constant(graph, *dividend).is_some(),
-        _ => false,
-    };
+    let is_reciprocal = |program: &Program, value: ValueId| program.quotient(graph, value).is_some();
     for index in 0..program.steps.len() {
         if let Step::Let(value) = program.steps[index]
             && let Some(Op::Mul(k, rest)) = program.op(value).cloned()

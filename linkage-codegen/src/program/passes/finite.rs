@@ -78,15 +78,19 @@ impl Program {
             }) => args.clone(),
             _ => Vec::new(),
         };
-        let mut shown = BTreeSet::new();
-        let mut open: Vec<ValueId> = finite.into_iter().flat_map(inherited).collect();
-        while let Some(value) = open.pop() {
-            if shown.insert(value) {
-                open.extend(inherited(value));
-            }
-        }
-        shown
+        reached(finite.into_iter().flat_map(inherited), inherited)
     }
+}
+
+/// These values, and what one comes to from them step by step.
+fn reached(from: impl IntoIterator<Item = ValueId>, next: impl Fn(ValueId) -> Vec<ValueId>) -> BTreeSet<ValueId> {
+    let (mut open, mut reached) = (from.into_iter().collect::<Vec<_>>(), BTreeSet::new());
+    while let Some(value) = open.pop() {
+        if reached.insert(value) {
+            open.extend(next(value));
+        }
+    }
+    reached
 }
 
 /// What a value is not less than, if it is a number: it may be infinite, as a drive may be beyond which angles are rounded.
@@ -96,15 +100,15 @@ fn least(program: &Program, graph: &Graph, bounds: &[Bounds], value: ValueId) ->
     // What rounding leaves of it.
     let left = 1.0 - 4.0 * graph.scalar().epsilon().to_f64();
     let found = match program.op(value) {
-        Some(Op::Abs(_)) => return known.max(0.0),
+        Some(Op::Abs(_)) => 0.0,
         Some(Op::Add(a, b)) => of(*a) + of(*b),
         Some(Op::Mul(a, b)) => match [of(*a), of(*b)] {
-            [a, b] if a >= 0.0 && b >= 0.0 => return known.max(0.0).max(a * b * left),
+            [a, b] if a >= 0.0 && b >= 0.0 => a * b,
             _ => return known,
         },
         _ => return known,
     };
-    if found > 0.0 { known.max(found * left) } else { known }
+    if found >= 0.0 { known.max(found * left) } else { known }
 }
 
 /// The value without its signs, and without terms too small to take a finite number beyond the largest: it is finite where that is.
@@ -157,31 +161,25 @@ impl Program {
 
     /// The arguments with which, if they are not finite, a check fails or they are asked first.
     fn refused(&self) -> BTreeSet<ValueId> {
-        let mut refused: BTreeSet<ValueId> = BTreeSet::new();
-        let mut open = Vec::new();
+        let (mut refused, mut asked) = (BTreeSet::new(), Vec::new());
         for step in &self.steps {
             match step {
-                Step::Check { guard, .. } => open.extend(guard.condition.operands()),
+                Step::Check { guard, .. } => asked.extend(guard.condition.operands()),
                 Step::FiniteInput(value) => drop(refused.insert(*value)),
                 Step::Let(_) | Step::FiniteResults(_) => {}
             }
         }
         // No number, which a sine of what is not finite is, stays none up to the check.
-        let mut met = BTreeSet::new();
-        while let Some(value) = open.pop() {
-            if !met.insert(value) {
-                continue;
-            }
-            match self.op(value) {
-                Some(
-                    op
-                    @ (Op::Neg(_) | Op::Abs(_) | Op::Sqrt(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..)),
-                ) => open.extend(op.operands()),
-                Some(Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_), args, .. }) => {
-                    refused.extend(args);
-                    refused.extend(self.shown_by(args.iter().copied()));
-                }
-                _ => {}
+        let kept = |value: ValueId| match self.op(value) {
+            Some(
+                op @ (Op::Neg(_) | Op::Abs(_) | Op::Sqrt(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..)),
+            ) => op.operands(),
+            _ => Vec::new(),
+        };
+        for value in reached(asked, kept) {
+            if let Some(Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_), args, .. }) = self.op(value) {
+                refused.extend(args);
+                refused.extend(self.shown_by(args.iter().copied()));
             }
         }
         refused

@@ -40,11 +40,9 @@ fn divide(program: &mut Program, graph: &Graph) {
     let uses = program.uses();
     for value in program.computed().collect::<Vec<_>>() {
         let Some(&Op::Mul(a, b)) = program.op(value) else { continue };
-        let divisor = |reciprocal: ValueId| match *program.op(reciprocal)? {
-            Op::Div(one, divisor) if program.constant(graph, one)?.is_one() && uses[reciprocal.index()] == 1 => {
-                Some(divisor)
-            }
-            _ => None,
+        let divisor = |reciprocal: ValueId| {
+            let (one, divisor) = program.quotient(graph, reciprocal)?;
+            (one.is_one() && uses[reciprocal.index()] == 1).then_some(divisor)
         };
         if let Some((x, y)) = divisor(b).map(|y| (a, y)).or_else(|| divisor(a).map(|y| (b, y))) {
             program.values[value.index()].definition = Definition::Computed(Op::Div(x, y));

@@ -22,7 +22,7 @@ pub(super) fn leave(mut program: Program, graph: &Graph) -> Program {
     }
     let directions = directions(&program);
     let arms: BTreeMap<ValueId, ValueId> = directions.iter().flat_map(Direction::arms).collect();
-    let equations = Sizes::of(&program, graph, &arms, &|_| false);
+    let equations = Sizes::of(&program, graph, &arms, &|_| false).settled();
     let computed: Vec<ValueId> = program.computed().collect();
     let (mut constants, mut replaced) = (BTreeMap::new(), BTreeMap::new());
     let powers = directions.iter().map(|direction| sizes(&equations, &directions, direction, &computed));

@@ -119,6 +119,15 @@ impl Program {
         }
     }
 
+    /// A quotient of a constant: the constant and the divisor.
+    #[must_use]
+    pub fn quotient(&self, graph: &Graph, value: ValueId) -> Option<(Number, ValueId)> {
+        match self.op(value)? {
+            Op::Div(k, divisor) => Some((self.constant(graph, *k)?, *divisor)),
+            _ => None,
+        }
+    }
+
     /// Whether only one other value reads it, and it has no name of its own.
     #[must_use]
     pub fn is_inner(&self, value: ValueId, uses: &[usize]) -> bool {

@@ -3,8 +3,8 @@
 //! have it then.
 //!
 //! Which values go together is what [`Sizes`] says, in powers of k. A constant that the scalar has exactly, in a sum or as a dividend, is never
-//! exchanged for one that it has not. What a root is taken of keeps its size, and all that it is made of: next to a dead centre the pose hangs on
-//! their roundings, which this leaves as they are.
+//! exchanged for one that it has not. What a root or an angle is taken of keeps its size, and all that it is made of: next to a dead centre the
+//! pose hangs on their roundings, which this leaves as they are, and a wanted motion has the same drive with its rate and without.
 //!
 //! Not where rounding errors are counted, which would have to know of it.
 
@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::sizes::{Constant, Order, Scale, Sizes, exchange, factor_beside};
 use crate::graph::number::Number;
-use crate::graph::{Graph, Label, Op, Scalar};
+use crate::graph::{Graph, Kernel, Label, Op, Scalar};
 use crate::program::{Program, ValueId};
 
 pub(super) fn find(mut program: Program, graph: &Graph) -> Program {
@@ -49,7 +49,6 @@ struct Search<'p> {
 impl<'p> Search<'p> {
     fn of(program: &'p Program, graph: &'p Graph) -> Self {
         let scalar = graph.scalar();
-        let ways = [(); 2].map(|()| sizes(program, graph, &|_| false));
         let count = program.values.len();
         let (mut readers, mut constants) = (vec![Vec::new(); count], vec![None; count]);
         for value in program.computed() {
@@ -58,18 +57,15 @@ impl<'p> Search<'p> {
             }
             constants[value.index()] = Constant::of(program, graph, value);
         }
+        let ways = [sizes_by_exact(program, graph, &constants), sizes(program, graph, &|_| false)];
         let (changed, found) = (BTreeMap::new(), Multiples::default());
         let uses = program.uses();
-        let mut search = Self { program, graph, scalar, ways, readers, uses, constants, changed, found };
-        search.keep_dividends();
-        search
+        Self { program, graph, scalar, ways, readers, uses, constants, changed, found }
     }
 
-    /// What the sizes must satisfy if exact dividends stay as they are.
+    /// What the sizes must satisfy if dividends stay as they are that are exact by now.
     fn keep_dividends(&mut self) {
-        let is_exact =
-            |constant: &Option<Constant>| constant.as_ref().is_some_and(|k| is_exact(&k.number, self.scalar));
-        let mut sizes = sizes(self.program, self.graph, &|value| is_exact(&self.constants[value.index()]));
+        let mut sizes = sizes_by_exact(self.program, self.graph, &self.constants);
         for (value, constant) in &self.changed {
             if let Some(rest) = self.program.op(*value).and_then(|op| factor_beside(op, constant)) {
                 sizes.equate(vec![(*value, 1), (rest, -1)]);
@@ -160,8 +156,17 @@ impl<'p> Search<'p> {
 /// How the sizes of values go together, where the dividends of some stay as they are.
 fn sizes(program: &Program, graph: &Graph, stays: &dyn Fn(ValueId) -> bool) -> Sizes {
     let mut sizes = Sizes::of(program, graph, &BTreeMap::new(), stays);
-    sizes.keep(program, |op| if let Op::Sqrt(a) = op { Some(*a) } else { None });
-    sizes
+    sizes.keep(program.computed().filter_map(|value| program.op(value)).flat_map(|op| match op {
+        Op::Sqrt(_) | Op::Kernel { kernel: Kernel::Atan2, .. } => op.operands(),
+        _ => Vec::new(),
+    }));
+    sizes.settled()
+}
+
+/// The same where exact dividends stay as they are.
+fn sizes_by_exact(program: &Program, graph: &Graph, constants: &[Option<Constant>]) -> Sizes {
+    let scalar = graph.scalar();
+    sizes(program, graph, &|value| constants[value.index()].as_ref().is_some_and(|k| is_exact(&k.number, scalar)))
 }
 
 /// Whether a constant is far from the ends of the scalar's range.

@@ -56,23 +56,23 @@ impl Sizes {
                 Step::FiniteInput(_) | Step::FiniteResults(_) => {}
             }
         }
-        sizes.fix_what_follows();
         sizes
     }
 
-    /// What must be as it is because of what is read as it is.
-    fn fix_what_follows(&mut self) {
-        let mut solution = Solution::of(self);
+    /// Also what must be as it is because of what is read as it is.
+    pub(super) fn settled(mut self) -> Self {
+        let mut solution = Solution::of(&self);
         solution.open = (0..self.sums.len()).collect();
         // Nothing speaks against all values being as they are.
         let _ = solution.conclude();
         let known: Vec<ValueId> = solution.known.into_keys().collect();
         known.into_iter().for_each(|value| self.fix(value));
+        self
     }
 
-    /// Some operands stay as they are, with all that they are made of.
-    pub(super) fn keep(&mut self, program: &Program, kept: impl Fn(&Op<ValueId>) -> Option<ValueId>) {
-        let mut open: Vec<ValueId> = program.computed().filter_map(|value| kept(program.op(value)?)).collect();
+    /// Some values stay as they are, with all that they are made of.
+    pub(super) fn keep(&mut self, values: impl IntoIterator<Item = ValueId>) {
+        let mut open: Vec<ValueId> = values.into_iter().collect();
         let mut met = BTreeSet::new();
         while let Some(value) = open.pop() {
             if met.insert(value) {
@@ -80,7 +80,6 @@ impl Sizes {
                 open.extend(&self.operands[value.index()]);
             }
         }
-        self.fix_what_follows();
     }
 
     fn fix(&mut self, value: ValueId) {
