@@ -147,6 +147,76 @@ fn results_of_moderate_arguments_are_finite() {
     assert!(programs > 60 && poses > 5000, "{programs} programs, {poses} poses");
 }
 
+/// The same from a pose, whose numbers are within what is known of them: next to a dead centre too.
+#[test]
+fn results_of_moderate_arguments_at_a_pose_are_finite() {
+    let (mut programs, mut poses) = (0, 0);
+    for seed in 0..60 {
+        let scalar = if seed % 3 == 0 { "f32" } else { "f64" };
+        let mut sample =
+            sample(seed, Kind { dyads: if seed % 2 == 0 { 1 } else { 2 }, moving: seed % 5 == 0, scalar, ..KIND });
+        if seed % 4 == 0 {
+            sample.text = sample.text.replacen(';', "; arithmetic fused;", 1);
+        }
+        let linkage = compile(&sample.text);
+        for from_pose in linkage.functions.scenes.iter().map(|functions| &functions.from_pose) {
+            let mut unchecked = from_pose.clone();
+            unchecked.steps.retain(|step| !matches!(step, Step::FiniteResults(_)));
+            let looks_at_arguments = !from_pose.moderate.is_empty() || unchecked.steps.len() == from_pose.steps.len();
+            let program = if looks_at_arguments { &unchecked } else { from_pose };
+            let with_results = match scalar {
+                "f32" => at_poses::<Single>(&linkage, program, &sample, f64::from(2f32.powi(33).next_down())),
+                _ => at_poses::<Double>(&linkage, program, &sample, 2f64.powi(257).next_down()),
+            };
+            if looks_at_arguments {
+                programs += 1;
+                poses += with_results;
+            }
+        }
+    }
+    assert!(programs > 30 && poses > 6000, "{programs} programs, {poses} poses");
+}
+
+/// At how many poses of many a function has results, all finite, with the largest loads and rates.
+fn at_poses<T: Number>(linkage: &Linkage, program: &Program, sample: &Sample, largest: f64) -> usize {
+    let graph = &linkage.model.graph;
+    let mut random = Random(sample.text.len() as u64);
+    let mut poses = 0;
+    for index in 0..200 {
+        let mut arguments = sample.arguments.clone();
+        let mut sign = |x: &mut f64| *x = if random.chance(0.5) { largest } else { -largest };
+        arguments.loads.iter_mut().flatten().for_each(&mut sign);
+        arguments.motion.iter_mut().flatten().for_each(&mut sign);
+        for drive in &mut arguments.drives {
+            *drive += random.range(-1.0, 1.0) * 10f64.powi(index % 16 - 12);
+        }
+        let symbol = |input: Input| match input {
+            Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
+            Input::Kept(_) | Input::Prepared(_) | Input::Known(_) => T::exactly(f64::NAN),
+        };
+        let Ok(kept) = (Run { program: &linkage.functions.pose, graph }).with(&symbol) else { continue };
+        let place = |node: NodeId| linkage.plan.pose.iter().position(|kept| kept.node == node).expect("kept");
+        let input = |input: Input| match input {
+            Input::Kept(node) => kept[place(node)].clone(),
+            other => symbol(other),
+        };
+        for (value, which) in program.inputs() {
+            let number = input(which).to_f64();
+            let within = program.value(value).within;
+            assert!(
+                within.is_none_or(|within| within.allows(number)),
+                "{which:?} {number} {within:?}\n{}",
+                sample.text
+            );
+        }
+        let Ok(results) = (Run { program, graph }).with(&input) else { continue };
+        let results: Vec<f64> = results.iter().map(T::to_f64).collect();
+        assert!(results.iter().copied().all(f64::is_finite), "{results:?} {arguments:?}\n{}", sample.text);
+        poses += 1;
+    }
+    poses
+}
+
 fn unchecked_results<T: Number>(
     linkage: &Linkage,
     program: &Program,

@@ -440,18 +440,18 @@ fn prepared_of_pose(linkage: &Linkage, program: &Program) -> TokenStream {
 /// A scene from a pose.
 pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
     let scene = &linkage.model.scenes[index];
-    let program = without_input_checks(&linkage.functions.scenes[index].from_pose);
+    let program = &linkage.functions.scenes[index].from_pose;
     let name = ident(&scene.name.text);
     let ty = output_type(&linkage.model, &linkage.plan.scenes[index], &type_name(&scene.name.text));
-    let given = given_arguments(linkage, &program);
-    let prepared = prepared_of_pose(linkage, &program);
-    let bindings = bindings(linkage, &program, Drives::Pose);
-    let (statements, body) = body(linkage, &program).statements();
+    let given = given_arguments(linkage, program);
+    let prepared = prepared_of_pose(linkage, program);
+    let bindings = bindings(linkage, program, Drives::Pose);
+    let (statements, body) = body(linkage, program).statements();
     let base = type_name(&scene.name.text);
     let value =
-        result(scene.method, &base, &base, &linkage.plan.scenes[index], &mut outputs(&body, &program).into_iter());
+        result(scene.method, &base, &base, &linkage.plan.scenes[index], &mut outputs(&body, program).into_iter());
     let lines =
-        docs::function(&docs::scene_summary(linkage, index, true), &[], &program, &body.equations(&linkage.model));
+        docs::function(&docs::scene_summary(linkage, index, true), &[], program, &body.equations(&linkage.model));
     quote! {
         #lines
         #[inline]
@@ -462,14 +462,6 @@ pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
             Ok(#value)
         }
     }
-}
-
-/// The drives of a pose are finite.
-fn without_input_checks(program: &Program) -> Program {
-    let mut program = program.clone();
-    program.steps.retain(|step| !matches!(step, crate::program::Step::FiniteInput(_)));
-    program.asked_late.clear();
-    program
 }
 
 /// The arguments behind the drives.

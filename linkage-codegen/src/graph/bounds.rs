@@ -38,6 +38,16 @@ impl Bounds {
         Self { low: self.low.max(least), high: self.high }
     }
 
+    /// Of what lies within these or others.
+    pub(crate) fn or(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// Whether a number lies within them.
+    pub(crate) fn hold(self, number: f64) -> bool {
+        self.low <= number && number <= self.high
+    }
+
     pub(crate) fn low(self) -> f64 {
         self.low
     }
@@ -185,6 +195,10 @@ impl Graph {
             Op::Kernel { kernel: Kernel::Atan2, .. } => {
                 computed(Bounds { low: -core::f64::consts::PI, high: core::f64::consts::PI })
             }
+            Op::Kernel { kernel: Kernel::MulAdd, ref args, .. } => match args[..] {
+                [a, b, c] => computed(of(a).times(of(b)).plus(of(c))),
+                _ => Bounds::ANY,
+            },
             Op::Symbol(Symbol::Side(_)) => Bounds { low: -1.0, high: 1.0 },
             Op::Kernel { kernel: Kernel::Search { search, .. }, part, .. } if self.finds_direction(search, part) => {
                 computed(Bounds { low: -1.0, high: 1.0 })

@@ -49,10 +49,11 @@ impl Extract<'_> {
             placed: BTreeMap::new(),
             computed: HashMap::new(),
         };
+        // What a search is given was checked before, and what a pose is at.
+        let is_argument =
+            |node: NodeId| !matches!(self.input(node), Some(Input::Known(_))) && self.form != Form::FromPose;
         for node in &needed {
-            // What a search is given was checked before.
-            let is_given = matches!(self.input(*node), Some(Input::Known(_)));
-            if let (Op::Symbol(Symbol::Drive(_)), false) = (self.graph.op(*node), is_given) {
+            if matches!(self.graph.op(*node), Op::Symbol(Symbol::Drive(_))) && is_argument(*node) {
                 let value = building.value(*node);
                 building.program.steps.push(Step::FiniteInput(value));
             }
@@ -145,7 +146,7 @@ impl Building<'_> {
         let (label, section) = graph.label_in(self.scene, node);
         let section = section.unwrap_or_else(|| graph.section(node));
         let (divided, component) = (graph.is_divided(node), self.component(node));
-        self.program.values.push(Value { definition, label, section, divided, component });
+        self.program.values.push(Value { definition, label, section, divided, component, within: None });
         self.placed.insert(node, id);
         id
     }

@@ -1,11 +1,12 @@
 //! All functions of a module.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Extract, Form, Input, Program, passes};
-use crate::graph::NodeId;
+use super::bounds::{Given, Within};
+use super::{Definition, Extract, Form, Input, Program, passes};
+use crate::graph::{Graph, NodeId, Symbol};
 use crate::model::Model;
-use crate::plan::Plan;
+use crate::plan::{Kept, Plan};
 
 /// The programs of a linkage.
 #[derive(Clone, Debug)]
@@ -57,6 +58,7 @@ impl Functions {
         let pose = program(Form::Direct, &kept, &finite);
         let searches = graph.searches();
         let near = (!searches.is_empty()).then(|| program(Form::Near, &kept, &finite));
+        let within = known_of_kept(&plan.pose, core::iter::once(&pose).chain(&near), graph);
         let searches: Vec<SearchFunctions> = searches
             .into_iter()
             .map(|(id, search)| {
@@ -80,9 +82,11 @@ impl Functions {
             .map(|(index, output)| {
                 let results = output.leaves();
                 let finite: Vec<NodeId> = results.iter().map(|(_, node)| *node).collect();
-                let program =
-                    |form| passes::optimised(Extract { graph, form }.program_of(Some(index), &results, &finite), graph);
-                SceneFunctions { from_pose: program(Form::FromPose), direct: program(Form::Direct) }
+                let program = |form| Extract { graph, form }.program_of(Some(index), &results, &finite);
+                SceneFunctions {
+                    from_pose: passes::optimised(program(Form::FromPose).at_pose(&within, graph), graph),
+                    direct: passes::optimised(program(Form::Direct), graph),
+                }
             })
             .collect();
         let both = scenes.iter().flat_map(|scene| [&scene.from_pose, &scene.direct]);
@@ -92,6 +96,36 @@ impl Functions {
         let results: Vec<(String, NodeId)> = prepared.iter().map(|node| (String::new(), *node)).collect();
         let prepare = program(Form::Prepare, &results, &prepared);
         Self { prepare, pose, near, searches, accessors, scenes, prepared }
+    }
+}
+
+/// What is known of the numbers that a pose keeps, whichever of some programs finds it.
+fn known_of_kept<'p>(
+    kept: &[Kept],
+    poses: impl Iterator<Item = &'p Program>,
+    graph: &Graph,
+) -> BTreeMap<NodeId, Within> {
+    let mut known: BTreeMap<NodeId, Within> = BTreeMap::new();
+    for pose in poses {
+        let results = Given::anything(graph.scalar()).results(pose, graph);
+        for (kept, within) in kept.iter().zip(results) {
+            known.entry(kept.node).and_modify(|known| *known = known.or(within)).or_insert(within);
+        }
+    }
+    known
+}
+
+impl Program {
+    /// With what is known of the numbers that a pose keeps, and of its drives, which are finite.
+    fn at_pose(mut self, kept: &BTreeMap<NodeId, Within>, graph: &Graph) -> Self {
+        for value in &mut self.values {
+            value.within = match value.definition {
+                Definition::Input(Input::Kept(node)) => kept.get(&node).copied(),
+                Definition::Input(Input::Symbol(Symbol::Drive(_))) => Some(Within::finite(graph.scalar())),
+                _ => None,
+            };
+        }
+        self
     }
 }
 

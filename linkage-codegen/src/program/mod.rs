@@ -3,6 +3,7 @@
 //! A program holds what its results need and nothing else, in an order of evaluation, each value computed once. Checks stand where
 //! what they protect is first used.
 
+mod bounds;
 mod counts;
 mod extract;
 mod functions;
@@ -11,6 +12,7 @@ pub mod passes;
 mod range;
 mod start;
 
+pub use bounds::Within;
 pub use counts::Counts;
 pub use extract::{Extract, Form};
 pub use functions::{Functions, SceneFunctions, SearchFunctions};
@@ -73,6 +75,8 @@ pub struct Value {
     pub divided: bool,
     /// What is known of it if it is a component of a link's direction.
     pub component: Option<Component<ValueId>>,
+    /// What is known of it if it comes from a pose.
+    pub within: Option<Within>,
 }
 
 /// A step of a program.

@@ -8,11 +8,12 @@
 //! Results of arguments that are not enormous, behind the checks of pivots, mostly lie within bounds: then arguments are looked at, which
 //! waits for nothing, and results only where one is.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use crate::graph::bounds::Bounds;
 use crate::graph::{Graph, Kernel, Op, Scalar, Symbol};
-use crate::program::{Definition, Input, Program, Step, ValueId};
+use crate::program::bounds::Given;
+use crate::program::{Input, Program, Step, ValueId};
 
 pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
     let scalar = graph.scalar();
@@ -93,24 +94,6 @@ fn reached(from: impl IntoIterator<Item = ValueId>, next: impl Fn(ValueId) -> Ve
     reached
 }
 
-/// What a value is not less than, if it is a number: it may be infinite, as a drive may be beyond which angles are rounded.
-fn least(program: &Program, graph: &Graph, bounds: &[Bounds], value: ValueId) -> f64 {
-    let of = |value: ValueId| least(program, graph, bounds, value);
-    let known = bounds[value.index()].low();
-    // What rounding leaves of it.
-    let left = 1.0 - 4.0 * graph.scalar().epsilon().to_f64();
-    let found = match program.op(value) {
-        Some(Op::Abs(_)) => 0.0,
-        Some(Op::Add(a, b)) => of(*a) + of(*b),
-        Some(Op::Mul(a, b)) => match [of(*a), of(*b)] {
-            [a, b] if a >= 0.0 && b >= 0.0 => a * b,
-            _ => return known,
-        },
-        _ => return known,
-    };
-    if found >= 0.0 { known.max(found * left) } else { known }
-}
-
 /// The value without its signs, and without terms too small to take a finite number beyond the largest: it is finite where that is.
 fn bare(program: &Program, bounds: &[Bounds], scalar: Scalar, mut value: ValueId) -> ValueId {
     let is_small = |term: &ValueId| bounds[term.index()].change_no_finite(scalar);
@@ -130,8 +113,9 @@ pub(super) fn look_at_arguments(mut program: Program, graph: &Graph) -> Program 
         return program;
     }
     let scalar = graph.scalar();
-    let given = program.inputs_that(is_given);
-    let drives = program.inputs_that(|input| matches!(input, Input::Symbol(Symbol::Drive(_))));
+    let given = program.inputs_that(|input| matches!(input, Input::Symbol(Symbol::Load(..) | Symbol::Driven(..))));
+    let mut drives = program.inputs_that(|input| matches!(input, Input::Symbol(Symbol::Drive(_))));
+    drives.retain(|drive| program.value(*drive).within.is_none());
     let moderate = Bounds::moderate(scalar);
     let any_drives = Given { drives: Bounds::finite(scalar), given: moderate };
     let refused = program.refused();
@@ -147,11 +131,6 @@ pub(super) fn look_at_arguments(mut program: Program, graph: &Graph) -> Program 
     }
     program.moderate = arguments;
     program
-}
-
-/// Whether an input is a load or a rate.
-fn is_given(input: Input) -> bool {
-    matches!(input, Input::Symbol(Symbol::Load(..) | Symbol::Driven(..)))
 }
 
 impl Program {
@@ -183,103 +162,5 @@ impl Program {
             }
         }
         refused
-    }
-}
-
-/// What arguments may be. Poses and prepared linkages hold finite numbers only, but for bounds of errors where nothing can be said: these are
-/// read as the lesser of them and the largest number.
-struct Given {
-    drives: Bounds,
-    /// Loads and rates.
-    given: Bounds,
-}
-
-impl Given {
-    /// Drives are checked.
-    fn anything(scalar: Scalar) -> Self {
-        Self { drives: Bounds::finite(scalar), given: Bounds::ANY }
-    }
-
-    /// The bounds of all values.
-    fn bounds(&self, program: &Program, graph: &Graph) -> Vec<Bounds> {
-        self.bounds_with(program, graph, &BTreeMap::new())
-    }
-
-    /// Whether checked results lie within bounds.
-    fn bound_results(&self, program: &Program, graph: &Graph) -> bool {
-        let bounds = self.behind_checks(program, graph);
-        program.steps.iter().all(|step| match step {
-            Step::FiniteResults(checked) => {
-                checked.iter().all(|value| bounds[value.index()].are_finite(graph.scalar()))
-            }
-            _ => true,
-        })
-    }
-
-    /// The bounds of all values where no check has failed.
-    fn behind_checks(&self, program: &Program, graph: &Graph) -> Vec<Bounds> {
-        let before = self.bounds(program, graph);
-        let above = program.steps.iter().filter_map(|step| match step {
-            Step::Check { guard, .. } => Some(guard.condition.operands()),
-            _ => None,
-        });
-        let mut most: BTreeMap<ValueId, f64> = BTreeMap::new();
-        for [value, limit] in above {
-            let least = least(program, graph, &before, limit);
-            most.entry(value).and_modify(|known| *known = known.max(least)).or_insert(least);
-        }
-        self.bounds_with(program, graph, &most)
-    }
-
-    /// The same of values of which some are not less than these numbers.
-    fn bounds_with(&self, program: &Program, graph: &Graph, least: &BTreeMap<ValueId, f64>) -> Vec<Bounds> {
-        let mut known = vec![None; program.values.len()];
-        (0..known.len()).map(|index| self.bounds_of((program, graph, least), ValueId::new(index), &mut known)).collect()
-    }
-
-    fn bounds_of(
-        &self,
-        context: (&Program, &Graph, &BTreeMap<ValueId, f64>),
-        value: ValueId,
-        known: &mut Vec<Option<Bounds>>,
-    ) -> Bounds {
-        let (program, graph, least) = context;
-        if let Some(bounds) = known[value.index()] {
-            return bounds;
-        }
-        let scalar = graph.scalar();
-        let found = match &program.value(value).definition {
-            Definition::Input(Input::Symbol(Symbol::Drive(_))) => self.drives,
-            Definition::Input(Input::Kept(_) | Input::Prepared(_)) => Bounds::finite(scalar),
-            Definition::Input(input) if is_given(*input) => self.given,
-            Definition::Input(Input::Symbol(symbol @ Symbol::Side(_))) => {
-                graph.bounds_of_op(&Op::<ValueId>::Symbol(*symbol), |_| Bounds::ANY)
-            }
-            Definition::Input(Input::Symbol(_) | Input::Known(_)) => Bounds::ANY,
-            Definition::Computed(op) => {
-                for operand in op.operands() {
-                    self.bounds_of(context, operand, known);
-                }
-                let of = |operand: ValueId| known[operand.index()].unwrap_or(Bounds::ANY);
-                // Bounds of numbers; these give none.
-                let no_number = match op {
-                    Op::Sqrt(a) => of(*a).has_negative(),
-                    Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_) | Kernel::Atan2, args, .. } => {
-                        !args.iter().all(|arg| of(*arg).are_finite(scalar))
-                    }
-                    // The directions that it finds have been brought to unit size, from a start that is finite.
-                    Op::Kernel { kernel: Kernel::Search { .. }, .. } => false,
-                    Op::Kernel { .. } => true,
-                    // Of an operand that is no number nothing is known.
-                    _ => false,
-                };
-                if no_number { Bounds::ANY } else { graph.bounds_of_op(op, of) }
-            }
-        };
-        // Beyond the largest number it is infinite, and what becomes of it may be no number.
-        let found = if found.are_finite(scalar) { found } else { Bounds::ANY };
-        let found = least.get(&value).map_or(found, |least| found.not_below(*least));
-        known[value.index()] = Some(found);
-        found
     }
 }

@@ -56,7 +56,7 @@ impl Program {
     fn add(&mut self, op: Op<ValueId>, beside: ValueId) -> ValueId {
         let section = self.value(beside).section.clone();
         let definition = Definition::Computed(op);
-        self.values.push(Value { definition, label: None, section, divided: false, component: None });
+        self.values.push(Value { definition, label: None, section, divided: false, component: None, within: None });
         ValueId::new(self.values.len() - 1)
     }
 
