@@ -97,10 +97,9 @@ fn functions<'a, T: Number + 'a>(linkage: &'a Linkage, is_inverse: bool) -> Vec<
         let name = &scene.name.text;
         add(&format!("{name}_at"), Box::new(|arguments| direct(linkage, &functions.direct, arguments)));
         if !is_inverse {
-            let program = emitted(&functions.from_pose, |step| !matches!(step, Step::FiniteInput(_)));
             let call = move |arguments: &Arguments| {
                 let kept = checked_pose::<T>(linkage, arguments)?;
-                from_pose(linkage, &program, &kept, arguments)
+                from_pose(linkage, &functions.from_pose, &kept, arguments)
             };
             add(&format!("Pose::{name}"), Box::new(call));
         }

@@ -13,7 +13,7 @@ use linkage_codegen::program::{Counts, Definition, Extract, Fault, Form, Input, 
 use support::families::boom;
 use support::linkages::{Kind, Random, Sample, sample, sample_with_search};
 use support::numbers::{Double, Extended, Single};
-use support::{Arguments, Number, compile, pose};
+use support::{Arguments, Number, compile, from_pose, moved, pose};
 
 fn results<T: Number>(linkage: &Linkage, program: &Program, arguments: &Arguments) -> Vec<T> {
     let kept: HashMap<_, T> = pose(linkage, arguments).expect("a pose");
@@ -147,14 +147,15 @@ fn results_of_moderate_arguments_are_finite() {
     assert!(programs > 60 && poses > 5000, "{programs} programs, {poses} poses");
 }
 
-/// The same from a pose, whose numbers are within what is known of them: next to a dead centre too.
+/// The same from a pose, whose numbers are within what is known of them: next to a dead centre too, and where the pose follows from another.
 #[test]
 fn results_of_moderate_arguments_at_a_pose_are_finite() {
     let (mut programs, mut poses) = (0, 0);
-    for seed in 0..60 {
+    for seed in 0..72 {
         let scalar = if seed % 3 == 0 { "f32" } else { "f64" };
-        let mut sample =
-            sample(seed, Kind { dyads: if seed % 2 == 0 { 1 } else { 2 }, moving: seed % 5 == 0, scalar, ..KIND });
+        let dyads = if seed % 2 == 0 { 1 } else { 2 };
+        let kind = Kind { dyads, moving: seed % 5 == 0, params: seed % 7 == 3, scalar, ..KIND };
+        let mut sample = if seed % 12 == 5 { sample_with_search(seed, kind) } else { sample(seed, kind) };
         if seed % 4 == 0 {
             sample.text = sample.text.replacen(';', "; arithmetic fused;", 1);
         }
@@ -179,8 +180,8 @@ fn results_of_moderate_arguments_at_a_pose_are_finite() {
 
 /// At how many poses of many a function has results, all finite, with the largest loads and rates.
 fn at_poses<T: Number>(linkage: &Linkage, program: &Program, sample: &Sample, largest: f64) -> usize {
-    let graph = &linkage.model.graph;
     let mut random = Random(sample.text.len() as u64);
+    let start = pose::<T>(linkage, &sample.arguments);
     let mut poses = 0;
     for index in 0..200 {
         let mut arguments = sample.arguments.clone();
@@ -190,26 +191,20 @@ fn at_poses<T: Number>(linkage: &Linkage, program: &Program, sample: &Sample, la
         for drive in &mut arguments.drives {
             *drive += random.range(-1.0, 1.0) * 10f64.powi(index % 16 - 12);
         }
-        let symbol = |input: Input| match input {
-            Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
-            Input::Kept(_) | Input::Prepared(_) | Input::Known(_) => T::exactly(f64::NAN),
+        let reached = match &start {
+            Ok(start) if linkage.functions.near.is_some() && index % 2 == 0 => {
+                moved(linkage, (start, &sample.arguments), &arguments)
+            }
+            _ => pose::<T>(linkage, &arguments),
         };
-        let Ok(kept) = (Run { program: &linkage.functions.pose, graph }).with(&symbol) else { continue };
-        let place = |node: NodeId| linkage.plan.pose.iter().position(|kept| kept.node == node).expect("kept");
-        let input = |input: Input| match input {
-            Input::Kept(node) => kept[place(node)].clone(),
-            other => symbol(other),
-        };
-        for (value, which) in program.inputs() {
-            let number = input(which).to_f64();
-            let within = program.value(value).within;
-            assert!(
-                within.is_none_or(|within| within.allows(number)),
-                "{which:?} {number} {within:?}\n{}",
-                sample.text
-            );
+        let Ok(kept) = reached else { continue };
+        for (value, input) in program.inputs() {
+            if let (Input::Kept(node), Some(within)) = (input, program.value(value).within) {
+                let number = kept[&node].to_f64();
+                assert!(within.allows(number), "{node:?} {number} {within:?}\n{}", sample.text);
+            }
         }
-        let Ok(results) = (Run { program, graph }).with(&input) else { continue };
+        let Ok(results) = from_pose(linkage, program, &kept, &arguments) else { continue };
         let results: Vec<f64> = results.iter().map(T::to_f64).collect();
         assert!(results.iter().copied().all(f64::is_finite), "{results:?} {arguments:?}\n{}", sample.text);
         poses += 1;

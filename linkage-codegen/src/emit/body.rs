@@ -159,19 +159,15 @@ impl<'a> Body<'a> {
             }
             Step::FiniteResults(checked) => {
                 // A loop over positions waits for neither: what counts is how many there are.
-                let (short, others) = body.moderate();
-                let arguments = Some(&others)
-                    .filter(|others| !(short.is_empty() && others.is_empty()) && others.len() < checked.len());
-                match arguments.map(Vec::as_slice) {
-                    Some([]) => None,
-                    Some(arguments) => {
-                        let arguments = body.array(arguments);
-                        Some(quote!(math::each_moderate(#arguments)))
-                    }
-                    None => {
-                        let values = body.array(checked);
-                        Some(quote!(math::each_finite(#values)))
-                    }
+                let (_, others) = body.moderate();
+                if body.program.moderate.is_empty() || others.len() >= checked.len() {
+                    let values = body.array(checked);
+                    Some(quote!(math::each_finite(#values)))
+                } else if others.is_empty() {
+                    None
+                } else {
+                    let arguments = body.array(&others);
+                    Some(quote!(math::each_moderate(#arguments)))
                 }
             }
         });

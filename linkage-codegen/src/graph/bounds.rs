@@ -24,13 +24,10 @@ impl Bounds {
         Self { low: -largest, high: largest }
     }
 
-    /// Of what `all_moderate` lets pass.
+    /// Of what is moderate.
     pub(crate) fn moderate(scalar: Scalar) -> Self {
-        let most = 2f64.powi(match scalar {
-            Scalar::F64 => 257,
-            Scalar::F32 => 33,
-        });
-        Self { low: -most, high: most }
+        let limit = scalar.moderate();
+        Self { low: -limit, high: limit }
     }
 
     /// Of a value within them that is not less than a number.
@@ -44,7 +41,7 @@ impl Bounds {
     }
 
     /// Whether a number lies within them.
-    pub(crate) fn hold(self, number: f64) -> bool {
+    pub(crate) fn contain(self, number: f64) -> bool {
         self.low <= number && number <= self.high
     }
 
@@ -68,13 +65,7 @@ impl Bounds {
         if self.low.is_nan() || self.high.is_nan() {
             return Self::ANY;
         }
-        let (epsilon, tiny) = match scalar {
-            Scalar::F64 => (f64::EPSILON, f64::MIN_POSITIVE),
-            Scalar::F32 => (f64::from(f32::EPSILON), f64::from(f32::MIN_POSITIVE)),
-        };
-        let wider = |x: f64| 4.0 * epsilon * x.abs() + tiny;
-        let down = |x: f64| if x < 0.0 { x - wider(x) } else { (x - wider(x)).max(0.0) };
-        Self { low: down(self.low), high: -down(-self.high) }
+        Self { low: rounded_down(self.low, scalar), high: -rounded_down(-self.high, scalar) }
     }
 
     fn opposite(self) -> Self {
@@ -111,6 +102,16 @@ impl Bounds {
     pub(crate) fn has_negative(self) -> bool {
         self.low < 0.0
     }
+}
+
+/// What rounding leaves of a result at the least. It never passes over zero.
+pub(crate) fn rounded_down(x: f64, scalar: Scalar) -> f64 {
+    let (epsilon, tiny) = match scalar {
+        Scalar::F64 => (f64::EPSILON, f64::MIN_POSITIVE),
+        Scalar::F32 => (f64::from(f32::EPSILON), f64::from(f32::MIN_POSITIVE)),
+    };
+    let lower = x - (4.0 * epsilon * x.abs() + tiny);
+    if x < 0.0 { lower } else { lower.max(0.0) }
 }
 
 impl Graph {
@@ -196,7 +197,7 @@ impl Graph {
                 computed(Bounds { low: -core::f64::consts::PI, high: core::f64::consts::PI })
             }
             Op::Kernel { kernel: Kernel::MulAdd, ref args, .. } => match args[..] {
-                [a, b, c] => computed(of(a).times(of(b)).plus(of(c))),
+                [a, b, c] => computed(computed(of(a).times(of(b))).plus(of(c))),
                 _ => Bounds::ANY,
             },
             Op::Symbol(Symbol::Side(_)) => Bounds { low: -1.0, high: 1.0 },

@@ -55,6 +55,15 @@ impl Scalar {
         }
     }
 
+    /// What is less in magnitude is moderate: `all_moderate` lets it pass.
+    #[must_use]
+    pub fn moderate(self) -> f64 {
+        2f64.powi(match self {
+            Self::F64 => 257,
+            Self::F32 => 33,
+        })
+    }
+
     /// Its name in Rust.
     #[must_use]
     pub fn name(self) -> &'static str {

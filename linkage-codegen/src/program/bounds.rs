@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 
 use super::{Definition, Input, Program, Step, Value, ValueId};
-use crate::graph::bounds::Bounds;
+use crate::graph::bounds::{Bounds, rounded_down};
 use crate::graph::{Condition, Graph, Kernel, Op, Scalar, Symbol};
 
 /// What is known of a number that a function has from a pose.
 #[derive(Clone, Copy, Debug)]
 pub struct Within {
     bounds: Bounds,
-    /// What it is not less than if it is more than zero, which it may be where nothing can be divided by it.
+    /// If it is more than zero it is not less than this: a pivot is kept as zero where it is no larger than its rounding.
     least_above_zero: f64,
 }
 
@@ -23,7 +23,7 @@ impl Within {
     /// Whether it may be this number.
     #[must_use]
     pub fn allows(self, number: f64) -> bool {
-        self.bounds.hold(number) && (number <= 0.0 || number >= self.least_above_zero)
+        self.bounds.contain(number) && (number <= 0.0 || number >= self.least_above_zero)
     }
 
     /// Of one that comes of either of two programs.
@@ -34,13 +34,13 @@ impl Within {
 }
 
 /// What values are not less than where conditions hold.
-fn holding<'c>(
+fn least_where<'c>(
     conditions: impl IntoIterator<Item = &'c Condition<ValueId>>,
     program: &Program,
     graph: &Graph,
     bounds: &[Bounds],
 ) -> BTreeMap<ValueId, f64> {
-    let mut holding: BTreeMap<ValueId, f64> = BTreeMap::new();
+    let mut all: BTreeMap<ValueId, f64> = BTreeMap::new();
     for condition in conditions {
         let [value, limit] = condition.operands();
         let mut least = least(program, graph, bounds, limit);
@@ -49,17 +49,15 @@ fn holding<'c>(
         {
             least = least.max(within.least_above_zero);
         }
-        holding.entry(value).and_modify(|known| *known = known.max(least)).or_insert(least);
+        all.entry(value).and_modify(|known| *known = known.max(least)).or_insert(least);
     }
-    holding
+    all
 }
 
 /// What a value is not less than, if it is a number: it may be infinite, as a drive may be beyond which angles are rounded.
 fn least(program: &Program, graph: &Graph, bounds: &[Bounds], value: ValueId) -> f64 {
     let of = |value: ValueId| least(program, graph, bounds, value);
     let known = bounds[value.index()].low();
-    // What rounding leaves of it.
-    let left = 1.0 - 4.0 * graph.scalar().epsilon().to_f64();
     let found = match program.op(value) {
         Some(Op::Abs(_)) => 0.0,
         Some(Op::Add(a, b)) => of(*a) + of(*b),
@@ -69,12 +67,11 @@ fn least(program: &Program, graph: &Graph, bounds: &[Bounds], value: ValueId) ->
         },
         _ => return known,
     };
-    if found >= 0.0 { known.max(found * left) } else { known }
+    if found >= 0.0 { known.max(rounded_down(found, graph.scalar())) } else { known }
 }
 
 /// What arguments may be. Poses and prepared linkages hold finite numbers only, but for bounds of errors where nothing can be said: these are
 /// read as the lesser of them and the largest number.
-#[derive(Clone, Copy)]
 pub(super) struct Given {
     pub(super) drives: Bounds,
     /// Loads and rates.
@@ -110,7 +107,7 @@ impl Given {
             Step::Check { guard, .. } => Some(&guard.condition),
             _ => None,
         });
-        self.bounds_with(program, graph, &holding(conditions, program, graph, &before))
+        self.bounds_with(program, graph, &least_where(conditions, program, graph, &before))
     }
 
     /// What is known of a program's results, where these are checked to be finite.
@@ -123,10 +120,14 @@ impl Given {
                 conditions.push(Condition::Above { value: *value, limit: *limit });
                 then = *inner;
             }
+            let above_zero = if conditions.is_empty() {
+                found
+            } else {
+                let least = least_where(&conditions, program, graph, &bounds);
+                self.bounds_with(program, graph, &least)[then.index()]
+            };
             let finite = if found.are_finite(graph.scalar()) { found } else { Bounds::finite(graph.scalar()) };
-            let holding = holding(&conditions, program, graph, &bounds);
-            let where_above_zero = self.bounds_with(program, graph, &holding)[then.index()];
-            Within { bounds: finite, least_above_zero: where_above_zero.low().max(0.0) }
+            Within { bounds: finite, least_above_zero: above_zero.low().max(0.0) }
         };
         program.outputs.iter().map(|(_, result)| within(*result)).collect()
     }

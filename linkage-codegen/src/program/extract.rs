@@ -49,7 +49,7 @@ impl Extract<'_> {
             placed: BTreeMap::new(),
             computed: HashMap::new(),
         };
-        // What a search is given was checked before, and what a pose is at.
+        // What a search is given was checked before, and so were the drives of a pose.
         let is_argument =
             |node: NodeId| !matches!(self.input(node), Some(Input::Known(_))) && self.form != Form::FromPose;
         for node in &needed {

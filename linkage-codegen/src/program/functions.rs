@@ -108,7 +108,8 @@ fn known_of_kept<'p>(
     let mut known: BTreeMap<NodeId, Within> = BTreeMap::new();
     for pose in poses {
         let results = Given::anything(graph.scalar()).results(pose, graph);
-        for (kept, within) in kept.iter().zip(results) {
+        // A bound of errors may be infinite.
+        for (kept, within) in kept.iter().zip(results).filter(|(kept, _)| !kept.is_bound) {
             known.entry(kept.node).and_modify(|known| *known = known.or(within)).or_insert(within);
         }
     }

@@ -75,7 +75,7 @@ pub struct Value {
     pub divided: bool,
     /// What is known of it if it is a component of a link's direction.
     pub component: Option<Component<ValueId>>,
-    /// What is known of it if it comes from a pose.
+    /// What is known of it if it comes from a pose, as the pose's drives do.
     pub within: Option<Within>,
 }
 

@@ -23,7 +23,7 @@ pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
         let Step::FiniteResults(checked) = step else { continue };
         let bare = |value: ValueId| bare(&program, &bounds, scalar, value);
         let mut all = BTreeSet::new();
-        checked.retain(|value| !bounds[value.index()].are_finite(scalar) && all.insert(bare(*value)));
+        checked.retain(|value| !bounds[bare(*value).index()].are_finite(scalar) && all.insert(bare(*value)));
         let shown = program.shown_by(all);
         checked.retain(|value| !shown.contains(&bare(*value)));
         pairs_first(&program, checked);
@@ -115,6 +115,7 @@ pub(super) fn look_at_arguments(mut program: Program, graph: &Graph) -> Program 
     let scalar = graph.scalar();
     let given = program.inputs_that(|input| matches!(input, Input::Symbol(Symbol::Load(..) | Symbol::Driven(..))));
     let mut drives = program.inputs_that(|input| matches!(input, Input::Symbol(Symbol::Drive(_))));
+    // Those of a pose are no arguments.
     drives.retain(|drive| program.value(*drive).within.is_none());
     let moderate = Bounds::moderate(scalar);
     let any_drives = Given { drives: Bounds::finite(scalar), given: moderate };
