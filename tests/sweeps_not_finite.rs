@@ -20,7 +20,7 @@ macro_rules! each_input {
                     let mut columns = good.map(|good| [good; COUNT]);
                     columns[which][index] = bad;
                     let [$($input),*] = &columns;
-                    let mut rows = [$(stringify!($row)),*].map(|_| [7.0; COUNT]);
+                    let mut rows = [$(stringify!($row)),*].map(|_| [$scalar::NAN; COUNT]);
                     let [$($row),*] = &mut rows;
                     let inputs = $linkage::$inputs { $($input: Series::Each($input)),* };
                     let swept = $linkage::$sweep(&inputs, $linkage::$results { $($row),* });
@@ -34,8 +34,8 @@ macro_rules! each_input {
                         (Err(error), Err(one)) => {
                             refused += 1;
                             assert_eq!(error, SweepError::Position { index, error: one }, "{what}");
-                            assert!(rows.iter().all(|row| row[..index].iter().all(|x| *x != 7.0)), "{what}");
-                            assert!(rows.iter().all(|row| row[index..].iter().all(|x| *x == 7.0)), "{what}");
+                            assert!(rows.iter().all(|row| row[..index].iter().all(|x| !x.is_nan())), "{what}");
+                            assert!(rows.iter().all(|row| row[index..].iter().all(|x| x.is_nan())), "{what}");
                         }
                         others => panic!("{what}: {others:?}"),
                     }
