@@ -1,5 +1,6 @@
 //! NaN, infinity and the largest numbers in every input of sweeps of every kind, in both scalars and in fused arithmetic: at the position that
 //! has one the sweep says what the function for a single position says, or has its bits.
+#![allow(non_snake_case, reason = "couples have the names of the declaration")]
 
 use linkage_runtime::{Error, Series, SweepError, linkage};
 
