@@ -2,7 +2,7 @@
 
 mod support;
 
-use linkage_codegen::graph::{Graph, Kernel, Op, Order, Symbol};
+use linkage_codegen::graph::{Failure, Graph, Guard, Kernel, Op, Order, Symbol};
 use linkage_codegen::program::{Counts, Definition, Input, Program, Step, ValueId};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use support::compile;
@@ -214,6 +214,35 @@ fn derivatives_cost_nothing_elsewhere_and_share_what_they_have_in_common() {
         program(&with, "far").value(*id)
     };
     assert!(matches!(value("F12.x.B.x").definition, Definition::Computed(Op::Constant(_))));
+}
+
+/// Bounds of errors are worked out for the scene that has them, and of the pose what it needs; elsewhere nothing stands between a scene and its
+/// results but pivots, and what is finite.
+#[test]
+fn bounds_of_errors_cost_other_scenes_nothing() {
+    let plain = compile(FOUR_BAR);
+    let with = compile(&format!("{FOUR_BAR} scene bounded: equilibrium -> (T12, error_bound);"));
+    for scene in &plain.model.scenes {
+        let [before, behind] = [&plain, &with].map(|linkage| program(linkage, &scene.name.text));
+        assert_eq!(before.counts(), behind.counts(), "{}", scene.name);
+        let is_pivot = |guard: &Guard<ValueId>| {
+            matches!(
+                guard.failure,
+                Failure::DeadCentre { .. } | Failure::CannotAssemble { .. } | Failure::CoincidentPivots { .. }
+            )
+        };
+        let pivots_alone = before.steps.iter().all(|step| match step {
+            Step::Check { guard, .. } => is_pivot(guard),
+            Step::Let(_) | Step::FiniteInput(_) | Step::FiniteResults(_) => true,
+        });
+        assert!(pivots_alone, "{}", scene.name);
+    }
+    let bounds = |linkage: &linkage_codegen::Linkage| linkage.plan.pose.iter().filter(|kept| kept.is_bound).count();
+    assert_eq!(bounds(&plain), 0);
+    assert_eq!(plain.plan.pose.len(), with.plan.pose.len() - bounds(&with));
+    // Counted: the bound is more work than what it bounds.
+    let [alone, bounded] = [program(&plain, "statics"), program(&with, "bounded")].map(Program::counts);
+    assert!(bounded.add + bounded.mul > 2 * (alone.add + alone.mul), "{alone}, {bounded}");
 }
 
 /// From a crank's pin on the ground to its other pin leads the crank, on whatever link that pin is named and in whatever order the joints

@@ -96,6 +96,22 @@ fn every_stage_of_every_example() {
     }
 }
 
+/// The function that the first page shows is the one that is emitted for the declaration above it.
+#[test]
+fn the_first_page_shows_what_is_emitted() {
+    // But for the breaks of lines, and the commas that go with them.
+    let without_breaks = |text: &str| {
+        let text: String = text.split_whitespace().collect();
+        text.replace(",}", "}").replace(",)", ")").replace(",]", "]")
+    };
+    let page = include_str!("../../README.md");
+    let shown = page.split("```text\n").find(|part| part.starts_with("pub fn bearing")).expect("the function");
+    let shown = shown.split("```").next().unwrap_or_default();
+    let tokens = without_source(declaration("four_bar"));
+    let code = linkage_codegen::formatted(linkage_codegen::expand(tokens)).expect("Rust");
+    assert!(without_breaks(&code).contains(&without_breaks(shown)), "{shown}");
+}
+
 #[test]
 fn equations_and_code_of_what_no_example_has() {
     for (name, text) in OTHERS {

@@ -520,8 +520,8 @@ struct Arena {
     divided: BTreeSet<NodeId>,
     /// Components of directions of links that have a constant length.
     directions: BTreeMap<NodeId, Component>,
-    /// Whether the rounding of its values is counted.
-    counted: bool,
+    /// From which place on nodes count the rounding of values, if any do.
+    counted_from: Option<usize>,
     /// What was found not to be negative by its form, which is asked for often.
     non_negative: BTreeSet<NodeId>,
     sections: Vec<String>,
@@ -551,15 +551,22 @@ impl Graph {
         Self { fused, ..self }
     }
 
-    /// From here on the rounding of values is counted, of the operations as they stand here.
+    /// The rounding of values is counted from here on, of the operations as they stand here.
     pub fn count_rounding(&self) {
-        self.arena.borrow_mut().counted = true;
+        let next = self.len();
+        self.arena.borrow_mut().counted_from.get_or_insert(next);
     }
 
-    /// Whether the rounding of values is counted: then passes may only do what the count knows of.
+    /// Whether the rounding of any values is counted.
     #[must_use]
     pub fn counts_rounding(&self) -> bool {
-        self.arena.borrow().counted
+        self.arena.borrow().counted_from.is_some()
+    }
+
+    /// Whether a node came with the count.
+    #[must_use]
+    pub fn is_of_count(&self, node: NodeId) -> bool {
+        self.arena.borrow().counted_from.is_some_and(|first| node.index() >= first)
     }
 
     /// Whether products are added without being rounded.

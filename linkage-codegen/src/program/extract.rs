@@ -45,7 +45,7 @@ impl Extract<'_> {
         let mut building = Building {
             extract: self,
             scene,
-            program: Program::default(),
+            program: Program { counts_rounding: self.counts_rounding(&needed), ..Program::default() },
             placed: BTreeMap::new(),
             computed: HashMap::new(),
         };
@@ -77,6 +77,14 @@ impl Extract<'_> {
         }
         program.outputs = outputs;
         building.program
+    }
+
+    /// Whether what is counted reads these nodes, or may read what is prepared.
+    fn counts_rounding(self, needed: &BTreeSet<NodeId>) -> bool {
+        match self.form {
+            Form::Prepare => self.graph.counts_rounding(),
+            _ => needed.iter().any(|node| self.graph.is_of_count(*node)),
+        }
     }
 
     /// All nodes that are evaluated for some results, in order.

@@ -55,9 +55,14 @@ impl Functions {
         };
         let kept: Vec<(String, NodeId)> = plan.pose.iter().map(|kept| (kept.name.clone(), kept.node)).collect();
         let finite: Vec<NodeId> = plan.pose.iter().filter(|kept| !kept.is_bound).map(|kept| kept.node).collect();
-        let pose = program(Form::Direct, &kept, &finite);
+        // What is counted may read any number of a pose.
+        let pose = |form| {
+            let program = Extract { graph, form }.program(&kept, &finite);
+            passes::optimised(Program { counts_rounding: graph.counts_rounding(), ..program }, graph)
+        };
         let searches = graph.searches();
-        let near = (!searches.is_empty()).then(|| program(Form::Near, &kept, &finite));
+        let near = (!searches.is_empty()).then(|| pose(Form::Near));
+        let pose = pose(Form::Direct);
         let within = known_of_kept(&plan.pose, core::iter::once(&pose).chain(&near), graph);
         let searches: Vec<SearchFunctions> = searches
             .into_iter()

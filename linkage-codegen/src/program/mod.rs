@@ -113,6 +113,8 @@ pub struct Program {
     pub moderate: Vec<ValueId>,
     /// The results, each with its path.
     pub outputs: Vec<(String, ValueId)>,
+    /// Whether the rounding of its values is counted: then passes may only do what the count knows of.
+    pub counts_rounding: bool,
 }
 
 impl Program {

@@ -23,7 +23,7 @@ pub(super) fn merge(program: Program, graph: &Graph) -> Program {
 /// Sums, products and quotients of constants are constants, which are rounded once. Graphs have none; factors that are taken out of sums leave
 /// some. One with a name is a line of the derivation.
 pub(super) fn fold(mut program: Program, graph: &Graph) -> Program {
-    if graph.counts_rounding() {
+    if program.counts_rounding {
         return program;
     }
     for step in core::mem::take(&mut program.steps) {
@@ -98,7 +98,7 @@ pub(super) fn multiply_reciprocals(mut program: Program, graph: &Graph) -> Progr
 ///
 /// Of `ka` and `kb` it may be much more that is rounded than of a and b, which errors that are counted would have to know.
 pub(super) fn multiply_into_sums(program: Program, graph: &Graph) -> Program {
-    if graph.counts_rounding() {
+    if program.counts_rounding {
         return program;
     }
     let uses = program.uses();

@@ -17,7 +17,7 @@ use crate::graph::{Component, Graph, Label, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn leave(mut program: Program, graph: &Graph) -> Program {
-    if graph.counts_rounding() {
+    if program.counts_rounding {
         return program;
     }
     let directions = directions(&program);

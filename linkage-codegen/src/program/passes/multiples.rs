@@ -16,7 +16,7 @@ use crate::graph::{Graph, Kernel, Label, Op, Scalar};
 use crate::program::{Program, ValueId};
 
 pub(super) fn find(mut program: Program, graph: &Graph) -> Program {
-    if graph.counts_rounding() {
+    if program.counts_rounding {
         return program;
     }
     let mut search = Search::of(&program, graph);
