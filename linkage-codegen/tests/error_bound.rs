@@ -244,7 +244,7 @@ fn unknowns_that_are_parts_of_the_way() {
     assert!(loosest <= LOOSEST, "{loosest}");
 }
 
-/// The bounds of places, velocities, accelerations, and of what balances inertia, at poses around one.
+/// The bounds of places, velocities, accelerations, of what balances inertia, of coefficients and the equation of motion, at poses around one.
 fn of_moving(name: &str, text: &str, around: f64, by: f64) {
     let linkage = support::compile(text);
     let mut random = Random(77);
@@ -253,7 +253,7 @@ fn of_moving(name: &str, text: &str, around: f64, by: f64) {
         let drives = vec![around + random.range(-by, by)];
         let motion = vec![[random.range(-20.0, 20.0), random.range(-300.0, 300.0)]];
         let arguments = Arguments { drives, loads: vec![[0.0; 2]], motion, ..Arguments::default() };
-        for name in ["place", "v", "a", "f", "w"] {
+        for name in ["place", "v", "a", "f", "w", "g", "m"] {
             all.extend(ratios_of::<Double>(&linkage, name, &arguments, text));
         }
     }
@@ -271,7 +271,8 @@ fn of_motion() {
          drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0); load I: inertia;
          scene place: position -> (B, coupler.C, rocker.angle, error_bound); scene v: velocity -> (B, coupler.angle, error_bound);
          scene a: acceleration -> (B, coupler.C, rocker.angle, error_bound); scene f: equilibrium -> (T, B, error_bound);
-         scene w: virtual_work -> (T, error_bound);",
+         scene w: virtual_work -> (T, error_bound); scene m: motion -> (M, h, error_bound);
+         scene g: coefficients -> (rocker.angle, coupler.C, error_bound);",
         0.0,
         3.0,
     );
@@ -286,7 +287,8 @@ fn of_motion() {
          start d: (4m, -1m), angle 115deg; load I: inertia;
          scene place: position -> (D, t.G, c.angle, error_bound); scene v: velocity -> (D, t.angle, error_bound);
          scene a: acceleration -> (D, t.G, c.angle, error_bound); scene f: equilibrium -> (T, D, error_bound);
-         scene w: virtual_work -> (T, error_bound);",
+         scene w: virtual_work -> (T, error_bound); scene m: motion -> (M, h, error_bound);
+         scene g: coefficients -> (c.angle, t.G, error_bound);",
         0.4,
         0.3,
     );
