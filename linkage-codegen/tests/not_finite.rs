@@ -55,13 +55,6 @@ fn inputs(linkage: &Linkage) -> Vec<Symbol> {
     all
 }
 
-/// A program with the steps that are emitted.
-fn emitted(program: &Program, keeps: impl Fn(&Step) -> bool) -> Program {
-    let mut program = program.clone();
-    program.steps.retain(keeps);
-    program
-}
-
 /// `Pose::at`, which also checks the drives that nothing of a pose depends on.
 fn checked_pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<HashMap<NodeId, T>, Fault> {
     let read: Vec<Input> = linkage.functions.pose.inputs().map(|(_, input)| input).collect();
@@ -109,7 +102,9 @@ fn functions<'a, T: Number + 'a>(linkage: &'a Linkage, is_inverse: bool) -> Vec<
     }
     add("Pose::at", Box::new(move |arguments| Ok(in_order(&checked_pose::<T>(linkage, arguments)?))));
     for (accessor, program) in linkage.plan.accessors.iter().zip(&linkage.functions.accessors) {
-        let program = emitted(program, |step| matches!(step, Step::Let(_)));
+        // Without checks, as it is emitted.
+        let mut program = program.clone();
+        program.steps.retain(|step| matches!(step, Step::Let(_)));
         let call = move |arguments: &Arguments| {
             let kept = checked_pose::<T>(linkage, arguments)?;
             from_pose(linkage, &program, &kept, arguments)

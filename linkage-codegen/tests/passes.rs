@@ -13,7 +13,7 @@ use linkage_codegen::program::{Counts, Definition, Extract, Fault, Form, Input, 
 use support::families::boom;
 use support::linkages::{Kind, Random, Sample, sample, sample_with_search};
 use support::numbers::{Double, Extended, Single};
-use support::{Arguments, Number, compile, from_pose, moved, pose};
+use support::{Arguments, Number, compile, direct, from_pose, moved, pose};
 
 fn results<T: Number>(linkage: &Linkage, program: &Program, arguments: &Arguments) -> Vec<T> {
     let kept: HashMap<_, T> = pose(linkage, arguments).expect("a pose");
@@ -103,28 +103,16 @@ fn results_of_moderate_arguments_are_finite() {
         let scalar = if seed % 3 == 0 { "f32" } else { "f64" };
         let sample = sample(seed, Kind { dyads: 1, moving: seed % 2 == 0, scalar, ..KIND });
         let linkage = compile(&sample.text);
-        let largest = if scalar == "f32" { f64::from(2f32.powi(33).next_down()) } else { 2f64.powi(257).next_down() };
-        let is_check = |step: &Step| matches!(step, Step::FiniteResults(_));
         for program in linkage.functions.scenes.iter().map(|functions| &functions.direct) {
-            if program.moderate.is_empty() && program.steps.iter().any(is_check) {
-                continue;
-            }
+            let Some(unchecked) = without_check_of_results(program) else { continue };
             programs += 1;
-            let mut unchecked = program.clone();
-            unchecked.steps.retain(|step| !is_check(step));
             let run = |arguments: &Arguments| match scalar {
-                "f32" => unchecked_results::<Single>(&linkage, &unchecked, arguments),
-                _ => unchecked_results::<Double>(&linkage, &unchecked, arguments),
+                "f32" => Ok(in_doubles(&direct::<Single>(&linkage, &unchecked, arguments)?)),
+                _ => Ok(in_doubles(&direct::<Double>(&linkage, &unchecked, arguments)?)),
             };
             let mut random = Random(seed);
             for index in 0..200 {
-                let mut arguments = sample.arguments.clone();
-                let mut sign = |x: &mut f64| *x = if random.chance(0.5) { largest } else { -largest };
-                arguments.loads.iter_mut().flatten().for_each(&mut sign);
-                arguments.motion.iter_mut().flatten().for_each(&mut sign);
-                for drive in &mut arguments.drives {
-                    *drive += random.range(-1.0, 1.0) * 10f64.powi(index % 8 - 4);
-                }
+                let arguments = largest_near(&sample, scalar, 10f64.powi(index % 8 - 4), &mut random);
                 let results = run(&arguments);
                 poses += usize::from(results.is_ok());
                 let finite = |results: &Vec<f64>| results.iter().copied().all(f64::is_finite);
@@ -161,15 +149,13 @@ fn results_of_moderate_arguments_at_a_pose_are_finite() {
         }
         let linkage = compile(&sample.text);
         for from_pose in linkage.functions.scenes.iter().map(|functions| &functions.from_pose) {
-            let mut unchecked = from_pose.clone();
-            unchecked.steps.retain(|step| !matches!(step, Step::FiniteResults(_)));
-            let looks_at_arguments = !from_pose.moderate.is_empty() || unchecked.steps.len() == from_pose.steps.len();
-            let program = if looks_at_arguments { &unchecked } else { from_pose };
+            let unchecked = without_check_of_results(from_pose);
+            let program = unchecked.as_ref().unwrap_or(from_pose);
             let with_results = match scalar {
-                "f32" => at_poses::<Single>(&linkage, program, &sample, f64::from(2f32.powi(33).next_down())),
-                _ => at_poses::<Double>(&linkage, program, &sample, 2f64.powi(257).next_down()),
+                "f32" => at_poses::<Single>(&linkage, program, &sample, scalar),
+                _ => at_poses::<Double>(&linkage, program, &sample, scalar),
             };
-            if looks_at_arguments {
+            if unchecked.is_some() {
                 programs += 1;
                 poses += with_results;
             }
@@ -179,18 +165,12 @@ fn results_of_moderate_arguments_at_a_pose_are_finite() {
 }
 
 /// At how many poses of many a function has results, all finite, with the largest loads and rates.
-fn at_poses<T: Number>(linkage: &Linkage, program: &Program, sample: &Sample, largest: f64) -> usize {
+fn at_poses<T: Number>(linkage: &Linkage, program: &Program, sample: &Sample, scalar: &str) -> usize {
     let mut random = Random(sample.text.len() as u64);
     let start = pose::<T>(linkage, &sample.arguments);
     let mut poses = 0;
     for index in 0..200 {
-        let mut arguments = sample.arguments.clone();
-        let mut sign = |x: &mut f64| *x = if random.chance(0.5) { largest } else { -largest };
-        arguments.loads.iter_mut().flatten().for_each(&mut sign);
-        arguments.motion.iter_mut().flatten().for_each(&mut sign);
-        for drive in &mut arguments.drives {
-            *drive += random.range(-1.0, 1.0) * 10f64.powi(index % 16 - 12);
-        }
+        let arguments = largest_near(sample, scalar, 10f64.powi(index % 16 - 12), &mut random);
         let reached = match &start {
             Ok(start) if linkage.functions.near.is_some() && index % 2 == 0 => {
                 moved(linkage, (start, &sample.arguments), &arguments)
@@ -205,24 +185,36 @@ fn at_poses<T: Number>(linkage: &Linkage, program: &Program, sample: &Sample, la
             }
         }
         let Ok(results) = from_pose(linkage, program, &kept, &arguments) else { continue };
-        let results: Vec<f64> = results.iter().map(T::to_f64).collect();
+        let results = in_doubles(&results);
         assert!(results.iter().copied().all(f64::is_finite), "{results:?} {arguments:?}\n{}", sample.text);
         poses += 1;
     }
     poses
 }
 
-fn unchecked_results<T: Number>(
-    linkage: &Linkage,
-    program: &Program,
-    arguments: &Arguments,
-) -> Result<Vec<f64>, Fault> {
-    let run = Run { program, graph: &linkage.model.graph };
-    let input = |input: Input| match input {
-        Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
-        Input::Kept(_) | Input::Prepared(_) | Input::Known(_) => T::exactly(f64::NAN),
-    };
-    Ok(run.with(&input)?.iter().map(T::to_f64).collect())
+/// A function that looks at arguments in place of results, or at none, without its check of the results; nothing of another one.
+fn without_check_of_results(program: &Program) -> Option<Program> {
+    let mut unchecked = program.clone();
+    unchecked.steps.retain(|step| !matches!(step, Step::FiniteResults(_)));
+    let has_check = unchecked.steps.len() < program.steps.len();
+    (!has_check || !program.moderate.is_empty()).then_some(unchecked)
+}
+
+/// Loads and rates as large as they may be to be moderate, of either sign, and drives so near those of a sample.
+fn largest_near(sample: &Sample, scalar: &str, near: f64, random: &mut Random) -> Arguments {
+    let largest = if scalar == "f32" { f64::from(2f32.powi(33).next_down()) } else { 2f64.powi(257).next_down() };
+    let mut arguments = sample.arguments.clone();
+    let mut sign = |x: &mut f64| *x = if random.chance(0.5) { largest } else { -largest };
+    arguments.loads.iter_mut().flatten().for_each(&mut sign);
+    arguments.motion.iter_mut().flatten().for_each(&mut sign);
+    for drive in &mut arguments.drives {
+        *drive += random.range(-1.0, 1.0) * near;
+    }
+    arguments
+}
+
+fn in_doubles<T: Number>(numbers: &[T]) -> Vec<f64> {
+    numbers.iter().map(T::to_f64).collect()
 }
 
 /// A function that starts from a pose computes nothing that the pose holds: no trigonometry and no root.

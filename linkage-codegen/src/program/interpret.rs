@@ -61,13 +61,11 @@ impl Run<'_> {
                     }
                 }
                 Step::FiniteResults(checked) => {
-                    let mut arguments = self.program.moderate.iter();
-                    if !self.program.moderate.is_empty()
-                        && arguments.all(|value| self.is_moderate(&self.value(*value, inputs, &mut values)))
+                    let arguments = &self.program.moderate;
+                    let are_moderate = !arguments.is_empty()
+                        && arguments.iter().all(|value| self.is_moderate(&self.value(*value, inputs, &mut values)));
+                    if !are_moderate && !checked.iter().all(|value| self.value(*value, inputs, &mut values).is_finite())
                     {
-                        continue;
-                    }
-                    if !checked.iter().all(|value| self.value(*value, inputs, &mut values).is_finite()) {
                         return Err(Fault::NotFinite);
                     }
                 }

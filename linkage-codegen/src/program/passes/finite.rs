@@ -10,6 +10,7 @@
 
 use std::collections::BTreeSet;
 
+use super::reached;
 use crate::graph::bounds::Bounds;
 use crate::graph::{Graph, Kernel, Op, Scalar, Symbol};
 use crate::program::bounds::Given;
@@ -81,17 +82,6 @@ impl Program {
         };
         reached(finite.into_iter().flat_map(inherited), inherited)
     }
-}
-
-/// These values, and what one comes to from them step by step.
-fn reached(from: impl IntoIterator<Item = ValueId>, next: impl Fn(ValueId) -> Vec<ValueId>) -> BTreeSet<ValueId> {
-    let (mut open, mut reached) = (from.into_iter().collect::<Vec<_>>(), BTreeSet::new());
-    while let Some(value) = open.pop() {
-        if reached.insert(value) {
-            open.extend(next(value));
-        }
-    }
-    reached
 }
 
 /// The value without its signs, and without terms too small to take a finite number beyond the largest: it is finite where that is.

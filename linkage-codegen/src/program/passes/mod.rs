@@ -18,7 +18,7 @@ mod signs;
 mod sizes;
 mod unused;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Definition, Program, Step, Value, ValueId};
 use crate::graph::number::Number;
@@ -133,6 +133,17 @@ impl Program {
     pub fn is_inner(&self, value: ValueId, uses: &[usize]) -> bool {
         uses.get(value.index()) == Some(&1) && self.value(value).label.is_none()
     }
+}
+
+/// These values, and what one comes to from them step by step.
+fn reached(from: impl IntoIterator<Item = ValueId>, next: impl Fn(ValueId) -> Vec<ValueId>) -> BTreeSet<ValueId> {
+    let (mut open, mut reached) = (from.into_iter().collect::<Vec<_>>(), BTreeSet::new());
+    while let Some(value) = open.pop() {
+        if reached.insert(value) {
+            open.extend(next(value));
+        }
+    }
+    reached
 }
 
 /// A program after the passes that leave every bit of its results as it is.

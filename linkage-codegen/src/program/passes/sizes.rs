@@ -72,14 +72,8 @@ impl Sizes {
 
     /// Some values stay as they are, with all that they are made of.
     pub(super) fn keep(&mut self, values: impl IntoIterator<Item = ValueId>) {
-        let mut open: Vec<ValueId> = values.into_iter().collect();
-        let mut met = BTreeSet::new();
-        while let Some(value) = open.pop() {
-            if met.insert(value) {
-                self.fix(value);
-                open.extend(&self.operands[value.index()]);
-            }
-        }
+        let kept = super::reached(values, |value| self.operands[value.index()].clone());
+        kept.into_iter().for_each(|value| self.fix(value));
     }
 
     fn fix(&mut self, value: ValueId) {
