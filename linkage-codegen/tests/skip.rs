@@ -71,6 +71,53 @@ fn only_what_a_result_needs_is_computed() {
     assert_eq!((counts.sin_cos, counts.sqrt, counts.div, counts.atan2), (1, 0, 0, 0));
 }
 
+/// A pose is for several scenes: it divides by its pivots and turns the arms of loads once for all of them, and neither if none would.
+#[test]
+fn a_pose_keeps_what_scenes_would_divide_by_and_turn() {
+    let kept = |linkage: &linkage_codegen::Linkage| -> Vec<String> {
+        let shared = |name: &&str| ["inverse_", "arm_"].iter().any(|start| name.starts_with(start));
+        linkage.plan.pose.iter().map(|kept| kept.name.as_str()).filter(shared).map(str::to_owned).collect()
+    };
+    let linkage = compile(FOUR_BAR);
+    assert_eq!(kept(&linkage), ["inverse_sin_mu_B", "arm_coupler_A_C_x", "arm_coupler_A_C_y"]);
+    let from_pose = |scene: &str| {
+        let index = linkage.model.scenes.iter().position(|s| s.name.text == scene).expect("a scene of this name");
+        linkage.functions.scenes[index].from_pose.counts()
+    };
+    assert!(["statics", "parts", "torque", "bearing"].iter().all(|scene| from_pose(scene).div == 0));
+    // The moment of F13 is two products, that of the constant F14 as well.
+    let Counts { add, mul, .. } = from_pose("statics");
+    assert_eq!((add, mul), (12, 13));
+    // A place and a torque on the crank need neither.
+    let others = FOUR_BAR.find("scene statics").zip(FOUR_BAR.find("scene crank_only")).expect("scenes");
+    let without = format!("{}{}", &FOUR_BAR[..others.0], &FOUR_BAR[others.1..]);
+    assert_eq!(kept(&compile(&without)), [""; 0]);
+    let mut multiplied = 0;
+    for (name, linkage) in linkages() {
+        let graph = &linkage.model.graph;
+        for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
+            let program = &functions.from_pose;
+            let kept = |value: ValueId| match program.value(value).definition {
+                Definition::Input(Input::Kept(node)) => Some(node),
+                _ => None,
+            };
+            for value in program.computed() {
+                let Some(op) = program.op(value) else { continue };
+                if let Op::Div(_, divisor) = op {
+                    let reciprocal = kept(*divisor).and_then(|node| graph.kept_reciprocal(node));
+                    let is_counted = program.counts_rounding;
+                    assert!(is_counted || reciprocal.is_none(), "{name}, {}: divides", scene.name);
+                }
+                let reads = |operand: &ValueId| {
+                    kept(*operand).is_some_and(|node| graph.label(node).is_some_and(|l| l.name.starts_with("inverse_")))
+                };
+                multiplied += usize::from(op.operands().iter().any(reads));
+            }
+        }
+    }
+    assert!(multiplied > 50, "only {multiplied} products with a reciprocal");
+}
+
 /// A slider-crank in motion.
 const ENGINE: &str = "pub mod engine; units { mm, N }
     ground { O: (0, 0) } link crank { O -> A: 40mm } link rod { A -> B: 140mm, C: (45mm, 0) } link piston { B }

@@ -90,8 +90,8 @@ pub(crate) use in_fours;
 #[allow(unsafe_code, reason = "a function that uses instructions beyond the oldest processors' is unsafe to call")]
 pub(crate) mod registers {
     use core::arch::x86_64::{
-        __m128, __m128i, _mm_and_si128, _mm_castpd_ps, _mm_castps_si128, _mm_castsi128_ps, _mm_cmpeq_epi32,
-        _mm_cmpgt_epi32, _mm_movemask_ps, _mm_or_si128, _mm_set_pd, _mm_set_ps, _mm_set1_epi32, _mm_setzero_si128,
+        __m128, __m128i, _mm_and_ps, _mm_and_si128, _mm_castpd_ps, _mm_castps_si128, _mm_castsi128_ps, _mm_cmpeq_epi32,
+        _mm_cmpnlt_ps, _mm_movemask_ps, _mm_or_si128, _mm_set_pd, _mm_set_ps, _mm_set1_epi32, _mm_setzero_si128,
         _mm_shuffle_ps,
     };
 
@@ -126,7 +126,7 @@ pub(crate) mod registers {
     #[allow(clippy::inline_always, reason = "a few instructions")]
     pub(crate) fn four_moderate_f64(marks: Marks, a: f64, b: f64, c: f64, d: f64) -> Marks {
         // SAFETY: as above.
-        unsafe { marked_above(marks, upper_halves(a, b, c, d), 0x4FFF_FFFF) }
+        unsafe { marked_from(marks, upper_halves(a, b, c, d), 0x5000_0000) }
     }
 
     /// The same in single precision.
@@ -134,7 +134,7 @@ pub(crate) mod registers {
     #[allow(clippy::inline_always, reason = "a few instructions")]
     pub(crate) fn four_moderate_f32(marks: Marks, a: f32, b: f32, c: f32, d: f32) -> Marks {
         // SAFETY: as above.
-        unsafe { marked_above(marks, _mm_set_ps(d, c, b, a), 0x4FFF_FFFF) }
+        unsafe { marked_from(marks, _mm_set_ps(d, c, b, a), 0x5000_0000) }
     }
 
     #[inline(always)]
@@ -153,9 +153,12 @@ pub(crate) mod registers {
 
     #[inline]
     #[target_feature(enable = "sse2")]
-    fn marked_above(marks: Marks, numbers: __m128, most: i32) -> Marks {
-        let sizes = _mm_and_si128(_mm_castps_si128(numbers), _mm_set1_epi32(0x7FFF_FFFF));
-        _mm_or_si128(marks, _mm_cmpgt_epi32(sizes, _mm_set1_epi32(most)))
+    fn marked_from(marks: Marks, numbers: __m128, least: i32) -> Marks {
+        // Patterns of bits grow with the numbers, halves of patterns too: as numbers of single precision they are compared by one instruction
+        // of every set, and what is none by its pattern is marked.
+        let [sizes, least] = [0x7FFF_FFFF, least].map(|bits| _mm_castsi128_ps(_mm_set1_epi32(bits)));
+        let moderate = _mm_cmpnlt_ps(_mm_and_ps(numbers, sizes), least);
+        _mm_or_si128(marks, _mm_castps_si128(moderate))
     }
 
     /// The halves of the numbers that hold their exponents.

@@ -5,6 +5,14 @@
 /// No function pointers: with the table of them that an unoptimised WebAssembly module then has, its linker fails.
 macro_rules! support {
     ($scalar:ident, $x:ident => $single:expr) => {
+        /// Whether what a pose keeps, which is never NaN, is more than zero. Asked of its bits: the processor need not bring them from memory
+        /// into a register of numbers, and where floating point is software no function is called.
+        #[inline]
+        #[must_use]
+        pub fn is_positive(x: $scalar) -> bool {
+            x.to_bits().cast_signed() > 0
+        }
+
         /// The value, or zero if it is negative or NaN.
         #[inline]
         #[must_use]
@@ -81,7 +89,7 @@ pub(crate) use support;
 
 #[cfg(test)]
 mod tests {
-    use crate::__private::f64::{gap, lesser, non_negative, solve_2, solve_3};
+    use crate::__private::f64::{gap, is_positive, lesser, non_negative, solve_2, solve_3};
 
     #[test]
     fn small_systems_are_pivoted() {
@@ -92,6 +100,16 @@ mod tests {
         assert_eq!(solve_2([[1.0, small], [2.0, 2.0]], [2.0, 2.0 / small]), (1.0, 1.0 / small));
         let (x, y, z) = solve_3([[0.0, 1.0, 1.0], [0.0, 2.0, -1.0], [5.0, 1.0, 0.0]], [5.0, 1.0, 7.0]);
         assert_eq!((x, y, z), (1.0, 2.0, 3.0));
+    }
+
+    #[test]
+    fn what_is_positive_is_told_by_its_bits() {
+        for x in [5e-324, f64::MIN_POSITIVE, 1.0, f64::MAX] {
+            assert!(is_positive(x) && !is_positive(-x), "{x:e}");
+        }
+        assert!(!is_positive(0.0) && !is_positive(-0.0));
+        let single = crate::__private::f32::is_positive;
+        assert!(single(1e-45) && single(f32::MAX) && ![0.0, -0.0, -1e-45, f32::MIN].map(single).contains(&true));
     }
 
     #[test]

@@ -12,7 +12,7 @@ use super::literals::{ident, literal};
 use crate::graph::number::Number;
 use crate::graph::{Condition, Failure, Graph, Guard, Kernel, Op, Scalar};
 use crate::model::{Model, OWN_PATTERNS};
-use crate::program::{Definition, Program, Step, Value, ValueId};
+use crate::program::{Definition, Input, Program, Step, Value, ValueId};
 
 /// How tightly an expression binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -85,12 +85,7 @@ type Calls = BTreeMap<(Kernel, Vec<ValueId>), Vec<(u8, ValueId)>>;
 
 impl<'a> Body<'a> {
     /// Names all values. `input` gives the names of inputs; no other name equals one of these or of `taken`.
-    pub(super) fn new(
-        program: &'a Program,
-        graph: &'a Graph,
-        input: &dyn Fn(crate::program::Input) -> String,
-        taken: &[&str],
-    ) -> Self {
+    pub(super) fn new(program: &'a Program, graph: &'a Graph, input: &dyn Fn(Input) -> String, taken: &[&str]) -> Self {
         let mut used: BTreeSet<String> = taken.iter().copied().chain(OWN_PATTERNS).map(str::to_owned).collect();
         let mut names = BTreeMap::new();
         for (value, which) in program.inputs() {
@@ -148,10 +143,7 @@ impl<'a> Body<'a> {
         let shown = body.program.shown_by(sines);
         let checks = body.program.steps.iter().filter_map(|step| match step {
             Step::Let(_) => None,
-            Step::Check { guard, .. } => {
-                let condition = body.condition(guard);
-                Some(quote!((#condition)))
-            }
+            Step::Check { guard, .. } => Some(body.condition(guard)),
             Step::FiniteInput(value) if shown.contains(value) => None,
             Step::FiniteInput(value) => {
                 let value = body.code(*value).within(Binding::Atom);
@@ -436,23 +428,41 @@ impl<'a> Body<'a> {
         }
     }
 
+    /// What must hold, as one factor.
     fn condition(&self, guard: &Guard<ValueId>) -> TokenStream {
         match guard.condition {
+            Condition::Above { value, limit } if self.is_kept(value) && self.is_zero(limit) => {
+                let value = self.value(value);
+                quote!(math::is_positive(#value))
+            }
             Condition::Above { value, limit } => {
                 let (value, limit) = (self.code(value).within(Binding::Sum), self.value(limit));
-                quote!(#value > #limit)
+                quote!((#value > #limit))
             }
             Condition::AtLeast { value, limit } => {
                 let (value, limit) = (self.code(value).within(Binding::Sum), self.value(limit));
-                quote!(#value >= #limit)
+                quote!((#value >= #limit))
             }
         }
+    }
+
+    /// Whether a value lies in memory: one that a pose keeps, or its magnitude.
+    fn is_kept(&self, value: ValueId) -> bool {
+        match &self.program.value(value).definition {
+            Definition::Input(input) => matches!(input, Input::Kept(_)),
+            Definition::Computed(Op::Abs(value)) => self.is_kept(*value),
+            Definition::Computed(_) => false,
+        }
+    }
+
+    fn is_zero(&self, value: ValueId) -> bool {
+        self.program.constant(self.graph, value).is_some_and(|number| number.is_zero())
     }
 
     fn check(&self, guard: &Guard<ValueId>, weaker: Option<&Guard<ValueId>>) -> TokenStream {
         if self.checks == Checks::Silent {
             let condition = self.condition(guard);
-            return quote!(if !(#condition) { return None; });
+            return quote!(if !#condition { return None; });
         }
         let weaker = weaker.map(|weaker| self.failing(weaker, &TokenStream::new()));
         let late = self.asked_late();
@@ -480,7 +490,7 @@ impl<'a> Body<'a> {
             Failure::CoincidentEnds { of } => quote!(Error::CoincidentEnds { of: #of }),
             Failure::Parameter { requirement } => quote!(Error::Parameter { requirement: #requirement }),
         };
-        quote!(if !(#condition) { #first return Err(#failure); })
+        quote!(if !#condition { #first return Err(#failure); })
     }
 
     fn finite_input(&self, value: ValueId) -> TokenStream {

@@ -18,6 +18,9 @@ impl Bounds {
     /// Of what may be anything.
     pub(crate) const ANY: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
+    /// Of zero.
+    pub(crate) const ZERO: Self = Self { low: 0.0, high: 0.0 };
+
     /// Of any finite number of a scalar.
     pub(crate) fn finite(scalar: Scalar) -> Self {
         let largest = scalar.largest();

@@ -82,13 +82,32 @@ impl<'g> Expr<'g> {
     /// and symbols need no name, and the first name that a value gets is the one that stays.
     #[must_use]
     pub fn named(self, name: impl Into<String>, equation: impl Into<String>) -> Self {
-        if matches!(self.op(), Op::Constant(_) | Op::Symbol(_) | Op::Quantity(_) | Op::Held(_)) {
+        let is_named = matches!(self.op(), Op::Quantity(_)) && self.graph.label(self.id).is_some();
+        if is_named || matches!(self.op(), Op::Constant(_) | Op::Symbol(_) | Op::Held(_)) {
             return self;
         }
-        let quantity = self.graph.intern(Op::Quantity(self.id));
-        let label = Label { name: name.into(), equation: equation.into() };
-        self.graph.set_label(quantity.id, label);
+        let quantity = self.as_it_is();
+        self.graph.set_label(quantity.id, Label { name: name.into(), equation: equation.into() });
         quantity
+    }
+
+    /// The value as it is written here.
+    fn as_it_is(self) -> Self {
+        if let Op::Quantity(_) = self.op() { self } else { self.graph.intern(Op::Quantity(self.id)) }
+    }
+
+    /// The same value, put together in another way where a pose is given: of what this keeps, when it is made, and not each function by itself.
+    #[must_use]
+    pub fn or_from_pose(self, other: Self) -> Self {
+        if self == other || matches!(self.op(), Op::Constant(_) | Op::Symbol(_) | Op::Held(_)) {
+            return self;
+        }
+        let value = self.as_it_is();
+        // Behind both, in the order of evaluation; one that was there before keeps its only way.
+        if other.id < value.id {
+            self.graph.arena.borrow_mut().from_pose.insert(value.id, other.id);
+        }
+        value
     }
 
     /// States that the value is positive wherever it is used.

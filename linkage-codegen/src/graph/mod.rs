@@ -518,6 +518,10 @@ struct Arena {
     positive: BTreeSet<NodeId>,
     /// Quotients that are divided, whatever others have the same divisor.
     divided: BTreeSet<NodeId>,
+    /// Of what a pose keeps, the reciprocals that it keeps, too.
+    reciprocals: BTreeMap<NodeId, NodeId>,
+    /// Of values, how they are put together where a pose is given.
+    from_pose: BTreeMap<NodeId, NodeId>,
     /// Components of directions of links that have a constant length.
     directions: BTreeMap<NodeId, Component>,
     /// From which place on nodes count the rounding of values, if any do.
@@ -697,6 +701,46 @@ impl Graph {
         self.arena.borrow().directions.get(&id).cloned()
     }
 
+    /// Lets a pose keep the reciprocal of what it keeps, zero where that is zero. Functions from a pose multiply by it.
+    pub fn keep_reciprocal<'g>(&'g self, kept: Expr<'g>, name: &str, equation: &str) -> Expr<'g> {
+        let reciprocal = (self.one() / kept).where_above(kept.abs(), self.zero());
+        let zero = if let Op::Where { .. } = reciprocal.op() { ", zero where that is" } else { "" };
+        let reciprocal = reciprocal.named(name, format!("{equation}{zero}")).held();
+        self.arena.borrow_mut().reciprocals.insert(kept.id(), reciprocal.id());
+        reciprocal
+    }
+
+    /// How a value is put together where a pose is given, if that is not as straight from the drives.
+    #[must_use]
+    pub fn put_together_from_pose(&self, value: NodeId) -> Option<NodeId> {
+        self.arena.borrow().from_pose.get(&value).copied()
+    }
+
+    /// The reciprocal that a pose keeps of a divisor, itself kept.
+    #[must_use]
+    pub fn kept_reciprocal(&self, divisor: NodeId) -> Option<NodeId> {
+        self.arena.borrow().reciprocals.get(&self.bare(divisor)).copied()
+    }
+
+    /// A value without its names and checks.
+    #[must_use]
+    pub fn bare(&self, mut node: NodeId) -> NodeId {
+        while let Op::Quantity(inner) | Op::Checked { value: inner, .. } = self.op(node) {
+            node = inner;
+        }
+        node
+    }
+
+    /// Whether a value, perhaps with names, is one of a check.
+    #[must_use]
+    pub fn is_checked(&self, node: NodeId) -> bool {
+        match self.op(node) {
+            Op::Checked { .. } => true,
+            Op::Quantity(inner) => self.is_checked(inner),
+            _ => false,
+        }
+    }
+
     /// Whether a node is a quotient that is to be divided.
     #[must_use]
     pub fn is_divided(&self, id: NodeId) -> bool {
@@ -706,6 +750,15 @@ impl Graph {
     /// From here on, new nodes stand under this heading.
     pub fn begin_section(&self, heading: impl Into<String>) {
         self.arena.borrow_mut().sections.push(heading.into());
+    }
+
+    /// What is made under the heading of another node.
+    pub(crate) fn beside<T>(&self, node: NodeId, make: impl FnOnce() -> T) -> T {
+        let own = self.arena.borrow().sections.last().cloned().unwrap_or_default();
+        self.begin_section(self.section(node));
+        let made = make();
+        self.begin_section(own);
+        made
     }
 
     /// A constant.

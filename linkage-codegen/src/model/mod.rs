@@ -12,10 +12,12 @@ mod names;
 mod options;
 mod scenes;
 mod turns;
+pub(crate) use scenes::OWN_TYPES;
 pub use scenes::type_name;
-pub(crate) use scenes::{OWN_PATTERNS, OWN_TYPES, SWEPT};
+pub(crate) use values::{OWN_PATTERNS, PLACE, SWEPT, arm_name, reciprocal_name};
 mod sweeps;
 pub mod units;
+mod values;
 
 use proc_macro2::TokenStream;
 

@@ -6,10 +6,8 @@ use super::evaluate::Scope;
 use super::ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
-use super::{
-    Along, By, Derivative, End, Inverse, JointKind, LoadKind, Method, Model, Part, Scene, Spot, Variable, Wanted,
-};
-use super::{inverses, sweeps};
+use super::{Along, By, Derivative, End, Inverse, LoadKind, Method, Model, Part, Scene, Spot, Variable, Wanted};
+use super::{inverses, sweeps, values};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::graph::Order;
 use crate::syntax::METHODS;
@@ -778,12 +776,6 @@ pub fn type_name(name: &str) -> String {
     core::iter::once(name[..name.len() - inner.len()].to_owned()).chain(capitals).collect()
 }
 
-/// Patterns that Rust knows already: no value can be bound by such a name.
-pub(crate) const OWN_PATTERNS: [&str; 4] = ["Ok", "Err", "Some", "None"];
-
-/// Names by which a sweep computes its positions.
-pub(crate) const SWEPT: [&str; 3] = ["lane", "block", "holds"];
-
 /// Types of the generated module and names that it takes from elsewhere.
 pub(crate) const OWN_TYPES: [&str; 15] = [
     "Pose",
@@ -807,83 +799,9 @@ pub(crate) const OWN_TYPES: [&str; 15] = [
 const FURTHER_TYPES: [&str; 8] =
     ["Default", "Verification", "Wrench", "SMatrix", "SVector", "Closures", "Side", "Along"];
 
-/// What the generated functions read may not have two meanings under one name.
-fn check_values(model: &Model, sink: &Sink) {
-    let mut values: BTreeMap<String, String> = BTreeMap::new();
-    values.insert("loads".into(), "holds the loads".into());
-    if model.moves() {
-        values.insert("motion".into(), "holds the rates of the drives".into());
-    }
-    values.insert("linkage".into(), "holds what is prepared from the parameters".into());
-    for (_, closure) in model.given_closures() {
-        values.insert("closures".into(), "holds the closures that are chosen at run time".into());
-        let joint = &model.joint(closure.joint).name;
-        values.insert(format!("side_{joint}"), format!("is the side of `{joint}`"));
-    }
-    for constant in ["EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"] {
-        values.insert(constant.into(), "is a constant of the module".into());
-    }
-    for pattern in OWN_PATTERNS {
-        values.insert(pattern.into(), "is Rust's own".into());
-    }
-    for name in SWEPT.into_iter().filter(|_| !model.sweeps.is_empty()) {
-        values.insert(name.into(), "is what sweeps compute by".into());
-    }
-    for inverse in model.inverses.iter().filter(|_| !model.params.is_empty()) {
-        values.insert(inverse.prepared_name(), format!("is what is prepared for `{}`", inverse.name));
-    }
-    for link in &model.links {
-        for part in ["cos", "sin"] {
-            values.insert(format!("{}_{part}", link.name), format!("is the direction of `{}`", link.name));
-            values.insert(format!("{}_{part}_before", link.name), format!("is a direction of `{}`", link.name));
-        }
-    }
-    // Only wheels, and what is joined to them, keep an angle.
-    let gears = model.joints.iter().any(|joint| matches!(joint.kind, JointKind::Gear(_)));
-    for link in model.links.iter().filter(|_| gears) {
-        for name in [format!("angle_{}", link.name), format!("angle_{}_before", link.name)] {
-            values.insert(name, format!("is an angle of `{}`", link.name));
-        }
-    }
-    for joint in &model.joints {
-        for pivot in joint.pivot_names() {
-            values.insert(pivot, format!("is a pivot of `{}`", joint.name));
-        }
-        values.insert(format!("cos_mu_{}", joint.name), format!("is the cosine of an angle at `{}`", joint.name));
-        if matches!(joint.kind, JointKind::Slot { .. }) {
-            values.insert(format!("arm_{}", joint.name), format!("is the lever arm of `{}`", joint.name));
-        }
-        for travel in ["travel", "run"] {
-            values.insert(format!("{travel}_{}", joint.name), format!("is the travel of `{}`", joint.name));
-            values.insert(format!("{travel}_{}_before", joint.name), format!("is a travel of `{}`", joint.name));
-        }
-    }
-    for drive in model.drives.iter().filter(|_| !model.starts.is_empty()) {
-        values.insert(format!("{}_before", drive.name), format!("is where `{}` comes from", drive.name));
-    }
-    let params = model.params.iter().map(|param| (&param.name, vec![param.name.text.clone()]));
-    let drives = model.drives.iter().map(|drive| {
-        let motion = drive.given_motion(&model.graph).filter(|_| model.moves());
-        let motion = motion.map(|order| drive.motion_name(order));
-        (&drive.name, core::iter::once(drive.name.text.clone()).chain(motion).collect::<Vec<_>>())
-    });
-    let loads = model.loads.iter().map(|load| {
-        let values = load.kind.given(model).map(|value| load.value_name(value));
-        (&load.name, values.collect())
-    });
-    for (name, made) in params.chain(drives).chain(loads) {
-        for made in made {
-            if let Some(other) = values.insert(made.clone(), format!("belongs to `{name}`")) {
-                let problem = format!("the generated functions would have two values `{made}`: the other one {other}");
-                sink.report(Diagnostic::new(name.place(), problem).help("choose another name"));
-            }
-        }
-    }
-}
-
 /// No two things of the generated module may have one name.
 fn check_generated_names(model: &Model, sink: &Sink) {
-    check_values(model, sink);
+    values::check(model, sink);
     let mut methods: BTreeMap<String, String> = BTreeMap::new();
     methods.insert("at".into(), "makes a pose".into());
     if !model.starts.is_empty() {

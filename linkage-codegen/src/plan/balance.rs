@@ -10,9 +10,10 @@ use super::placement::Placement;
 use super::reactions;
 use crate::equations::joints::Component;
 use crate::equations::loads::Action;
+use crate::graph::number::Number;
 use crate::graph::{Expr, Graph, Op, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
-use crate::model::{End, JointKind, Model};
+use crate::model::{End, JointKind, Model, arm_name};
 
 /// What acts on a link: forces and a couple.
 #[derive(Clone, Debug)]
@@ -147,7 +148,7 @@ impl<'m, 'p> Balance<'m, 'p> {
     pub fn carry_over(&mut self, pin: JointId, link: LinkId) {
         let Some(far) = self.model().joint(pin).end_off(link) else { return };
         let about = self.placement.slide_point(pin, link);
-        let (force, couple) = (self.total(link), self.moment(link, about, self.graph().one()));
+        let (force, couple) = (self.total(link), self.moment_of_turned(link, about));
         self.wrenches[link.index()] = Wrench { forces: Vec::new(), couple };
         let at = self.placement.slide_point(pin, far.link);
         self.act(far.link, Acting::one(at, force, true));
@@ -207,12 +208,29 @@ impl<'m, 'p> Balance<'m, 'p> {
     /// `Σ (r × F) = u × Σ (r·F, r × F)`; for reactions, which are found later than directions, the arms are turned by u, and multiplied by the
     /// factor after that: turned, they may be parts of the pose. An arm along the link, or across it, is one factor of the moment instead, but
     /// for loads that are added up.
+    ///
+    /// Where a pose is given, which several functions may share, it keeps the arms in ground axes, times the factor: there the moment of a force
+    /// that is not known before is two products.
     #[must_use]
     pub fn moment(&self, link: LinkId, about: Vector<'m>, factor: Expr<'m>) -> Expr<'m> {
+        let [moment, from_pose] = self.moment_both_ways(link, about, factor);
+        moment.or_from_pose(from_pose)
+    }
+
+    /// The same, put together in one way only.
+    #[must_use]
+    pub fn moment_of_turned(&self, link: LinkId, about: Vector<'m>) -> Expr<'m> {
+        let [moment, _] = self.moment_both_ways(link, about, self.graph().one());
+        moment
+    }
+
+    /// By turned loads, and by arms that a pose keeps.
+    fn moment_both_ways(&self, link: LinkId, about: Vector<'m>, factor: Expr<'m>) -> [Expr<'m>; 2] {
         let (direction, ground) = (self.placement.direction(link), self.placement.direction(GROUND));
         let wrench = &self.wrenches[link.index()];
         let mut sum = factor * wrench.couple;
-        let mut loads: Vec<(Vector<'m>, Vector<'m>)> = Vec::new();
+        let mut from_pose = sum;
+        let (mut loads, mut others) = (Vec::new(), Vec::new());
         for Acting { at, force, is_load, .. } in &wrench.forces {
             let way = *at - about;
             let arm = way.scaled(factor);
@@ -220,22 +238,49 @@ impl<'m, 'p> Balance<'m, 'p> {
                 continue;
             }
             let in_other_axes = force.axes == ground && direction != ground;
-            if in_other_axes && *is_load {
+            let is_oblique = in_other_axes && !arm.x.is_zero() && !arm.y.is_zero();
+            let is_turned = in_other_axes && *is_load;
+            let along = || arm.cross(force.along(direction));
+            if is_turned {
                 loads.push((arm, force.components));
-            } else if in_other_axes && !arm.x.is_zero() && !arm.y.is_zero() {
+            } else if is_oblique {
                 sum = sum + factor * way.turned_by(direction).cross(force.components);
             } else {
-                sum = sum + arm.cross(force.along(direction));
+                sum = sum + along();
+            }
+            if is_oblique && !(*is_load && force.components.is_constant()) {
+                from_pose = from_pose + self.kept_arm(link, [about, *at], factor).cross(force.components);
+            } else if is_turned {
+                others.push((arm, force.components));
+            } else {
+                from_pose = from_pose + along();
             }
         }
-        let of_loads = match loads.as_slice() {
+        let of_loads = |loads: &[(Vector<'m>, Vector<'m>)]| match loads {
             [(arm, force)] if arm.x.is_zero() || arm.y.is_zero() => Some(arm.cross(force.resolved_along(direction))),
             loads => {
                 let turned = loads.iter().map(|(arm, force)| force.resolved_along(*arm));
                 turned.reduce(|sum, load| sum + load).map(|load| direction.cross(load))
             }
         };
-        of_loads.map_or(sum, |moment| sum + moment)
+        [(sum, loads), (from_pose, others)].map(|(sum, loads)| of_loads(&loads).map_or(sum, |moment| sum + moment))
+    }
+
+    /// The arm from one place of a link to another one in ground axes, times a factor, as a pose keeps it.
+    fn kept_arm(&self, link: LinkId, [from, to]: [Vector<'m>; 2], factor: Expr<'m>) -> Vector<'m> {
+        let name = &self.model().link(link).name;
+        let [from_name, to_name] = [from, to].map(|place| self.placement.name_of_place(link, place));
+        let over = match (factor.is_one(), factor.value().and_then(|factor| Number::one().div(&factor))) {
+            (true, _) => String::new(),
+            (false, Some(length)) => format!(", over {}", length.to_f64()),
+            (false, None) => ", over a length".to_owned(),
+        };
+        let meaning = format!("arm from {from_name} to {to_name} of {name}{over}");
+        let direction = self.placement.direction(link);
+        self.graph().beside(direction.x.id(), || {
+            let arm = (to - from).scaled(factor).turned_by(direction);
+            arm.named(&arm_name(&name.text, &from_name, &to_name), &meaning).held()
+        })
     }
 
     /// Whether nothing acts on a link.

@@ -42,10 +42,10 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::equations::System;
-use crate::graph::{Coordinate, Expr, Graph, NodeId, Op, Order, Sought, Symbol};
+use crate::graph::{Coordinate, Expr, Graph, Label, NodeId, Op, Order, Sought, Symbol};
 use crate::model::ids::{DriveId, JointId, LinkId, ParamId};
 use crate::model::units::Kind;
-use crate::model::{Along, Closure, End, Model, Pair, Scene, Wanted};
+use crate::model::{Along, Closure, End, Model, Pair, Scene, Wanted, reciprocal_name};
 use crate::topology::{Group, Input, Topology};
 
 /// The solution of a linkage.
@@ -186,6 +186,8 @@ impl Plan {
         let accessors = accessors(&assembly);
         let mut pose = kept(&assembly);
         let mut scenes = scenes::outputs(&assembly, posed, [&motion_rules, &force_rules], (system, &links), sink);
+        pose.extend(reciprocals(&assembly, &scenes));
+        pose.extend(arms(model, &scenes, &pose));
         pose.extend(error_bound::add(&assembly, &mut scenes, &pose));
         let read = read_of_poses(&model.graph, &scenes);
         let cosines: Vec<NodeId> =
@@ -297,9 +299,15 @@ fn placed_links(posed: Posed<'_, '_>) -> Vec<PlacedLink> {
     (0..placement.model.links.len()).map(LinkId::new).map(place).collect()
 }
 
+/// The scenes without bounds of their errors: for these rounding is not counted, and they are arranged for what a pose keeps.
+fn uncounted<'s>(model: &'s Model, scenes: &'s [Output]) -> impl Iterator<Item = &'s Output> {
+    let both = model.scenes.iter().zip(scenes);
+    both.filter(|(scene, _)| !scene.results.contains(&Wanted::ErrorBound)).map(|(_, output)| output)
+}
+
 /// What scenes read of what a pose keeps.
-fn read_of_poses(graph: &Graph, scenes: &[Output]) -> BTreeSet<NodeId> {
-    let mut open: Vec<NodeId> = scenes.iter().flat_map(Output::leaves).map(|(_, node)| node).collect();
+fn read_of_poses<'s>(graph: &Graph, scenes: impl IntoIterator<Item = &'s Output>) -> BTreeSet<NodeId> {
+    let mut open: Vec<NodeId> = scenes.into_iter().flat_map(Output::leaves).map(|(_, node)| node).collect();
     let (mut seen, mut read) = (BTreeSet::new(), BTreeSet::new());
     while let Some(node) = open.pop() {
         if !seen.insert(node) {
@@ -315,10 +323,66 @@ fn read_of_poses(graph: &Graph, scenes: &[Output]) -> BTreeSet<NodeId> {
                 open.extend(guard.condition.operands());
                 open.extend(guard.failure.operand());
             }
-            op => open.extend(op.operands()),
+            op => open.extend(graph.put_together_from_pose(node).map_or_else(|| op.operands(), |other| vec![other])),
         }
     }
     read
+}
+
+/// The arms of forces that scenes read beside what a pose keeps anyway.
+fn arms(model: &Model, scenes: &[Output], kept: &[Kept]) -> Vec<Kept> {
+    let graph = &model.graph;
+    let mut names: BTreeSet<String> = kept.iter().map(|kept| kept.name.clone()).collect();
+    let read = read_of_poses(graph, uncounted(model, scenes));
+    let others = read.into_iter().filter(|node| kept.iter().all(|kept| kept.node != *node));
+    let arm = |node: NodeId| {
+        let Label { mut name, equation } = graph.op(node).operands().first().and_then(|inner| graph.label(*inner))?;
+        while !names.insert(name.clone()) {
+            name.push('_');
+        }
+        graph.name_kept(node, &name);
+        let component = if name.trim_end_matches('_').ends_with('x') { "x" } else { "y" };
+        Some(Kept { name, meaning: format!("{component} of the {equation}, ground axes"), node, is_bound: false })
+    };
+    others.filter_map(arm).collect()
+}
+
+/// The reciprocals of the pivots by which scenes divide: a pose divides once, for all of them.
+fn reciprocals(assembly: &Assembly<'_>, scenes: &[Output]) -> Vec<Kept> {
+    let graph = &assembly.model().graph;
+    let divisors = divisors(graph, uncounted(assembly.model(), scenes));
+    let mut kept: Vec<Kept> = Vec::new();
+    for pivot in assembly.dyads.iter().filter(|pivot| divisors.contains(&pivot.value.id())) {
+        if graph.kept_reciprocal(pivot.value.id()).is_some() {
+            continue;
+        }
+        let (name, equation) = (reciprocal_name(&pivot.name), format!("1/{}", pivot.name));
+        let keep = || graph.keep_reciprocal(pivot.value, &name, &equation);
+        let reciprocal = graph.beside(pivot.value.id(), keep);
+        graph.name_kept(reciprocal.id(), &name);
+        let meaning = format!("reciprocal of the {}, zero where that counts as zero", pivot.what);
+        kept.push(Kept { name, meaning, node: reciprocal.id(), is_bound: false });
+    }
+    kept
+}
+
+/// What scenes divide by, without names and checks.
+fn divisors<'s>(graph: &Graph, scenes: impl Iterator<Item = &'s Output>) -> BTreeSet<NodeId> {
+    let mut open: Vec<NodeId> = scenes.flat_map(Output::leaves).map(|(_, node)| node).collect();
+    let (mut seen, mut divisors) = (BTreeSet::new(), BTreeSet::new());
+    while let Some(node) = open.pop() {
+        let op = graph.op(node);
+        if !seen.insert(node) || matches!(op, Op::Held(_)) {
+            continue;
+        }
+        if let Op::Div(_, divisor) = op
+            && !graph.is_divided(node)
+        {
+            divisors.insert(graph.bare(divisor));
+        }
+        open.extend(op.operands());
+    }
+    divisors
 }
 
 /// Directions, travels and pivots, each once; what is constant is not kept.

@@ -7,8 +7,8 @@ use core::ops::Neg;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use crate::graph::{Expr, Graph, Symbol, Vector};
-use crate::model::ids::{GROUND, JointId, LinkId};
-use crate::model::{End, Gear, JointKind, Model};
+use crate::model::ids::{GROUND, JointId, LinkId, PointId};
+use crate::model::{End, Gear, JointKind, Model, PLACE};
 
 /// The direction that a link carries.
 #[derive(Clone, Copy, Debug)]
@@ -394,6 +394,14 @@ impl<'m> Placement<'m> {
             Some(slot) => self.slide_point(slot, end.link),
             None => self.carried(end.link, self.model.local(end)),
         }
+    }
+
+    /// What a place on a link, along and across the direction that it carries, is called: by the point that is there.
+    #[must_use]
+    pub fn name_of_place(&self, link: LinkId, place: Vector<'m>) -> String {
+        let points = (0..self.model.link(link).points.len()).map(|point| End { link, point: PointId::new(point) });
+        let found = points.into_iter().find(|point| self.point(*point) == place);
+        found.map_or_else(|| PLACE.to_owned(), |point| self.model.point_name(point).to_owned())
     }
 
     /// A vector of a link's frame in ground axes.

@@ -562,7 +562,7 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn power_of(&self, loads: &Balance<'m, '_>, link: LinkId) -> [Expr<'m>; 2] {
         let Twist { rate, at, velocity } = self.twists[link.index()];
         let force = loads.total(link).along(velocity.axes);
-        [velocity.components.dot(force), rate * loads.moment(link, at, self.graph().one())]
+        [velocity.components.dot(force), rate * loads.moment_of_turned(link, at)]
     }
 
     /// The power of an action: `F · v` or `M ω`.

@@ -114,22 +114,43 @@ impl Given {
     pub(super) fn results(&self, program: &Program, graph: &Graph) -> Vec<Within> {
         let bounds = self.behind_checks(program, graph);
         let within = |result: ValueId| {
-            let found = bounds[result.index()];
-            let (mut conditions, mut then) = (Vec::new(), result);
-            while let Some(Op::Where { value, limit, then: inner }) = program.op(then) {
-                conditions.push(Condition::Above { value: *value, limit: *limit });
-                then = *inner;
-            }
-            let above_zero = if conditions.is_empty() {
-                found
-            } else {
-                let least = least_where(&conditions, program, graph, &bounds);
-                self.bounds_with(program, graph, &least)[then.index()]
-            };
+            let [found, above_zero] = self.of_result(program, graph, (&bounds, result));
             let finite = if found.are_finite(graph.scalar()) { found } else { Bounds::finite(graph.scalar()) };
             Within { bounds: finite, least_above_zero: above_zero.low().max(0.0) }
         };
         program.outputs.iter().map(|(_, result)| within(*result)).collect()
+    }
+
+    /// The bounds of a value, and those where it is not zero for its conditions.
+    pub(super) fn of_result(
+        &self,
+        program: &Program,
+        graph: &Graph,
+        (bounds, value): (&[Bounds], ValueId),
+    ) -> [Bounds; 2] {
+        if let Some(Op::Where { .. }) = program.op(value) {
+            let chosen = self.chosen(program, graph, (bounds, value));
+            [chosen.or(Bounds::ZERO), chosen]
+        } else {
+            [bounds[value.index()]; 2]
+        }
+    }
+
+    /// The bounds of a value that is zero elsewhere, where its conditions hold. What one of them compares may be such a value itself: where it
+    /// is more than zero, its own conditions hold.
+    fn chosen(&self, program: &Program, graph: &Graph, (bounds, value): (&[Bounds], ValueId)) -> Bounds {
+        let (mut conditions, mut then) = (Vec::new(), value);
+        while let Some(Op::Where { value, limit, then: inner }) = program.op(then) {
+            conditions.push(Condition::Above { value: *value, limit: *limit });
+            then = *inner;
+        }
+        let mut least = least_where(&conditions, program, graph, bounds);
+        for (value, known) in &mut least {
+            if *known >= 0.0 && matches!(program.op(*value), Some(Op::Where { .. })) {
+                *known = known.max(self.chosen(program, graph, (bounds, *value)).low());
+            }
+        }
+        self.bounds_with(program, graph, &least)[then.index()]
     }
 
     /// The same of values of which some are not less than these numbers.

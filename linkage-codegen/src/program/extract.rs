@@ -41,14 +41,15 @@ impl Extract<'_> {
     /// The same with the names of a scene, by its place among all.
     #[must_use]
     pub fn program_of(self, scene: Option<usize>, results: &[(String, NodeId)], finite: &[NodeId]) -> Program {
-        let needed = self.needed(results.iter().map(|(_, node)| *node));
+        let nodes: Vec<NodeId> = results.iter().map(|(_, node)| *node).collect();
         let mut building = Building {
             extract: self,
             scene,
-            program: Program { counts_rounding: self.counts_rounding(&needed), ..Program::default() },
+            program: Program { counts_rounding: self.counts_rounding(&nodes), ..Program::default() },
             placed: BTreeMap::new(),
             computed: HashMap::new(),
         };
+        let needed = self.needed(&nodes, |node| building.operands(node));
         // What a search is given was checked before, and so were the drives of a pose.
         let is_argument =
             |node: NodeId| !matches!(self.input(node), Some(Input::Known(_))) && self.form != Form::FromPose;
@@ -79,22 +80,24 @@ impl Extract<'_> {
         building.program
     }
 
-    /// Whether what is counted reads these nodes, or may read what is prepared.
-    fn counts_rounding(self, needed: &BTreeSet<NodeId>) -> bool {
-        match self.form {
-            Form::Prepare => self.graph.counts_rounding(),
-            _ => needed.iter().any(|node| self.graph.is_of_count(*node)),
-        }
+    /// Whether what is counted leads to some results, or may read what is prepared.
+    fn counts_rounding(self, results: &[NodeId]) -> bool {
+        self.graph.counts_rounding()
+            && (self.form == Form::Prepare
+                || self
+                    .needed(results, |node| self.graph.op(node).operands())
+                    .iter()
+                    .any(|node| self.graph.is_of_count(*node)))
     }
 
-    /// All nodes that are evaluated for some results, in order.
-    fn needed(self, results: impl Iterator<Item = NodeId>) -> BTreeSet<NodeId> {
+    /// All nodes that are evaluated for some results, in order, if these are the `operands` of each.
+    fn needed(self, results: &[NodeId], operands: impl Fn(NodeId) -> Vec<NodeId>) -> BTreeSet<NodeId> {
         let mut needed = BTreeSet::new();
-        let mut open: Vec<NodeId> = results.collect();
+        let mut open = results.to_vec();
         while let Some(node) = open.pop() {
             if needed.insert(node) && self.input(node).is_none() {
+                open.extend(operands(node));
                 let op = self.graph.op(node);
-                open.extend(op.operands());
                 if let Op::Symbol(Symbol::Start(search, number)) = op {
                     open.push(self.graph.start_of(search, number));
                 }
@@ -148,6 +151,42 @@ struct Building<'g> {
 }
 
 impl Building<'_> {
+    /// What a node computes in this function. Where a pose keeps the reciprocal of a divisor, the quotient is a product with it; what is counted
+    /// are the operations as the graph has them.
+    fn op(&self, node: NodeId) -> Op {
+        let graph = self.extract.graph;
+        match graph.op(node) {
+            Op::Quantity(value) if self.reads_pose() => {
+                Op::Quantity(graph.put_together_from_pose(node).unwrap_or(value))
+            }
+            Op::Div(dividend, divisor) if self.reads_pose() && !graph.is_divided(node) => {
+                match graph.kept_reciprocal(divisor) {
+                    // A reciprocal under the name of its own.
+                    Some(reciprocal) if graph.expr(dividend).is_one() => Op::Quantity(reciprocal),
+                    Some(reciprocal) => Op::Mul(dividend, reciprocal),
+                    None => Op::Div(dividend, divisor),
+                }
+            }
+            op => op,
+        }
+    }
+
+    /// What a node reads in this function; of a divisor in whose place another number is read the check stays.
+    fn operands(&self, node: NodeId) -> Vec<NodeId> {
+        let graph = self.extract.graph;
+        let (own, op) = (graph.op(node), self.op(node));
+        let divisor = match own {
+            Op::Div(_, divisor) if op != own => Some(divisor).filter(|divisor| graph.is_checked(*divisor)),
+            _ => None,
+        };
+        op.operands().into_iter().chain(divisor).collect()
+    }
+
+    /// Whether the function is arranged for what a pose keeps.
+    fn reads_pose(&self) -> bool {
+        self.extract.form == Form::FromPose && !self.program.counts_rounding
+    }
+
     fn add(&mut self, node: NodeId, definition: Definition) -> ValueId {
         let graph = self.extract.graph;
         let id = ValueId::new(self.program.values.len());
@@ -173,8 +212,7 @@ impl Building<'_> {
         match self.extract.input(node) {
             Some(input) => self.add(node, Definition::Input(input)),
             None => {
-                let op = self.extract.graph.op(node);
-                match op {
+                match self.op(node) {
                     // A named value is the value, a kept one too where nothing is kept, a checked one because its check has its own
                     // step. A name passes on to it.
                     Op::Quantity(inner) | Op::Held(inner) | Op::Checked { value: inner, .. } => {
@@ -221,7 +259,7 @@ impl Building<'_> {
         if known && !matches!(graph.op(node), Op::Checked { .. }) || self.extract.input(node).is_some() {
             return;
         }
-        match graph.op(node) {
+        match self.op(node) {
             Op::Constant(_) | Op::Quantity(_) | Op::Held(_) | Op::Symbol(Symbol::Start(..)) => {}
             Op::Checked { guard, .. } => self.check(&graph.guard(guard)),
             _ => self.program.steps.push(Step::Let(value)),

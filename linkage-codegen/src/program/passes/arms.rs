@@ -3,8 +3,8 @@
 //!
 //! Bounds of errors count on what is multiplied here: before signs are absorbed, on sums as the graph has them.
 //!
-//! A moment over a length is `1/l (arm × F)`. Where the pose is found too, the arm is a part of it, and one product brings the moment to the
-//! length. Where the pose is given, the arm is there for the moment alone, and that product is spared.
+//! A moment over a length is `1/l (arm × F)`. Where the way to the next group goes along the arm, it is there anyway, and one product brings
+//! the moment to the length. Where the arm is there for the moment alone, that product is spared.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -18,13 +18,18 @@ use crate::program::{Input, Program, Step, ValueId};
 
 pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
     let scalar = graph.scalar();
-    let bounds = Given::anything(scalar).bounds(&program, graph);
+    let given = Given::anything(scalar);
+    let bounds = given.bounds(&program, graph);
     let mut steps = core::mem::take(&mut program.steps);
     for step in &mut steps {
         let Step::FiniteResults(checked) = step else { continue };
         let bare = |value: ValueId| bare(&program, &bounds, scalar, value);
         let mut all = BTreeSet::new();
-        checked.retain(|value| !bounds[bare(*value).index()].are_finite(scalar) && all.insert(bare(*value)));
+        let is_finite = |value: ValueId| {
+            let [found, _] = given.of_result(&program, graph, (&bounds, value));
+            found.are_finite(scalar)
+        };
+        checked.retain(|value| !is_finite(bare(*value)) && all.insert(bare(*value)));
         let shown = program.shown_by(all);
         checked.retain(|value| !shown.contains(&bare(*value)));
         pairs_first(&program, checked);

@@ -102,7 +102,10 @@ impl Ordering<'_> {
         let Some(Products { terms, minus }) = self.products(value) else { return };
         let Some([first, second]) = self.common_factor(terms) else { return };
         let saves = [first, second].iter().all(|factor| self.uses[factor.product.index()] == 1);
-        if !(saves || self.is_on_the_longest_way(value)) {
+        // What a pose keeps, made of other things that it keeps, is waited for by nobody.
+        let is_result = |value: ValueId| self.program.outputs.iter().any(|(_, output)| *output == value);
+        let is_late_result = [value, first.product, second.product].into_iter().all(is_result);
+        if !(saves || self.is_on_the_longest_way(value) && !is_late_result) {
             return;
         }
         for (term, factor) in terms.into_iter().zip([first, second]) {

@@ -1,5 +1,5 @@
 //! A change of sign that an operand can take on costs nothing: `−(a − b) = b − a`, `−(k x) = (−k) x`, `−(k x / y) = (−k) x / y`,
-//! `a − (−b) = a + b`, `a − (−b − c) = a + (b + c)`.
+//! `a − (−b) = a + b`, `a − (−b − c) = a + (b + c)`, `(−x) (a − b) = x (b − a)`.
 //!
 //! That of a sum goes to one of its terms, `−(a + b) = −a − b`: nothing then waits for it, and the formula ends as that of the other
 //! component of a vector does, so that a compiler can work at both at once.
@@ -35,6 +35,7 @@ pub(super) fn absorb(mut program: Program, graph: &Graph) -> Program {
         }
         if let Step::Let(value) = step {
             take_negative(&mut program, value, &uses);
+            exchange_terms(&mut program, value, &uses);
         }
         steps.push(step);
     }
@@ -58,6 +59,21 @@ fn take_negative(program: &mut Program, value: ValueId, uses: &[usize]) {
     };
     program.values[sum.index()].definition = Definition::Computed(Op::Add(b, c));
     program.values[value.index()].definition = Definition::Computed(Op::of_terms([a, sum], !minus));
+}
+
+/// `(−x) (a − b)` as `x (b − a)`, whatever else reads the negative.
+fn exchange_terms(program: &mut Program, value: ValueId, uses: &[usize]) {
+    let Some(Op::Mul(a, b)) = program.op(value).cloned() else { return };
+    for (negative, factor) in [(a, b), (b, a)] {
+        if let (Some(Op::Neg(x)), Some(Op::Sub(first, second))) =
+            (program.op(negative).cloned(), program.op(factor).cloned())
+            && program.is_inner(factor, uses)
+        {
+            program.values[factor.index()].definition = Definition::Computed(Op::Sub(second, first));
+            program.values[value.index()].definition = Definition::Computed(Op::Mul(x, factor));
+            return;
+        }
+    }
 }
 
 impl Program {
