@@ -93,7 +93,7 @@ fn random_sums() {
 #[ignore = "takes minutes"]
 fn every_number() {
     // In parts, as many at once as there are processors.
-    let parts = u32::try_from(std::thread::available_parallelism().map_or(1, |all| all.get())).unwrap_or(1);
+    let parts = u32::try_from(std::thread::available_parallelism().map_or(1, std::num::NonZero::get)).unwrap_or(1);
     std::thread::scope(|scope| {
         for first in 0..parts {
             scope.spawn(move || {
