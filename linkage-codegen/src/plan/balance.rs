@@ -248,7 +248,8 @@ impl<'m, 'p> Balance<'m, 'p> {
             } else {
                 sum = sum + along();
             }
-            if is_oblique && !(*is_load && force.components.is_constant()) {
+            let is_direction = arm.y.is_zero() && arm.x.is_one();
+            if in_other_axes && !is_direction && !(*is_load && force.components.is_constant()) {
                 from_pose = from_pose + self.kept_arm(link, [about, *at], factor).cross(force.components);
             } else if is_turned {
                 others.push((arm, force.components));

@@ -83,7 +83,10 @@ impl<'m> HalfAngle<'m> {
         let half = half.named_direction(&format!("half_{name}"), &explained);
         let (c, s) = (half.x, half.y);
         let product = (s * c).named(format!("half_{name}_sin_cos"), "sin(ψ/2) cos(ψ/2)");
-        let whole = Vector::new((c - s) * (c + s), 2 * product);
+        // Fused, the difference of the squares is rounded once, and hardly more than by the other's square.
+        let cosine =
+            if c.graph().is_fused() { c.squared() - sine_squared(half, &name.text) } else { (c - s) * (c + s) };
+        let whole = Vector::new(cosine, 2 * product);
         let unit = |v: Vector<'m>, size: Expr<'m>| Vector::new(v.x / size, v.y / size);
         let base = assembly.placement.turned(other.link, unit(oq, b));
         Some(Self { drive: id, a, b, half, whole, base, arm: unit(op, a), sense, phase, name: &name.text, lengths })
@@ -100,7 +103,7 @@ impl<'m> HalfAngle<'m> {
     /// `sin²(ψ/2)`.
     #[must_use]
     pub(super) fn sine_squared(&self) -> Expr<'m> {
-        self.half.y.squared().named(format!("half_{}_sin2", self.name), "sin²(ψ/2)")
+        sine_squared(self.half, self.name)
     }
 
     /// The direction of OP in ground axes.
@@ -121,6 +124,10 @@ impl<'m> HalfAngle<'m> {
         let (sine, cosine) = signed.add(&self.phase).mul(&Number::ratio(1, 2)).sin_cos();
         (cosine, sine)
     }
+}
+
+fn sine_squared<'m>(half: Vector<'m>, drive: &str) -> Expr<'m> {
+    half.y.squared().named(format!("half_{drive}_sin2"), "sin²(ψ/2)")
 }
 
 /// The outer ends of the first three-pin dyad that hangs on both links of a driven pin: the drive's angle is best halved for it.

@@ -1,10 +1,10 @@
 //! The errors that the documentation promises, in ulp of the true result unless said otherwise.
 
-/// Both results of `sin_cos`, `f64` and `f32`, for every finite angle.
+/// Both results of `sin_cos`, `f64` and `f32`, for every finite angle, and those of `fused_sin_cos`.
 pub(crate) const SIN_COS: f64 = 0.82;
+pub(crate) const FUSED_SIN_COS: f64 = 0.86;
 
-/// Both results of `sin_cos_sum`, after an absolute allowance of so many ε²·max(4, |x|).
-pub(crate) const SUM: f64 = 0.82;
+/// The same of `sin_cos_sum` and `fused_sin_cos_sum`, after an absolute allowance of so many ε²·max(4, |x|).
 pub(crate) const SUM_ALLOWANCE: f64 = 1.0;
 
 /// `atan2`, `f64` and `f32`.

@@ -246,7 +246,13 @@ pub(super) fn meet<'m>(
     let q = way.resolved_along(line);
     let g =
         q.y.named(format!("g_{inner}"), format!("g = e × Q, e along the line, Q from {outer} to {inner} at no travel"));
-    let h2 = ((r - g) * (r + g)).named(format!("h2_{inner}"), format!("h² = (r − g)(r + g), r = |{outer} {inner}|"));
+    // Fused, the difference of the squares is rounded once; but what is not known before, r² would be rounded first.
+    let (h2, formula) = if graph.is_fused() && r.value().is_some() {
+        (r.squared() - g.squared(), "r² − g²")
+    } else {
+        ((r - g) * (r + g), "(r − g)(r + g)")
+    };
+    let h2 = h2.named(format!("h2_{inner}"), format!("h² = {formula}, r = |{outer} {inner}|"));
     let reach = reach_across(way, &line);
     let (h2, rounding) = if (r - reach).sign() == Some(1) {
         (h2.known_positive(), graph.zero())

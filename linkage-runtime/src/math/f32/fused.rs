@@ -2,22 +2,34 @@
 #![allow(clippy::unreadable_literal, reason = "coefficients are shortest decimals of exact bit patterns")]
 
 use super::super::fused::{fused_sines, mul_addf as mul_add};
-use super::sin_cos::{COSINE, SINE};
+use super::sin_cos::{self, SINE};
 
 /// π/2 in three parts. With the first, of all 24 bits and rounded down, x − n·π/2 is exact when fused: a multiple of 2⁻²⁴ below 1. The
 /// second has 15 significant bits, so that its product with |n| ≤ 2⁸ is exact, and is positive, so that −0 stays −0; all three together are
 /// off by less than 2⁻⁶⁴.
 const FRAC_PI_2: [f32; 3] = [f32::from_bits(0x3FC9_0FDA), 7.5498974e-8, -1.0746346e-12];
 
-/// S and C.
+const COSINE: [f32; 3] = {
+    let [c0, c1, c2] = sin_cos::COSINE;
+    [-c0, -c1, -c2]
+};
+
+/// y³ times the polynomial of y², plus a tail.
 #[inline]
-fn polynomials(z: f32) -> (f32, f32) {
-    let sum = |[c0, c1, c2]: [f32; 3]| mul_add(z, mul_add(z, c2, c1), c0);
-    (sum(SINE), sum(COSINE))
+fn cubic(y: f32, &[c0, c1, c2]: &[f32; 3], tail: f32) -> f32 {
+    let z = y * y;
+    mul_add(y * z, mul_add(z, mul_add(z, c2, c1), c0), tail)
+}
+
+use short_fused_sin_cos as short;
+
+#[inline]
+fn short_half(x: f32) -> (f32, f32) {
+    reduced(0.5 * x, mul_add(x, core::f32::consts::FRAC_1_PI, ROUND)).fused_one_by_one()
 }
 
 #[inline]
-fn reduced_sin_cos(reduced: Reduced) -> (f32, f32) {
+fn of(reduced: Reduced) -> (f32, f32) {
     reduced.fused_one_by_one()
 }
 

@@ -2,13 +2,15 @@
 #![allow(clippy::unreadable_literal, reason = "coefficients are shortest decimals of exact bit patterns")]
 
 use super::large::{reduce_large, reduce_large_sum};
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+use super::pair::plain::{of, short, short_half};
 
 /// Up to here (65 000 turns) the short reduction serves: |n| ≤ 2¹⁸.
 const FAST: f64 = 4.1e5;
 
 /// π/2 in three parts. The first two have 35 significant bits, so that their products with |n| ≤ 2¹⁸ are exact;
 /// all three together are off by less than 2⁻¹²⁹.
-const FRAC_PI_2: [f64; 3] = [1.5707963267923333, 2.5633441515839558e-12, 1.0562999066987428e-23];
+pub(super) const FRAC_PI_2: [f64; 3] = [1.5707963267923333, 2.5633441515839558e-12, 1.0562999066987428e-23];
 
 /// Adding and subtracting 1.5·2⁵² rounds to an integer, whose last bits are then the last bits of the sum.
 pub(super) const ROUND: f64 = 6755399441055744.0;
@@ -54,7 +56,7 @@ pub(super) struct Reduced {
 )]
 #[must_use]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    if is_short(x) { reduce(x).sin_cos() } else { large_sin_cos(x) }
+    if is_short(x) { short(x) } else { large_sin_cos(x) }
 }
 
 /// Out of line to the end, so that nothing of it has to be brought together with what is short.
@@ -69,12 +71,7 @@ fn large_sin_cos(x: f64) -> (f64, f64) {
 #[allow(clippy::inline_always, reason = "as `sin_cos`")]
 #[must_use]
 pub fn sin_cos_half(x: f64) -> (f64, f64) {
-    let half = 0.5 * x;
-    if is_short_half(x) {
-        reduced(half, x * core::f64::consts::FRAC_1_PI + ROUND).sin_cos()
-    } else {
-        large_sin_cos(half)
-    }
+    if is_short_half(x) { short_half(x) } else { large_sin_cos(0.5 * x) }
 }
 
 /// (sin, cos) of the real number x + hi + lo, which is not rounded before the reduction.
@@ -89,13 +86,29 @@ pub fn sin_cos_half(x: f64) -> (f64, f64) {
 #[must_use]
 pub fn sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
     let (sum, error) = two_sum(x, hi);
-    if is_short(sum) { reduce(sum).plus(error + lo).sin_cos() } else { large_sin_cos_sum(sum, error, lo) }
+    if is_short(sum) { of(reduce(sum).plus(error + lo)) } else { large_sin_cos_sum(sum, error, lo) }
 }
 
 #[cold]
 #[inline(never)]
 fn large_sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
     reduce_large_sum(x, hi, lo).one_by_one()
+}
+
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+use short_sin_cos as short;
+
+/// [`sin_cos_half`] without its branch.
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+#[inline]
+fn short_half(x: f64) -> (f64, f64) {
+    reduced(0.5 * x, x * core::f64::consts::FRAC_1_PI + ROUND).one_by_one()
+}
+
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+#[inline]
+fn of(reduced: Reduced) -> (f64, f64) {
+    reduced.one_by_one()
 }
 
 /// Whether the short reduction serves for an angle.
@@ -165,16 +178,6 @@ impl Reduced {
         let t = t - small;
         let sum = y - t;
         Self { quadrant, y: sum, t: t - (y - sum) }
-    }
-
-    /// Sine and cosine, whichever way is the faster: both have the same bits.
-    #[inline(always)]
-    #[allow(clippy::inline_always, reason = "as `sin_cos`")]
-    fn sin_cos(self) -> (f64, f64) {
-        #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
-        return super::pair::sin_cos(self);
-        #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
-        self.one_by_one()
     }
 
     /// The polynomials, exchanged and negated as the quadrant says. Every sum is arranged so that −0 stays −0.
