@@ -11,7 +11,7 @@ use super::reactions;
 use crate::equations::joints::Component;
 use crate::equations::loads::Action;
 use crate::graph::number::Number;
-use crate::graph::{Expr, Graph, Op, Vector};
+use crate::graph::{Expr, Graph, Op, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
 use crate::model::{End, JointKind, Model, arm_name};
 
@@ -248,8 +248,12 @@ impl<'m, 'p> Balance<'m, 'p> {
             } else {
                 sum = sum + along();
             }
+            // Along the link its direction serves as well, but for a product with the length, if the force itself is given.
+            let is_given = |component: Expr<'m>| matches!(component.op(), Op::Symbol(Symbol::Load(..)));
             let is_direction = arm.y.is_zero() && arm.x.is_one();
-            if in_other_axes && !is_direction && !(*is_load && force.components.is_constant()) {
+            let is_kept = is_oblique
+                || is_turned && !is_direction && [force.components.x, force.components.y].into_iter().any(is_given);
+            if is_kept && !(*is_load && force.components.is_constant()) {
                 from_pose = from_pose + self.kept_arm(link, [about, *at], factor).cross(force.components);
             } else if is_turned {
                 others.push((arm, force.components));
