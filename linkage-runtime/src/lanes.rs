@@ -10,6 +10,10 @@ macro_rules! lanes {
         /// How many positions a block has.
         pub const BLOCK: usize = 64;
 
+        /// Of the last block, positions up to a multiple of this are computed: no instruction computes more at once.
+        #[cfg(feature = "std")]
+        const STEP: usize = 16;
+
         /// A number at each position of a block.
         pub type Column = [$scalar; BLOCK];
 
@@ -30,8 +34,8 @@ macro_rules! lanes {
 
         /// A sweep of a scene that reads `GIVEN` numbers, has `RESULTS` numbers, and keeps `KEPT` between its stages.
         pub trait Lanes<const GIVEN: usize, const KEPT: usize, const RESULTS: usize> {
-            /// All positions of a block.
-            fn solve(&self, block: &mut Block<GIVEN, KEPT, RESULTS>);
+            /// The first positions of a block, as many as are asked for.
+            fn solve(&self, block: &mut Block<GIVEN, KEPT, RESULTS>, lanes: usize);
 
             /// Lays out what is given from a position on, as far as there is something.
             fn give(&self, first: usize, given: &mut [Column; GIVEN]);
@@ -83,8 +87,8 @@ macro_rules! lanes {
                     Block { given: [empty; GIVEN], kept: [empty; KEPT], results: [empty; RESULTS], holds: empty };
                 for first in (0..count).step_by(BLOCK) {
                     sweep.give(first, &mut block.given);
-                    sweep.solve(&mut block);
                     let lanes = BLOCK.min(count - first);
+                    sweep.solve(&mut block, lanes.next_multiple_of(STEP));
                     // Without an early end, so that many are looked at at once.
                     if block.holds.iter().take(lanes).fold(true, |all, holds| all & (*holds > 0.0)) {
                         sweep.take(first, 0..lanes, &block.results);

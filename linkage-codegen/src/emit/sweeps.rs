@@ -241,7 +241,7 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
         let holds = before.into_iter().chain(conditions).reduce(|all, one| quote!(#all & #one));
         let holds = holds.map(|all| quote!(holds[lane] = if #all { 1.0 } else { 0.0 };));
         quote! {
-            for lane in 0..math::BLOCK {
+            for lane in 0..lanes {
                 #(let #reads = #from[lane];)*
                 #statements
                 #(#to[lane] = #keeps;)*
@@ -258,7 +258,8 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
         struct #ty<'s, 'a> { #(#members,)* }
         impl math::Lanes<#given_count, #kept_count, #results_count> for #ty<'_, '_> {
             #[inline(always)]
-            fn solve(&self, block: &mut math::Block<#given_count, #kept_count, #results_count>) {
+            fn solve(&self, block: &mut math::Block<#given_count, #kept_count, #results_count>, lanes: usize) {
+                let lanes = lanes.min(math::BLOCK);
                 #shared
                 #bindings
                 let math::Block { given: [#(#taken),*], kept: [#(#left),*], results: [#(#into),*], holds } = block;
