@@ -323,6 +323,12 @@ fn a_hundred_thousand_fused_four_bars() {
 }
 
 #[test]
+#[ignore = "long"]
+fn a_hundred_thousand_fused_slider_cranks() {
+    assert!(check(fused(random_slider_cranks(15, 3_000, 40)), "fused slider-cranks") > 100_000);
+}
+
+#[test]
 fn four_bars() {
     assert!(check(random_four_bars(1, 100, 20), "four-bars") > 1000);
 }

@@ -248,9 +248,10 @@ impl<'m, 'p> Balance<'m, 'p> {
             } else {
                 sum = sum + along();
             }
-            // Along the link its direction serves as well, but for a product with the length, if the force itself is given.
+            // Along the link the direction serves as well, with one product more: the arm is kept if the force itself is given.
             let is_given = |component: Expr<'m>| matches!(component.op(), Op::Symbol(Symbol::Load(..)));
-            let is_direction = arm.y.is_zero() && arm.x.is_one();
+            let is_direction =
+                [(arm.x, arm.y), (arm.y, arm.x)].into_iter().any(|(a, b)| a.is_zero() && b.abs().is_one());
             let is_kept = is_oblique
                 || is_turned && !is_direction && [force.components.x, force.components.y].into_iter().any(is_given);
             if is_kept && !(*is_load && force.components.is_constant()) {

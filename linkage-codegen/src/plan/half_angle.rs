@@ -83,7 +83,7 @@ impl<'m> HalfAngle<'m> {
         let half = half.named_direction(&format!("half_{name}"), &explained);
         let (c, s) = (half.x, half.y);
         let product = (s * c).named(format!("half_{name}_sin_cos"), "sin(ψ/2) cos(ψ/2)");
-        // Fused, the difference of the squares is rounded once, and hardly more than by the other's square.
+        // Fused, the difference of the squares has two roundings, its own and that of one square.
         let cosine =
             if c.graph().is_fused() { c.squared() - sine_squared(half, &name.text) } else { (c - s) * (c + s) };
         let whole = Vector::new(cosine, 2 * product);

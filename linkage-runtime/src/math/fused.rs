@@ -33,7 +33,7 @@ pub fn mul_addf(a: f32, b: f32, c: f32) -> f32 {
 
 /// Sine and cosine in fused operations, for `arithmetic fused;`: the coefficients of `sin_cos`, a shorter reduction, and bits of their own,
 /// the same on every target. Needs `mul_add`, `FRAC_PI_2` in three parts, `SINE` and `COSINE`, the coefficients of S and −C, `cubic`, which is
-/// y³ times such a polynomial, and a tail, and `short`, `short_half` and `of` for an angle of the short reduction, half of one, and a reduced
+/// y³ times such a polynomial, plus a tail, and `short`, `short_half` and `of` for an angle of the short reduction, half of one, and a reduced
 /// one: `fused_one_by_one`, or what has its bits.
 macro_rules! fused_sines {
     ($scalar:ident) => {
@@ -42,7 +42,7 @@ macro_rules! fused_sines {
 
         /// (sin x, cos x), as [`sin_cos`](super::sin_cos()), every product that a sum reads added without being rounded.
         ///
-        /// Error: at most 0.86 ulp for every finite x. sin(−0) = −0. NaN if x is not finite.
+        /// Error: at most 0.95 ulp for every finite x. sin(−0) = −0. NaN if x is not finite.
         #[inline(always)]
         #[allow(clippy::inline_always, reason = "as `sin_cos`")]
         #[must_use]
@@ -58,7 +58,7 @@ macro_rules! fused_sines {
             if is_short_half(x) { short_half(x) } else { large_sin_cos(0.5 * x) }
         }
 
-        /// (sin, cos) of the real number x + hi + lo, as [`sin_cos_sum`](super::sin_cos_sum), with an error of 0.86 ulp in place of 0.82.
+        /// (sin, cos) of the real number x + hi + lo, as [`sin_cos_sum`](super::sin_cos_sum) with its error.
         #[inline]
         #[must_use]
         pub fn fused_sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {

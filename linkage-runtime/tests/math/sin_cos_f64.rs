@@ -19,9 +19,8 @@ fn check(name: &str, arguments: impl IntoIterator<Item = f64>) {
             worst.see(ulps(got, truth), || format!("{x:e}"));
         }
     }
-    let promised = [bounds::SIN_COS, bounds::SIN_COS, bounds::FUSED_SIN_COS, bounds::FUSED_SIN_COS];
-    for ((worst, what), promised) in worst.iter().zip(["sin", "cos", "fused sin", "fused cos"]).zip(promised) {
-        worst.is_at_most(promised, &format!("{what}, {name}"));
+    for (worst, what) in worst.iter().zip(["sin", "cos", "fused sin", "fused cos"]) {
+        worst.is_at_most(bounds::SIN_COS, &format!("{what}, {name}"));
     }
 }
 
@@ -83,7 +82,7 @@ fn check_sums(name: &str, arguments: impl IntoIterator<Item = (f64, (f64, f64))>
         }
     }
     worst[0].is_at_most(bounds::SIN_COS, &format!("sums, {name}"));
-    worst[1].is_at_most(bounds::FUSED_SIN_COS, &format!("fused sums, {name}"));
+    worst[1].is_at_most(bounds::SIN_COS, &format!("fused sums, {name}"));
 }
 
 /// The error in ulp after an absolute allowance.
@@ -109,6 +108,19 @@ fn next_to_multiples_of_half_pi() {
         "nearest of all",
         (-1..2).map(|k| f64::from_bits((6_381_956_970_095_103.0 * 2f64.powi(797)).to_bits().wrapping_add_signed(k))),
     );
+}
+
+/// The sines with the largest errors that were found, the first three fused: there every rounding goes the same way.
+#[test]
+fn where_roundings_add_up() {
+    let found = [
+        0x4053_0BAE_3D53_04D0,
+        0x409C_D38F_99F1_31B4,
+        0x4098_0A6A_3111_A351,
+        0x405D_A65B_16C8_88BF,
+        0x4095_898B_E6FF_799B,
+    ];
+    check("where roundings add up", found.map(f64::from_bits));
 }
 
 #[test]

@@ -246,7 +246,7 @@ pub(super) fn meet<'m>(
     let q = way.resolved_along(line);
     let g =
         q.y.named(format!("g_{inner}"), format!("g = e × Q, e along the line, Q from {outer} to {inner} at no travel"));
-    // Fused, the difference of the squares is rounded once; but what is not known before, r² would be rounded first.
+    // Fused, the difference of the squares is rounded once; where r is no constant, r² would be rounded first.
     let (h2, formula) = if graph.is_fused() && r.value().is_some() {
         (r.squared() - g.squared(), "r² − g²")
     } else {

@@ -76,7 +76,7 @@ impl<'p> Search<'p> {
 
     /// Leaves out a product with a constant, if values can be found in sizes that allow it.
     fn spare(&mut self, product: ValueId) {
-        if !self.is_product(product) {
+        if !self.costs_a_product(product) {
             return;
         }
         let factor = match &self.constants[product.index()] {
@@ -97,14 +97,16 @@ impl<'p> Search<'p> {
         }
     }
 
-    /// Whether a value is a product that costs something: not one that is added to constants alone without being rounded.
-    fn is_product(&self, value: ValueId) -> bool {
+    /// Whether a value is a product that costs something: not one that is but added to constants without being rounded.
+    fn costs_a_product(&self, value: ValueId) -> bool {
         let is_beside_constant = |sum: &ValueId| {
             let terms = self.program.op(*sum).and_then(Op::terms);
             terms.is_some_and(|(terms, _)| terms.iter().any(|term| self.program.constant(self.graph, *term).is_some()))
         };
-        matches!(self.program.op(value), Some(Op::Mul(..)))
-            && !(self.graph.is_fused() && self.readers[value.index()].iter().all(is_beside_constant))
+        // As a result, and for a check, it has to be known itself.
+        let readers = &self.readers[value.index()];
+        let is_added = || readers.len() == self.uses[value.index()] && readers.iter().all(is_beside_constant);
+        matches!(self.program.op(value), Some(Op::Mul(..))) && !(self.graph.is_fused() && is_added())
     }
 
     /// How many products are spared, if any are, and the constants that change, if they may.
@@ -120,7 +122,7 @@ impl<'p> Search<'p> {
             if !is_moderate(&number, self.scalar) || !is_product && !stays_exact {
                 return None;
             }
-            spares += usize::from(self.is_product(value) && number.abs().is_one());
+            spares += usize::from(self.costs_a_product(value) && number.abs().is_one());
             changed.push((value, Constant { number, ..before.clone() }));
         }
         (spares > 0).then_some((spares, changed))

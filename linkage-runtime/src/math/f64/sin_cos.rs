@@ -48,7 +48,7 @@ pub(super) struct Reduced {
 /// the least relative error on |y| ≤ π/4 and rounded one after the other, the rest refitted. S is weighted by 1 + 8(4y/π)⁸, because its rounding
 /// errors count most at π/4: 0.063 ulp at most, 0.006 ulp there; C 0.001 ulp.
 ///
-/// Error: at most 0.82 ulp for every finite x, next to multiples of π/2 too. sin(−0) = −0. NaN if x is not finite.
+/// Error: at most 0.95 ulp for every finite x, next to multiples of π/2 too. sin(−0) = −0. NaN if x is not finite.
 #[inline(always)]
 #[allow(
     clippy::inline_always,
@@ -79,7 +79,7 @@ pub fn sin_cos_half(x: f64) -> (f64, f64) {
 /// For a constant hi + lo in two parts, such as a phase: |hi| ≤ 4, |lo| ≤ ulp(hi). The rounding error of x + hi (Knuth's
 /// two-sum) goes into the tail of the reduction.
 ///
-/// Error: at most 0.82 ulp plus ε²·max(4, |x|). The second part is below 0.05 ulp wherever the result exceeds
+/// Error: at most 0.95 ulp plus ε²·max(4, |x|). The second part is below 0.05 ulp wherever the result exceeds
 /// 10⁻¹⁴·max(4, |x|); next to a multiple of π/2 it is of the size of what lo itself lacks. NaN if an argument is not
 /// finite.
 #[inline]

@@ -1,5 +1,5 @@
-//! Sine and cosine in the two halves of a register of x86-64: the operations of `Reduced::one_by_one`, or of the fused ones, each on its
-//! number, so the same bits, in half as many instructions.
+//! Sine and cosine in the two halves of a register of x86-64: the bits of `Reduced::one_by_one`, or of the fused ones, in half as many
+//! instructions.
 //!
 //! What the quadrant exchanges and negates is exchanged and negated before the polynomials, not after them, where nothing waits for it: each
 //! half begins as the sine or the cosine that it will be.
