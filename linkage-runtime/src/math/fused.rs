@@ -128,3 +128,21 @@ macro_rules! fused_sines {
     };
 }
 pub(super) use fused_sines;
+
+/// `short`, `short_half` and `of` one by one.
+macro_rules! fused_one_by_one {
+    ($scalar:ident) => {
+        use short_fused_sin_cos as short;
+
+        #[inline]
+        fn short_half(x: $scalar) -> ($scalar, $scalar) {
+            reduced(0.5 * x, mul_add(x, core::$scalar::consts::FRAC_1_PI, ROUND)).fused_one_by_one()
+        }
+
+        #[inline]
+        fn of(reduced: Reduced) -> ($scalar, $scalar) {
+            reduced.fused_one_by_one()
+        }
+    };
+}
+pub(super) use fused_one_by_one;

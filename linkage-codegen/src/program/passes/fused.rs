@@ -58,7 +58,7 @@ fn operands(
     (ready, steps): (&Ready, &mut Vec<Step>),
 ) -> Option<[ValueId; 3]> {
     let ([a, b], minus) = program.op(sum)?.terms()?;
-    let beside_constant = [a, b].into_iter().any(|term| program.constant(graph, term).is_some());
+    let beside_constant = program.adds_constant(graph, sum);
     let unnamed =
         |value: ValueId| program.op(value).filter(|_| beside_constant || program.value(value).label.is_none());
     let product = |value: ValueId| match unnamed(value)? {

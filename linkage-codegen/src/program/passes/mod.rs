@@ -65,6 +65,12 @@ impl Program {
         self.add(Op::Constant(graph.intern_number(number)), beside)
     }
 
+    /// Whether a value is a sum with a constant, to which a product is added, fused, whatever its name.
+    fn adds_constant(&self, graph: &Graph, value: ValueId) -> bool {
+        let terms = self.op(value).and_then(Op::terms);
+        terms.is_some_and(|(terms, _)| terms.iter().any(|term| self.constant(graph, *term).is_some()))
+    }
+
     /// A step that reads other values in place of some. Which results it checks stays as it is.
     fn reading(&mut self, step: Step, replaced: &BTreeMap<ValueId, ValueId>) -> Step {
         let name = |value: ValueId| replaced.get(&value).copied().unwrap_or(value);

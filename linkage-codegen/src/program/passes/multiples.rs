@@ -99,10 +99,7 @@ impl<'p> Search<'p> {
 
     /// Whether a value is a product that costs something: not one that is but added to constants without being rounded.
     fn costs_a_product(&self, value: ValueId) -> bool {
-        let is_beside_constant = |sum: &ValueId| {
-            let terms = self.program.op(*sum).and_then(Op::terms);
-            terms.is_some_and(|(terms, _)| terms.iter().any(|term| self.program.constant(self.graph, *term).is_some()))
-        };
+        let is_beside_constant = |sum: &ValueId| self.program.adds_constant(self.graph, *sum);
         // As a result, and for a check, it has to be known itself.
         let readers = &self.readers[value.index()];
         let is_added = || readers.len() == self.uses[value.index()] && readers.iter().all(is_beside_constant);

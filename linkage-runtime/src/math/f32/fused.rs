@@ -1,7 +1,7 @@
 //! Sine and cosine in fused operations.
 #![allow(clippy::unreadable_literal, reason = "coefficients are shortest decimals of exact bit patterns")]
 
-use super::super::fused::{fused_sines, mul_addf as mul_add};
+use super::super::fused::{fused_one_by_one, fused_sines, mul_addf as mul_add};
 use super::sin_cos::{self, SINE};
 
 /// π/2 in three parts. With the first, of all 24 bits and rounded down, x − n·π/2 is exact when fused: a multiple of 2⁻²⁴ below 1. The
@@ -21,16 +21,5 @@ fn cubic(y: f32, &[c0, c1, c2]: &[f32; 3], tail: f32) -> f32 {
     mul_add(y * z, mul_add(z, mul_add(z, c2, c1), c0), tail)
 }
 
-use short_fused_sin_cos as short;
-
-#[inline]
-fn short_half(x: f32) -> (f32, f32) {
-    reduced(0.5 * x, mul_add(x, core::f32::consts::FRAC_1_PI, ROUND)).fused_one_by_one()
-}
-
-#[inline]
-fn of(reduced: Reduced) -> (f32, f32) {
-    reduced.fused_one_by_one()
-}
-
 fused_sines!(f32);
+fused_one_by_one!(f32);

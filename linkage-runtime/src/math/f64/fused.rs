@@ -1,6 +1,8 @@
 //! Sine and cosine in fused operations.
 #![allow(clippy::unreadable_literal, reason = "coefficients are shortest decimals of exact bit patterns")]
 
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
+use super::super::fused::fused_one_by_one;
 use super::super::fused::{fused_sines, mul_add};
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma"))]
 use super::pair::fused::{of, short, short_half};
@@ -25,19 +27,6 @@ fn cubic(y: f64, &[c0, c1, c2, c3, c4, c5]: &[f64; 6], tail: f64) -> f64 {
     mul_add(y3 * z2, mul_add(z2, high, middle), mul_add(y3, low, tail))
 }
 
-#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
-use short_fused_sin_cos as short;
-
-#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
-#[inline]
-fn short_half(x: f64) -> (f64, f64) {
-    reduced(0.5 * x, mul_add(x, core::f64::consts::FRAC_1_PI, ROUND)).fused_one_by_one()
-}
-
-#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
-#[inline]
-fn of(reduced: Reduced) -> (f64, f64) {
-    reduced.fused_one_by_one()
-}
-
 fused_sines!(f64);
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
+fused_one_by_one!(f64);

@@ -3,47 +3,12 @@
 use core::arch::x86_64::{
     __m128d, _mm_cvtsd_f64, _mm_fmadd_pd, _mm_fnmadd_pd, _mm_mul_pd, _mm_set1_pd, _mm_sub_pd, _mm_xor_pd,
 };
-use core::f64::consts::{FRAC_1_PI, FRAC_2_PI};
 
 use super::super::fused::{COSINE, FRAC_PI_2, SINE};
 use super::super::sin_cos::{ROUND, Reduced};
 use super::{Halves, QUADRANTS, SIGN, Spread, both, row, twice};
 
-/// For angles of the short reduction.
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "as `sin_cos`")]
-pub(in super::super) fn short(x: f64) -> (f64, f64) {
-    #[inline]
-    #[target_feature(enable = "sse2,fma")]
-    fn halves(x: f64) -> (f64, f64) {
-        let x = twice(x);
-        sin_cos(reduced(x, rounded(x, FRAC_2_PI)))
-    }
-    // SAFETY: this module is compiled only where all code may use fused operations.
-    unsafe { halves(x) }
-}
-
-/// For half of an angle.
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "as `sin_cos`")]
-pub(in super::super) fn short_half(x: f64) -> (f64, f64) {
-    #[inline]
-    #[target_feature(enable = "sse2,fma")]
-    fn halves(x: f64) -> (f64, f64) {
-        let x = twice(x);
-        sin_cos(reduced(_mm_mul_pd(_mm_set1_pd(0.5), x), rounded(x, FRAC_1_PI)))
-    }
-    // SAFETY: as in `short`.
-    unsafe { halves(x) }
-}
-
-/// For an angle that is reduced.
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "as `sin_cos`")]
-pub(in super::super) fn of(reduced: Reduced) -> (f64, f64) {
-    // SAFETY: as in `short`.
-    unsafe { sin_cos(Spread::of(reduced)) }
-}
+ways_in!("sse2,fma");
 
 /// As in `reduce`.
 #[inline]

@@ -8,6 +8,47 @@
     reason = "calls of functions that name their instructions, a load of two numbers, a barrier to the compiler"
 )]
 
+/// The ways in, with these instructions: needs `rounded`, `reduced` and `sin_cos`, each of both halves.
+macro_rules! ways_in {
+    ($instructions:literal) => {
+        /// For angles of the short reduction.
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
+        pub(in super::super) fn short(x: f64) -> (f64, f64) {
+            #[inline]
+            #[target_feature(enable = $instructions)]
+            fn halves(x: f64) -> (f64, f64) {
+                let x = twice(x);
+                sin_cos(reduced(x, rounded(x, core::f64::consts::FRAC_2_PI)))
+            }
+            // SAFETY: this module is compiled only where all code may use these instructions.
+            unsafe { halves(x) }
+        }
+
+        /// For half of an angle.
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
+        pub(in super::super) fn short_half(x: f64) -> (f64, f64) {
+            #[inline]
+            #[target_feature(enable = $instructions)]
+            fn halves(x: f64) -> (f64, f64) {
+                let x = twice(x);
+                sin_cos(reduced(_mm_mul_pd(_mm_set1_pd(0.5), x), rounded(x, core::f64::consts::FRAC_1_PI)))
+            }
+            // SAFETY: as in `short`.
+            unsafe { halves(x) }
+        }
+
+        /// For an angle that is reduced.
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
+        pub(in super::super) fn of(reduced: Reduced) -> (f64, f64) {
+            // SAFETY: as in `short`.
+            unsafe { sin_cos(Spread::of(reduced)) }
+        }
+    };
+}
+
 #[cfg(target_feature = "fma")]
 pub(super) mod fused;
 pub(super) mod plain;
