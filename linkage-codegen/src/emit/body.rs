@@ -357,6 +357,42 @@ impl<'a> Body<'a> {
         ident(&format!("{short}{fused}{function}"))
     }
 
+    /// Without a branch, sine and cosine are two statements: the angle is brought between ±π/4, and both are found of what is left.
+    fn in_two(&self, kernel: Kernel, args: &[ValueId], parts: &[(u8, ValueId)]) -> Option<(TokenStream, TokenStream)> {
+        if self.checks != Checks::Gathered {
+            return None;
+        }
+        let args = args.iter().map(|arg| self.value(*arg));
+        let reduced = match kernel {
+            Kernel::SinCos => {
+                let function = self.sin_cos("angle");
+                quote!(math::#function(#(#args),*))
+            }
+            Kernel::SinCosSum(phase) => {
+                let function = self.sin_cos("angle_sum");
+                let (high, low) = split(&self.graph.number(phase), self.graph.scalar());
+                quote!(math::#function(#(#args),*, #high, #low))
+            }
+            _ => return None,
+        };
+        let name = parts.iter().find_map(|(_, part)| self.names.get(part)).map(ToString::to_string).unwrap_or_default();
+        let name = name.trim_end_matches("_sin").trim_end_matches("_cos");
+        let [quarters, rest, tail] = ["quarters", "rest", "tail"].map(|part| self.new_name(&format!("{name}_{part}")));
+        let function = self.sin_cos("sin_cos");
+        let docs = quote!(#[doc = " the angle in quarter turns, and what is left of it, in two parts"]);
+        Some((
+            quote!(#docs let (#quarters, #rest, #tail) = #reduced;),
+            quote!(math::#function(#quarters, #rest, #tail)),
+        ))
+    }
+
+    /// A name that nothing else has.
+    fn new_name(&self, wanted: &str) -> Ident {
+        let is_taken = |name: &Ident| self.names.values().any(|other| other == name);
+        let names = core::iter::once(ident(wanted)).chain((2..).map(|number| ident(&format!("{wanted}_{number}"))));
+        names.into_iter().find(|name| !is_taken(name)).unwrap_or_else(|| ident(wanted))
+    }
+
     /// All statements.
     pub(super) fn statements(self) -> (TokenStream, Self) {
         let (statements, body) = self.each_statement();
@@ -376,41 +412,49 @@ impl<'a> Body<'a> {
         let mut statements = Vec::new();
         for step in &self.program.steps {
             let statement = match step {
-                Step::Let(value) => self.let_statement(*value, &mut calls, &mut notes),
+                Step::Let(value) => {
+                    statements.extend(self.let_statements(*value, &mut calls, &mut notes));
+                    continue;
+                }
                 _ if self.checks == Checks::Gathered => continue,
                 Step::Check { guard, weaker, .. } => self.check(guard, weaker.as_ref()),
                 Step::FiniteInput(value) => self.finite_input(*value),
                 Step::FiniteResults(checked) => self.finite_results(checked),
             };
-            if !matches!(step, Step::Let(_)) {
-                // Behind a check it is said again.
-                notes.meaning = "";
-            }
+            // Behind a check it is said again.
+            notes.meaning = "";
             statements.push(statement);
         }
-        statements.retain(|statement| !statement.is_empty());
         (statements, self)
     }
 
-    fn let_statement(&self, value: ValueId, calls: &mut Calls, notes: &mut Notes<'a>) -> TokenStream {
-        let Some(name) = self.names.get(&value) else { return TokenStream::new() };
+    /// The statement of a value, if it has one of its own, and that before it if it takes two.
+    fn let_statements(&self, value: ValueId, calls: &mut Calls, notes: &mut Notes<'a>) -> Vec<TokenStream> {
+        let Some(name) = self.names.get(&value) else { return Vec::new() };
         let call = match self.program.op(value) {
             Some(Op::Kernel { kernel, args, .. }) => match calls.remove(&(*kernel, args.clone())) {
                 Some(parts) => Some((*kernel, args, parts)),
                 // The first result that was read has brought the statement for all.
-                None => return TokenStream::new(),
+                None => return Vec::new(),
             },
             _ => None,
         };
         let (heading, meaning) = notes.above(self.program.value(value));
-        let heading = heading.map(|heading| format!(" — {heading} —"));
-        let docs = heading.into_iter().chain(meaning.map(|meaning| format!(" {meaning}")));
-        let docs: TokenStream = docs.map(|text| quote!(#[doc = #text])).collect();
-        let (pattern, code) = match call {
-            Some((kernel, args, parts)) => (self.pattern(kernel, &parts), self.call(kernel, args)),
-            None => (quote!(#name), self.written_out(value).tokens),
+        let [heading, meaning] =
+            [heading.map(|heading| format!(" — {heading} —")), meaning.map(|meaning| format!(" {meaning}"))]
+                .map(|text| text.map(|text| quote!(#[doc = #text])));
+        let Some((kernel, args, parts)) = call else {
+            let code = self.written_out(value).tokens;
+            return vec![quote!(#heading #meaning let #name = #code;)];
         };
-        quote!(#docs let #pattern = #code;)
+        let pattern = self.pattern(kernel, &parts);
+        match self.in_two(kernel, args, &parts) {
+            Some((first, code)) => vec![quote!(#heading #first), quote!(#meaning let #pattern = #code;)],
+            None => {
+                let code = self.call(kernel, args);
+                vec![quote!(#heading #meaning let #pattern = #code;)]
+            }
+        }
     }
 
     /// What the results of a call are bound to.

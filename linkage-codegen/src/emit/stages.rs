@@ -2,7 +2,8 @@
 //!
 //! The processor works on as many positions at once as its window of instructions has room for. One loop over all of a scene fills it with
 //! a single position, whose operations wait for each other; loops over a few dozen operations let the next positions fill the gaps. Between
-//! stages numbers are kept in columns; a cut is made where few have to be.
+//! stages numbers are kept in columns; a cut is made where few have to be. An angle is reduced in one stage, and its sine found in the next:
+//! the longest chain of operations that wait for each other is cut in two.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -35,6 +36,10 @@ impl Statement {
             pattern.skip(1).take_while(|token| !matches!(token, TokenTree::Punct(punct) if punct.as_char() == '='));
         Self { defines: names(&pattern.collect()), names: names(&tokens), tokens }
     }
+
+    fn reduces_an_angle(&self) -> bool {
+        self.names.keys().any(|name| is_reduction(name))
+    }
 }
 
 /// A loop over all positions.
@@ -54,6 +59,8 @@ pub(super) struct Stage {
 const LENGTH: usize = 40;
 /// A sine and cosine count as so many.
 const SINE: usize = 30;
+/// And the reduction of their angle.
+const REDUCTION: usize = 10;
 
 /// The stages of some work, of which the names in `given` are known before.
 pub(super) fn stages(work: Work, given: &[Ident]) -> Vec<Stage> {
@@ -113,10 +120,14 @@ fn cuts(statements: &[Statement]) -> Vec<usize> {
     let kept = kept(statements);
     let mut cuts = Vec::new();
     let (mut begin, mut rest) = (0, length.iter().sum::<usize>());
-    while rest > LENGTH + LENGTH / 2 {
+    while rest > LENGTH + LENGTH / 2 || statements[begin..].iter().any(Statement::reduces_an_angle) {
         let (mut sum, mut best) = (0, None);
         for end in begin + 1..statements.len() {
             sum += length[end - 1];
+            if statements[end - 1].reduces_an_angle() {
+                best = Some((kept[end], end));
+                break;
+            }
             if sum > LENGTH + LENGTH / 2 && best.is_some() {
                 break;
             }
@@ -161,11 +172,16 @@ fn operations(tokens: &TokenStream) -> usize {
         .map(|token| match token {
             TokenTree::Group(group) => operations(&group.stream()),
             TokenTree::Punct(punct) => usize::from("+-*/".contains(punct.as_char())),
-            TokenTree::Ident(name) if name.to_string().starts_with("short_") => SINE,
             TokenTree::Ident(name) if name == "mul_add" || name == "sqrt" => 1,
+            TokenTree::Ident(name) if name == "short_sin_cos" || name == "short_fused_sin_cos" => SINE,
+            TokenTree::Ident(name) if is_reduction(&name.to_string()) => REDUCTION,
             TokenTree::Ident(_) | TokenTree::Literal(_) => 0,
         })
         .sum()
+}
+
+fn is_reduction(name: &str) -> bool {
+    ["short_angle", "short_angle_sum", "short_fused_angle", "short_fused_angle_sum"].contains(&name)
 }
 
 /// All identifiers.
@@ -194,7 +210,10 @@ mod tests {
 
     /// A sine, then a chain of sums of two numbers: `x1 = x0 + x0 * sine` and so on; every tenth has a condition and a result.
     fn chain(links: usize) -> Vec<Stage> {
-        let mut statements = vec![quote!(let (sine, _) = math::short_sin_cos(angle);)];
+        let mut statements = vec![
+            quote!(let (quarters, rest, tail) = math::short_angle(angle);),
+            quote!(let (sine, _) = math::short_sin_cos(quarters, rest, tail);),
+        ];
         let (mut conditions, mut results) = (Vec::new(), Vec::new());
         for link in 0..links {
             let (from, to) = (format_ident!("x{link}"), format_ident!("x{}", link + 1));
@@ -215,8 +234,9 @@ mod tests {
             assert!(stage.reads.iter().all(|name| known.contains(&name.to_string())), "{:?}", stage.reads);
             known.extend(stage.keeps.iter().map(ToString::to_string));
         }
-        // The sine, and the chain's last link.
-        assert!(stages[1..stages.len() - 1].iter().all(|stage| stage.reads.len() <= 3 && stage.keeps.len() == 1));
+        // The angle in three numbers, then the sine and the chain's last link.
+        assert_eq!((stages[0].keeps.len(), stages[0].reads.len()), (3, 1));
+        assert!(stages[2..stages.len() - 1].iter().all(|stage| stage.reads.len() <= 3 && stage.keeps.len() == 1));
         let numbers: BTreeSet<usize> =
             stages.iter().flat_map(|stage| stage.results.iter().map(|(place, _)| *place)).collect();
         assert_eq!(numbers, (0..20).collect());
@@ -232,9 +252,9 @@ mod tests {
             "{:?}",
             stages.iter().map(work).collect::<Vec<_>>()
         );
-        assert!(stages.len() <= 2 + 400 / (LENGTH / 2));
-        // What is short stays together.
-        assert_eq!(chain(5).len(), 1);
+        assert!(stages.len() <= 3 + 400 / (LENGTH / 2));
+        // What is short stays together, but for the angle of a sine.
+        assert_eq!(chain(5).len(), 2);
         assert_eq!(
             super::stages(
                 Work { statements: Vec::new(), conditions: Vec::new(), results: vec![TokenStream::new()] },

@@ -34,6 +34,16 @@ struct Acting<'m> {
     forces: i64,
 }
 
+/// The moment of what acts on a link, in ways that differ in rounding only.
+struct Moment<'m> {
+    /// Loads turned by the link's direction as it is known first.
+    turned: Expr<'m>,
+    /// The same by its direction of unit size, which a pose keeps.
+    by_unit: Expr<'m>,
+    /// By arms that a pose keeps.
+    of_kept: Expr<'m>,
+}
+
 impl<'m> Acting<'m> {
     fn one(at: Vector<'m>, force: Framed<'m>, is_load: bool) -> Self {
         Self { at, force, is_load, forces: 1 }
@@ -207,25 +217,24 @@ impl<'m, 'p> Balance<'m, 'p> {
     /// What is known first is multiplied first. Loads in ground axes are turned by their arms r along and across u, and added up:
     /// `Σ (r × F) = u × Σ (r·F, r × F)`; for reactions, which are found later than directions, the arms are turned by u, and multiplied by the
     /// factor after that: turned, they may be parts of the pose. An arm along the link, or across it, is one factor of the moment instead, but
-    /// for loads that are added up.
+    /// for loads that are added up. Loads do not wait for u to be brought to unit size.
     ///
     /// Where a pose is given, which several functions may share, it keeps the arms in ground axes, times the factor: there the moment of a force
     /// that is not known before is two products.
     #[must_use]
     pub fn moment(&self, link: LinkId, about: Vector<'m>, factor: Expr<'m>) -> Expr<'m> {
-        let [moment, from_pose] = self.moment_both_ways(link, about, factor);
-        moment.or_from_pose(from_pose)
+        let Moment { turned, of_kept, .. } = self.moment_in_ways(link, about, factor);
+        turned.or_from_pose(of_kept)
     }
 
-    /// The same, put together in one way only.
+    /// The same by turned loads where a pose is given, too.
     #[must_use]
     pub fn moment_of_turned(&self, link: LinkId, about: Vector<'m>) -> Expr<'m> {
-        let [moment, _] = self.moment_both_ways(link, about, self.graph().one());
-        moment
+        let Moment { turned, by_unit, .. } = self.moment_in_ways(link, about, self.graph().one());
+        turned.or_from_pose(by_unit)
     }
 
-    /// By turned loads, and by arms that a pose keeps.
-    fn moment_both_ways(&self, link: LinkId, about: Vector<'m>, factor: Expr<'m>) -> [Expr<'m>; 2] {
+    fn moment_in_ways(&self, link: LinkId, about: Vector<'m>, factor: Expr<'m>) -> Moment<'m> {
         let (direction, ground) = (self.placement.direction(link), self.placement.direction(GROUND));
         let wrench = &self.wrenches[link.index()];
         let mut sum = factor * wrench.couple;
@@ -262,14 +271,19 @@ impl<'m, 'p> Balance<'m, 'p> {
                 from_pose = from_pose + along();
             }
         }
-        let of_loads = |loads: &[(Vector<'m>, Vector<'m>)]| match loads {
-            [(arm, force)] if arm.x.is_zero() || arm.y.is_zero() => Some(arm.cross(force.resolved_along(direction))),
-            loads => {
-                let turned = loads.iter().map(|(arm, force)| force.resolved_along(*arm));
-                turned.reduce(|sum, load| sum + load).map(|load| direction.cross(load))
+        let plus = |sum: Expr<'m>, loads: &[(Vector<'m>, Vector<'m>)], direction: Vector<'m>| match loads {
+            [] => sum,
+            [(arm, force)] if arm.x.is_zero() || arm.y.is_zero() => sum + arm.cross(force.resolved_along(direction)),
+            [(arm, force), loads @ ..] => {
+                let first = force.resolved_along(*arm);
+                sum + direction.cross(loads.iter().fold(first, |sum, (arm, force)| sum + force.resolved_along(*arm)))
             }
         };
-        [(sum, loads), (from_pose, others)].map(|(sum, loads)| of_loads(&loads).map_or(sum, |moment| sum + moment))
+        Moment {
+            turned: plus(sum, &loads, self.placement.rough_direction(link)),
+            by_unit: plus(sum, &loads, direction),
+            of_kept: plus(from_pose, &others, direction),
+        }
     }
 
     /// The arm from one place of a link to another one in ground axes, times a factor, as a pose keeps it.

@@ -173,6 +173,7 @@ pub struct Placement<'m> {
     /// The linkage.
     pub model: &'m Model,
     orientations: Vec<Option<Orientation<'m>>>,
+    rough: BTreeMap<LinkId, Vector<'m>>,
     travels: BTreeMap<JointId, Travel<'m>>,
     angles: BTreeMap<LinkId, Expr<'m>>,
     arms: BTreeMap<[JointId; 2], Expr<'m>>,
@@ -187,7 +188,15 @@ impl<'m> Placement<'m> {
         let mut orientations = vec![None; model.links.len()];
         orientations[GROUND.index()] = Some(Orientation { direction: x_axis, axis: x_axis });
         let angles = BTreeMap::from([(GROUND, model.graph.zero())]);
-        Self { model, orientations, travels: BTreeMap::new(), angles, arms: BTreeMap::new(), placed: BTreeSet::new() }
+        Self {
+            model,
+            orientations,
+            rough: BTreeMap::new(),
+            travels: BTreeMap::new(),
+            angles,
+            arms: BTreeMap::new(),
+            placed: BTreeSet::new(),
+        }
     }
 
     /// All expressions.
@@ -370,6 +379,17 @@ impl<'m> Placement<'m> {
     #[must_use]
     pub fn direction(&self, link: LinkId) -> Vector<'m> {
         self.orientation(link).direction
+    }
+
+    /// The direction that a link carries is known before it is brought to unit size, but for a few roundings of its size. No pose keeps that.
+    pub fn know_rough(&mut self, link: LinkId, direction: Vector<'m>) {
+        self.rough.insert(link, direction);
+    }
+
+    /// The direction that a link carries as it is known first: for a product with what was known before, where its size counts once.
+    #[must_use]
+    pub fn rough_direction(&self, link: LinkId) -> Vector<'m> {
+        self.rough.get(&link).copied().unwrap_or_else(|| self.direction(link))
     }
 
     /// A vector of a link's frame, along and across the direction that the link carries.

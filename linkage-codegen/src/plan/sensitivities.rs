@@ -112,8 +112,10 @@ impl<'a, 'm> Sensitivities<'a, 'm> {
         for link in model.moving_links() {
             let (direction, rate) = (placement.direction(link), motion.rate_of_direction(link));
             let turning = direction.perp().scaled(rate);
-            tangent.state(direction.x, turning.x);
-            tangent.state(direction.y, turning.y);
+            for direction in [direction, placement.rough_direction(link)] {
+                tangent.state(direction.x, turning.x);
+                tangent.state(direction.y, turning.y);
+            }
             tangent.state(placement.angle(link), motion.rate(link));
         }
         let runs = placement.runs().map(|(joint, run, _)| (joint, run));

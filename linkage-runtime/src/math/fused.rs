@@ -78,24 +78,7 @@ macro_rules! fused_sines {
             reduce_large_sum(x, hi, lo).fused_one_by_one()
         }
 
-        /// [`fused_sin_cos`] without its branch: for angles for which the short reduction serves; elsewhere the numbers mean nothing.
-        #[doc(hidden)]
-        #[inline(always)]
-        #[allow(clippy::inline_always, reason = "for loops that are vectorised")]
-        #[must_use]
-        pub fn short_fused_sin_cos(x: $scalar) -> ($scalar, $scalar) {
-            reduce(x).fused_one_by_one()
-        }
-
-        /// [`fused_sin_cos_sum`] without its branch: where the short reduction serves for x + hi.
-        #[doc(hidden)]
-        #[inline(always)]
-        #[allow(clippy::inline_always, reason = "for loops that are vectorised")]
-        #[must_use]
-        pub fn short_fused_sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
-            let (sum, error) = two_sum(x, hi);
-            reduce(sum).plus(error + lo).fused_one_by_one()
-        }
+        short_sines!($scalar, fused_one_by_one, short_fused_angle, short_fused_angle_sum, short_fused_sin_cos);
 
         /// Where the short reduction serves. Nothing is lost but by the sums that make y and t.
         #[inline]
@@ -115,13 +98,13 @@ macro_rules! fused_sines {
         }
 
         impl Reduced {
-            /// sin(y − t) = y − (y³S + t) and cos(y − t) = 1 − y (y/2 − (y³C + t)), exchanged and negated as the quadrant says. The tail of
+            /// sin(y − t) = y − (y³S + t) and cos(y − t) = 1 − y ((y/2 − t) − y³C), exchanged and negated as the quadrant says. The tail of
             /// the sine is not multiplied by cos y: a sixth of an ulp at most. The sums are arranged so that −0 stays −0.
             #[inline]
             fn fused_one_by_one(self) -> ($scalar, $scalar) {
                 let Self { quadrant, y, t } = self;
                 let sin = y - cubic(y, &SINE, t);
-                let cos = mul_add(-y, mul_add(y, 0.5, cubic(y, &COSINE, -t)), 1.0);
+                let cos = mul_add(-y, cubic(y, &COSINE, mul_add(y, 0.5, -t)), 1.0);
                 by_quadrant(quadrant, sin, cos)
             }
         }
@@ -132,7 +115,10 @@ pub(super) use fused_sines;
 /// `short`, `short_half` and `of` one by one.
 macro_rules! fused_one_by_one {
     ($scalar:ident) => {
-        use short_fused_sin_cos as short;
+        #[inline]
+        fn short(x: $scalar) -> ($scalar, $scalar) {
+            reduce(x).fused_one_by_one()
+        }
 
         #[inline]
         fn short_half(x: $scalar) -> ($scalar, $scalar) {

@@ -13,13 +13,15 @@
 //! link is that along the shorter one and d, `r₁u₁ − r₂u₂ = d`. If moreover neither is more than twice as long as the other, the vectors have
 //! their lengths but for a few roundings: `sum`, `K` and `e` are exact to a few roundings of `r D`, `r D` and `1/D`, however close the pins come
 //! or the links fold. Where only what is made of them is wanted, that along the second link then serves as it is (pass `lengths`): forces and
-//! velocities have its few roundings once. Those of the first link, along which forces are resolved, they would have twice.
+//! velocities have its few roundings once. Those of the first link, along which forces are resolved, they would have twice; so there only
+//! the moments of the loads are found of the vector as it is, and need not wait for the step.
 //!
 //! `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros the closure knows it better than the directions do.
 //!
 //! Where moreover a driven angle ψ opens the outer pins, `D² = (b − a)² + 4ab sin²(ψ/2)`, all areas are divided when the linkage is
 //! compiled, so that the root is `sin μ` at once: by `2 r₁ r₂`, or at a fold so that `cos(ψ/2)` or `sin(ψ/2)` is left of the one margin and
-//! all factors are in the other. There `cos μ = u₁ · u₂ = (r₁² + r₂² − D²)/(2 r₁ r₂)` is one subtraction.
+//! all factors are in the other. There `cos μ = u₁ · u₂ = (r₁² + r₂² − D²)/(2 r₁ r₂)` is one subtraction; of the square that vanishes at a fold
+//! where the links are stretched, so that it is −1 there, and nothing is lost beside it.
 //!
 //! Where a drive gives the length of one link, `r₁² = x² + y²` with a constant y, and D and r₂ are constants, the same four factors are
 //! taken together as `p = (D + r₂)² − r₁²`, `q = r₁² − (D − r₂)²`: there the constants fold.
@@ -320,12 +322,17 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let (r1, r2) = (dyad.length(first), dyad.length(second));
     let name = dyad.joint_name(dyad.inner);
     let (mut directions, mut closed) = ([closing.d; 2], Vec::new());
-    for ((found, leg), direction) in directions.iter_mut().zip(&dyad.legs).zip(arms(dyad, &closing)) {
+    for ((found, leg), Along { unit: direction, rough }) in
+        directions.iter_mut().zip(&dyad.legs).zip(arms(dyad, &closing))
+    {
         let link = dyad.link_name(leg);
         let meaning = format!("direction of {link} from {} to {name}", dyad.joint_name(leg.outer));
         let direction = direction.named_direction(&link, &meaning);
         closed.push(direction);
         *found = dyad.orient(assembly, leg, direction)?;
+        if let (Some(rough), true) = (rough, leg.is_single()) {
+            assembly.placement.know_rough(leg.link(), rough);
+        }
         assembly.placement.connect(leg.outer);
     }
     assembly.placement.connect(dyad.inner);
@@ -391,7 +398,7 @@ fn pins_are_close(d2: Expr<'_>, lengths: [Expr<'_>; 2]) -> bool {
 /// Of legs of the same order the longer one is the shorter one and d: both vectors have the rounding of the shorter link and of d, which is
 /// at most twice as long as the longer link. Legs whose pins are close are of the same order, whatever one of them measures: found by
 /// themselves, they would differ from d by the rounding of constants, over 2D. Of others each is found by itself.
-fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
+fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Along<'m>; 2] {
     let lengths = dyad.lengths();
     let Closing { d, d2, of_angle, .. } = *closing;
     let (graph, name) = (d2.graph(), dyad.joint_name(dyad.inner));
@@ -423,31 +430,41 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Vector<'m>; 2] {
     [0, 1].map(|index| {
         let (link, length) = (dyad.link_name(&dyad.legs[index]), dyad.length_name(&dyad.legs[index]));
         let [own, other] = [lengths[index], lengths[1 - index]];
-        // Forces are resolved along the first leg, and products read its direction twice.
-        let serves = index == 1 && ratio_is_at_most(2, own, other);
-        to_unit((vectors[index], serves), [own, other], &link, &length)
+        to_unit(vectors[index], [own, other], (&link, &length), index == 0)
     })
 }
 
+/// The direction of a leg.
+struct Along<'m> {
+    unit: Vector<'m>,
+    /// The same before it is brought to unit size, if its size has a few roundings only.
+    rough: Option<Vector<'m>>,
+}
+
 /// A vector of nearly the given length brought to unit size: by one step, `u = v (3 − v·v/r²)/(2r)`, which squares the error; where legs are
-/// so different that this does not suffice, or not known before run time, by root and division. After one step the vector may serve as the
-/// direction, if it is said to.
-fn to_unit<'m>(
-    (arm, serves): (Vector<'m>, bool),
-    [length, other]: [Expr<'m>; 2],
-    link: &str,
-    name: &str,
-) -> Vector<'m> {
+/// so different that this does not suffice, or not known before run time, by root and division.
+///
+/// After one step v may serve as well. Products of the second leg may read it whatever they are; of the first leg, which leads, only those
+/// that ask for it: forces are resolved along it, and would have its roundings twice.
+fn to_unit<'m>(arm: Vector<'m>, [length, other]: [Expr<'m>; 2], (link, name): (&str, &str), leads: bool) -> Along<'m> {
     let graph = arm.graph();
     let by = |factor: Expr<'m>, equation: String| arm.scaled(factor.named(format!("unit_{link}"), equation));
     if !lengths_are_alike(graph.scalar(), length, other) {
-        return by(graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}"));
+        return Along { unit: by(graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}")), rough: None };
     }
     let half = |n: i64| graph.constant(&Number::ratio(n, 2));
     let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
     let unit = by(factor, format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}"));
-    let part = |unit: Expr<'m>, arm: Expr<'m>| unit.along(serves.then_some(arm), length, name);
-    Vector::new(part(unit.x, arm.x), part(unit.y, arm.y))
+    let serves = ratio_is_at_most(2, length, other);
+    let along = |of: Vector<'m>, arm: Option<Vector<'m>>| {
+        let part = |of: Expr<'m>, arm: Option<Expr<'m>>| of.along(arm, length, name);
+        Vector::new(part(of.x, arm.map(|arm| arm.x)), part(of.y, arm.map(|arm| arm.y)))
+    };
+    let rough = (leads && serves).then(|| {
+        let rough = arm.scaled(graph.one() / length);
+        along(rough.named_direction(&format!("rough_{link}"), &format!("arm_{link}/{name}")), Some(arm))
+    });
+    Along { unit: along(unit, (serves && !leads).then_some(arm)), rough }
 }
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {

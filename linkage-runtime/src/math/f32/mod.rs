@@ -9,6 +9,8 @@ mod vector;
 pub use super::fused::mul_addf as mul_add;
 pub use super::sqrt::sqrtf as sqrt;
 pub use atan2::atan2;
-pub use fused::{fused_sin_cos, fused_sin_cos_half, fused_sin_cos_sum, short_fused_sin_cos, short_fused_sin_cos_sum};
-pub use sin_cos::{is_short, short_sin_cos, short_sin_cos_sum, sin_cos, sin_cos_half, sin_cos_sum};
+pub use fused::{
+    fused_sin_cos, fused_sin_cos_half, fused_sin_cos_sum, short_fused_angle, short_fused_angle_sum, short_fused_sin_cos,
+};
+pub use sin_cos::{is_short, short_angle, short_angle_sum, short_sin_cos, sin_cos, sin_cos_half, sin_cos_sum};
 pub use vector::{polar, unit};

@@ -99,24 +99,7 @@ pub(super) fn is_short_half(x: f32) -> bool {
     x.abs() <= 2.0 * FAST
 }
 
-/// [`sin_cos`] without its branch: for angles for which the short reduction serves; elsewhere the numbers mean nothing.
-#[doc(hidden)]
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "for loops that are vectorised")]
-#[must_use]
-pub fn short_sin_cos(x: f32) -> (f32, f32) {
-    reduce(x).sin_cos()
-}
-
-/// [`sin_cos_sum`] without its branch: where the short reduction serves for x + hi.
-#[doc(hidden)]
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "for loops that are vectorised")]
-#[must_use]
-pub fn short_sin_cos_sum(x: f32, hi: f32, lo: f32) -> (f32, f32) {
-    let (sum, error) = two_sum(x, hi);
-    reduce(sum).plus(error + lo).sin_cos()
-}
+short_sines!(f32, sin_cos);
 
 /// a + b as a rounded sum and its error, exactly.
 #[inline]
@@ -144,6 +127,12 @@ fn reduced(x: f32, rounded: f32) -> Reduced {
 }
 
 impl Reduced {
+    /// The quadrant as the bits of a number, y and t.
+    #[inline]
+    pub(super) fn in_numbers(self) -> (f32, f32, f32) {
+        (f32::from_bits(self.quadrant), self.y, self.t)
+    }
+
     /// The angle plus a small one.
     #[inline]
     pub(super) fn plus(self, small: f32) -> Self {

@@ -18,13 +18,13 @@ pub(super) const COSINE: [f64; 6] = {
     [-c0, -c1, -c2, -c3, -c4, -c5]
 };
 
-/// y³ times the polynomial of y², added up in pairs (Estrin 1960), plus a tail.
+/// y³ times the polynomial of y², which is added up in pairs, plus a tail.
 #[inline]
 fn cubic(y: f64, &[c0, c1, c2, c3, c4, c5]: &[f64; 6], tail: f64) -> f64 {
     let z = y * y;
-    let (z2, y3) = (z * z, y * z);
+    let z2 = z * z;
     let (low, middle, high) = (mul_add(z, c1, c0), mul_add(z, c3, c2), mul_add(z, c5, c4));
-    mul_add(y3 * z2, mul_add(z2, high, middle), mul_add(y3, low, tail))
+    mul_add(y * z, mul_add(z2, mul_add(z2, high, middle), low), tail)
 }
 
 fused_sines!(f64);

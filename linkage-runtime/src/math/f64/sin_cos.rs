@@ -96,7 +96,10 @@ fn large_sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
 }
 
 #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
-use short_sin_cos as short;
+#[inline]
+fn short(x: f64) -> (f64, f64) {
+    reduce(x).one_by_one()
+}
 
 /// [`sin_cos_half`] without its branch.
 #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
@@ -126,24 +129,7 @@ pub(super) fn is_short_half(x: f64) -> bool {
     x.abs() <= 2.0 * FAST
 }
 
-/// [`sin_cos`] without its branch: for angles for which the short reduction serves; elsewhere the numbers mean nothing.
-#[doc(hidden)]
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "for loops that are vectorised")]
-#[must_use]
-pub fn short_sin_cos(x: f64) -> (f64, f64) {
-    reduce(x).one_by_one()
-}
-
-/// [`sin_cos_sum`] without its branch: where the short reduction serves for x + hi.
-#[doc(hidden)]
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "for loops that are vectorised")]
-#[must_use]
-pub fn short_sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
-    let (sum, error) = two_sum(x, hi);
-    reduce(sum).plus(error + lo).one_by_one()
-}
+short_sines!(f64, one_by_one);
 
 /// a + b as a rounded sum and its error, exactly.
 #[inline]
@@ -171,6 +157,12 @@ fn reduced(x: f64, rounded: f64) -> Reduced {
 }
 
 impl Reduced {
+    /// The quadrant as the bits of a number, y and t.
+    #[inline]
+    pub(super) fn in_numbers(self) -> (f64, f64, f64) {
+        (f64::from_bits(self.quadrant), self.y, self.t)
+    }
+
     /// The angle plus a small one.
     #[inline]
     pub(super) fn plus(self, small: f64) -> Self {

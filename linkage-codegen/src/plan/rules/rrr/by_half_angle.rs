@@ -119,7 +119,7 @@ impl<'a, 'm> Opening<'a, 'm> {
         let d = if swapped { -d } else { d }.named(&format!("d_{joint}"), &dyad.separation_meaning());
         let theta = graph.symbol(Symbol::Drive(arms.drive)).abs();
         let fixed = graph.constant(&arms.phase.abs().add(&Number::one()));
-        let rounding = graph.epsilons(2) * (theta + fixed);
+        let rounding = graph.epsilons(2) * theta + graph.epsilons(2) * fixed;
         let name = arms.name;
         let size = if arms.phase.is_zero() {
             format!("2ε (|{name}| + 1)")
@@ -233,7 +233,7 @@ impl<'a, 'm> Opening<'a, 'm> {
         OfAngle { sum, far }
     }
 
-    /// cos μ by the law of cosines, from the spread.
+    /// cos μ by the law of cosines, from the spread; where the dyad folds stretched, from the square that is nothing there.
     ///
     /// Where the driver goes all round, the spread is at most two. The more it may be, the more its rounding tells in the cosine, which then is
     /// that between the directions.
@@ -246,7 +246,12 @@ impl<'a, 'm> Opening<'a, 'm> {
         let [r, other] = [short, long].map(|index| dyad.lengths()[index]);
         let [mine, its] = [short, long].map(|index| dyad.length_name(&dyad.legs[index]));
         let joint = dyad.joint_name(dyad.inner);
-        let cosine = (r.squared() + other.squared() - (arms.b - arms.a).squared()) / area - spread;
+        let squares = r.squared() + other.squared();
+        if self.least[0].is_zero() {
+            let cosine = (squares - (arms.b + arms.a).squared()) / area + (span / area) * arms.half.x.squared();
+            return Some(cosine.named(dyad.cosine_name(), format!("cos μ at {joint} = 4ab cos²(ψ/2){divided} − 1")));
+        }
+        let cosine = (squares - (arms.b - arms.a).squared()) / area - spread;
         Some(cosine.named(dyad.cosine_name(), format!("cos μ at {joint} = ({mine}² + {its}²){divided} − D2_{joint}")))
     }
 

@@ -30,7 +30,7 @@ fn reduced(x: __m128d, rounded: __m128d) -> Spread {
     Spread { quadrant: _mm_cvtsd_f64(rounded).to_bits(), y, t }
 }
 
-/// Both halves are own − other · (cubic, + y/2 for a cosine): y − (y³S + t), or 1 − y (y/2 − (y³C + t)).
+/// Both halves are own − other · (y³ · polynomial + tail): y − (y³S + t), or 1 − y ((y/2 − t) − y³C).
 #[inline]
 #[target_feature(enable = "sse2,fma")]
 fn sin_cos(Spread { quadrant, y, t }: Spread) -> (f64, f64) {
@@ -39,11 +39,11 @@ fn sin_cos(Spread { quadrant, y, t }: Spread) -> (f64, f64) {
     let (z2, y3) = (_mm_mul_pd(z, z), _mm_mul_pd(y, z));
     let [c0, c1, c2, c3, c4, c5] = turn.coefficients.each_ref().map(|of| of.bits());
     let (low, middle, high) = (_mm_fmadd_pd(z, c1, c0), _mm_fmadd_pd(z, c3, c2), _mm_fmadd_pd(z, c5, c4));
-    let tail = _mm_xor_pd(t, turn.tail_negated.bits());
-    let cubic = _mm_fmadd_pd(_mm_mul_pd(y3, z2), _mm_fmadd_pd(z2, high, middle), _mm_fmadd_pd(y3, low, tail));
+    let polynomial = _mm_fmadd_pd(z2, _mm_fmadd_pd(z2, high, middle), low);
+    let tail = _mm_fmadd_pd(y, turn.half.bits(), _mm_xor_pd(t, turn.tail_negated.bits()));
     let [own, other] =
         [&turn.own, &turn.other].map(|Line(slope, at_zero)| _mm_fmadd_pd(y, slope.bits(), at_zero.bits()));
-    both(_mm_fnmadd_pd(other, _mm_fmadd_pd(y, turn.half.bits(), cubic), own))
+    both(_mm_fnmadd_pd(other, _mm_fmadd_pd(y3, polynomial, tail), own))
 }
 
 /// What a quadrant makes of the halves. From a table, because what is read takes none of the units that calculate.
