@@ -160,7 +160,7 @@ pub(crate) mod four_bar {
 #[allow(
     dead_code,
     clippy::excessive_precision,
-    reason = "what single precision is asked for; of a number the nearest there"
+    reason = "a pose that is found otherwise is of the other precision; of a number the nearest there"
 )]
 pub(crate) mod four_bar_single {
     use super::{Reactions, Vector2};
@@ -185,85 +185,116 @@ pub(crate) mod swept {
     four_bars!(four_bar f64 four_bar_single f32 four_bar_fused f64);
 }
 
-/// The six-bar.
+/// The six-bar, in a scalar.
+macro_rules! six_bar {
+    ($scalar:ident) => {
+        /// A dyad of three pins: from the vector between its outer joints its links' vectors to the inner joint, which is on
+        /// the left, and the reciprocal of their product. The constants are 4r₁² and r₁² − r₂².
+        #[inline]
+        fn dyad(dx: $scalar, dy: $scalar, four: $scalar, p: $scalar) -> ([$scalar; 2], [$scalar; 2], $scalar) {
+            let d2 = dx * dx + dy * dy;
+            let sum = d2 + p;
+            let root = (four * d2 - sum * sum).sqrt();
+            let half = 0.5 / d2;
+            let (along, across) = (sum * half, root * half);
+            let (x, y) = (along * dx - across * dy, along * dy + across * dx);
+            ([x, y], [x - dx, y - dy], 2.0 / root)
+        }
+
+        /// All forces and the torque.
+        #[inline]
+        pub(crate) fn statics(theta: $scalar, loads: &Loads, out: &mut Reactions<7, $scalar>) {
+            const G: $scalar = 9.81;
+            let (sin, cos) = theta.sin_cos();
+            let (ax, ay) = (50.0 * cos, 50.0 * sin);
+            let ([x3, y3], [x4, y4], inverse_b) =
+                dyad(150.0 - ax, -ay, 4.0 * 140.0 * 140.0, 140.0 * 140.0 - 100.0 * 100.0);
+            let (cx, cy) = (0.8 * x4 + 0.4 * y4, 0.8 * y4 - 0.4 * x4);
+            let ([x5, y5], [x6, y6], inverse_d) =
+                dyad(180.0 - cx, 20.0 - cy, 4.0 * 170.0 * 170.0, 170.0 * 170.0 - 110.0 * 110.0);
+
+            // The outer dyad: moments of the loads about C and D0, forces at D, C and D0.
+            let m5 = -0.5 * 0.7 * G * x5;
+            let g = &loads.G;
+            let m6 = (70.0 / 110.0) * (x6 * g.y - y6 * g.x)
+                - (25.0 / 110.0) * (x6 * g.x + y6 * g.y)
+                - 0.6 * G * ((50.0 / 110.0) * x6 - (8.0 / 110.0) * y6);
+            let (p, q) = (m5 * inverse_d, m6 * inverse_d);
+            let (fdx, fdy) = (p * x6 + q * x5, p * y6 + q * y5);
+            let (fcx, fcy) = (fdx, fdy + 0.7 * G);
+            let (fd0x, fd0y) = (-g.x - fdx, 0.6 * G - g.y - fdy);
+
+            // The inner one: the load of the rod acts on the rocker at C.
+            let f = &loads.F;
+            let m3 = (60.0 / 140.0) * (x3 * f.y - y3 * f.x)
+                - (35.0 / 140.0) * (x3 * f.x + y3 * f.y)
+                - 0.9 * G * ((65.0 / 140.0) * x3 - (12.0 / 140.0) * y3);
+            let m4 = cy * fcx - cx * fcy - 0.8 * G * (0.6 * x4 + 0.1 * y4);
+            let (p, q) = (m3 * inverse_b, m4 * inverse_b);
+            let (fbx, fby) = (p * x4 + q * x3, p * y4 + q * y3);
+            let (fax, fay) = (fbx - f.x, fby - f.y + 0.9 * G);
+            let (fb0x, fb0y) = (fcx - fbx, fcy + 0.8 * G - fby);
+
+            out.torque = ax * fay - ay * fax + 0.5 * 0.4 * G * ax;
+            out.forces = [
+                Vector2::new(fax, fay + 0.4 * G),
+                Vector2::new(fax, fay),
+                Vector2::new(fbx, fby),
+                Vector2::new(fb0x, fb0y),
+                Vector2::new(fcx, fcy),
+                Vector2::new(fdx, fdy),
+                Vector2::new(fd0x, fd0y),
+            ];
+        }
+    };
+}
+
 pub(crate) mod six_bar {
     use super::{Reactions, Vector2};
     use crate::linkages::six_bar::Loads;
 
-    /// A dyad of three pins: from the vector between its outer joints its links' vectors to the inner joint, which is on
-    /// the left, and the reciprocal of their product. The constants are 4r₁² and r₁² − r₂².
-    #[inline]
-    fn dyad(dx: f64, dy: f64, four: f64, p: f64) -> ([f64; 2], [f64; 2], f64) {
-        let d2 = dx * dx + dy * dy;
-        let sum = d2 + p;
-        let root = (four * d2 - sum * sum).sqrt();
-        let half = 0.5 / d2;
-        let (along, across) = (sum * half, root * half);
-        let (x, y) = (along * dx - across * dy, along * dy + across * dx);
-        ([x, y], [x - dx, y - dy], 2.0 / root)
-    }
-
-    /// All forces and the torque.
-    #[inline]
-    pub(crate) fn statics(theta: f64, loads: &Loads, out: &mut Reactions<7>) {
-        const G: f64 = 9.81;
-        let (sin, cos) = theta.sin_cos();
-        let (ax, ay) = (50.0 * cos, 50.0 * sin);
-        let ([x3, y3], [x4, y4], inverse_b) = dyad(150.0 - ax, -ay, 4.0 * 140.0 * 140.0, 140.0 * 140.0 - 100.0 * 100.0);
-        let (cx, cy) = (0.8 * x4 + 0.4 * y4, 0.8 * y4 - 0.4 * x4);
-        let ([x5, y5], [x6, y6], inverse_d) =
-            dyad(180.0 - cx, 20.0 - cy, 4.0 * 170.0 * 170.0, 170.0 * 170.0 - 110.0 * 110.0);
-
-        // The outer dyad: moments of the loads about C and D0, forces at D, C and D0.
-        let m5 = -0.5 * 0.7 * G * x5;
-        let g = &loads.G;
-        let m6 = (70.0 / 110.0) * (x6 * g.y - y6 * g.x)
-            - (25.0 / 110.0) * (x6 * g.x + y6 * g.y)
-            - 0.6 * G * ((50.0 / 110.0) * x6 - (8.0 / 110.0) * y6);
-        let (p, q) = (m5 * inverse_d, m6 * inverse_d);
-        let (fdx, fdy) = (p * x6 + q * x5, p * y6 + q * y5);
-        let (fcx, fcy) = (fdx, fdy + 0.7 * G);
-        let (fd0x, fd0y) = (-g.x - fdx, 0.6 * G - g.y - fdy);
-
-        // The inner one: the load of the rod acts on the rocker at C.
-        let f = &loads.F;
-        let m3 = (60.0 / 140.0) * (x3 * f.y - y3 * f.x)
-            - (35.0 / 140.0) * (x3 * f.x + y3 * f.y)
-            - 0.9 * G * ((65.0 / 140.0) * x3 - (12.0 / 140.0) * y3);
-        let m4 = cy * fcx - cx * fcy - 0.8 * G * (0.6 * x4 + 0.1 * y4);
-        let (p, q) = (m3 * inverse_b, m4 * inverse_b);
-        let (fbx, fby) = (p * x4 + q * x3, p * y4 + q * y3);
-        let (fax, fay) = (fbx - f.x, fby - f.y + 0.9 * G);
-        let (fb0x, fb0y) = (fcx - fbx, fcy + 0.8 * G - fby);
-
-        out.torque = ax * fay - ay * fax + 0.5 * 0.4 * G * ax;
-        out.forces = [
-            Vector2::new(fax, fay + 0.4 * G),
-            Vector2::new(fax, fay),
-            Vector2::new(fbx, fby),
-            Vector2::new(fb0x, fb0y),
-            Vector2::new(fcx, fcy),
-            Vector2::new(fdx, fdy),
-            Vector2::new(fd0x, fd0y),
-        ];
-    }
+    six_bar!(f64);
 }
 
-/// The slider-crank.
+pub(crate) mod six_bar_single {
+    use super::{Reactions, Vector2};
+    use crate::linkages::six_bar_single::Loads;
+
+    six_bar!(f32);
+}
+
+/// The slider-crank, in a scalar.
+macro_rules! slider_crank {
+    ($scalar:ident) => {
+        /// All forces and the torque.
+        #[inline]
+        pub(crate) fn statics(theta: $scalar, loads: &Loads, out: &mut Reactions<4, $scalar>) {
+            let (sin, cos) = theta.sin_cos();
+            let (ax, ay) = (45.0 * cos, 45.0 * sin);
+            // The rod's vector is (√(l² − ay²), −ay), and the force in it goes along it.
+            let x = (22500.0 - ay * ay).sqrt();
+            let (fx, fy) = (-loads.gas.x, loads.gas.x * ay / x);
+            out.torque = ax * fy - ay * fx;
+            out.forces = [
+                Vector2::new(fx, fy),
+                Vector2::new(fx, fy),
+                Vector2::new(fx, fy),
+                Vector2::new(0.0, -loads.gas.y - fy),
+            ];
+        }
+    };
+}
+
 pub(crate) mod slider_crank {
     use super::{Reactions, Vector2};
     use crate::linkages::slider_crank::Loads;
 
-    /// All forces and the torque.
-    #[inline]
-    pub(crate) fn statics(theta: f64, loads: &Loads, out: &mut Reactions<4>) {
-        let (sin, cos) = theta.sin_cos();
-        let (ax, ay) = (45.0 * cos, 45.0 * sin);
-        // The rod's vector is (√(l² − ay²), −ay), and the force in it goes along it.
-        let x = (22500.0 - ay * ay).sqrt();
-        let (fx, fy) = (-loads.gas.x, loads.gas.x * ay / x);
-        out.torque = ax * fy - ay * fx;
-        out.forces =
-            [Vector2::new(fx, fy), Vector2::new(fx, fy), Vector2::new(fx, fy), Vector2::new(0.0, -loads.gas.y - fy)];
-    }
+    slider_crank!(f64);
+}
+
+pub(crate) mod slider_crank_single {
+    use super::{Reactions, Vector2};
+    use crate::linkages::slider_crank_single::Loads;
+
+    slider_crank!(f32);
 }

@@ -50,13 +50,14 @@ pub(crate) mod swept {
     four_bar!(four_bar_fused, f64, fused; scene torques: sweep(torque); scene cycle: sweep(statics););
 }
 
-/// The six-bar.
+/// The six-bar, in a scalar.
 macro_rules! six_bar {
-    ($name:ident, $arithmetic:ident) => {
+    ($name:ident, $scalar:ident, $arithmetic:ident) => {
         linkage! {
             /// A six-bar, Watt's chain: a crank-rocker moves a second rocker. Weight on every link, a load on the coupler, one on
             /// the arm.
             pub(crate) mod $name;
+            scalar $scalar;
             arithmetic $arithmetic;
             units { mm, N }
 
@@ -95,15 +96,17 @@ macro_rules! six_bar {
     };
 }
 
-six_bar!(six_bar, plain);
-six_bar!(six_bar_fused, fused);
+six_bar!(six_bar, f64, plain);
+six_bar!(six_bar_single, f32, plain);
+six_bar!(six_bar_fused, f64, fused);
 
-/// The slider-crank.
+/// The slider-crank, in a scalar.
 macro_rules! slider_crank {
-    ($name:ident, $arithmetic:ident) => {
+    ($name:ident, $scalar:ident, $arithmetic:ident) => {
         linkage! {
             /// An engine's slider-crank, in line, with the force of the gas on the piston.
             pub(crate) mod $name;
+            scalar $scalar;
             arithmetic $arithmetic;
             units { mm, N }
 
@@ -128,8 +131,9 @@ macro_rules! slider_crank {
     };
 }
 
-slider_crank!(slider_crank, plain);
-slider_crank!(slider_crank_fused, fused);
+slider_crank!(slider_crank, f64, plain);
+slider_crank!(slider_crank_single, f32, plain);
+slider_crank!(slider_crank_fused, f64, fused);
 
 #[cfg(test)]
 mod tests {

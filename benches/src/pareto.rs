@@ -10,11 +10,11 @@ use nalgebra::SVector;
 use crate::exact::{Big, Exact, difference, size, vector};
 use crate::expert::four_bar as expert;
 use crate::harness::{Competitor, Mode, measure};
-use crate::items::four_bar::{
-    equations, exact, exact_parts, put, statics_at_fused, statics_at_generated, torque_at_fused, torque_at_generated,
-};
-use crate::items::{Case, Errors, Item, Random, Reactions, Results, Start, dense, rounded, single};
-use crate::linkages::four_bar::{self, Loads, Pose};
+use crate::items::four_bar::{double, equations, exact, exact_parts, put, single, statics_at_fused, torque_at_fused};
+use crate::items::single::given;
+use crate::items::{Case, Errors, Item, Random, Reactions, Results, Start, dense, rounded};
+use crate::linkages::four_bar::{Loads, Pose};
+use crate::linkages::swept;
 use crate::picture::{self, Family, Mark, Panel};
 use crate::{newton, textbook};
 
@@ -241,11 +241,13 @@ fn all(poses: &Posed<Truth>) -> Methods<'_> {
         true
     });
     methods.add(CAREFUL, same, |case: &At, out: &mut All| answer(expert::careful_pose(case.start), case, out));
-    methods.add((Family::Generated, "generated, equilibrium"), same, statics_at_generated);
+    methods.add((Family::Generated, "generated, equilibrium"), same, double::statics_at_generated);
     methods.add((Family::Generated, "generated, equilibrium, fused"), same, statics_at_fused);
-    methods.add((Family::Generated, "generated, equilibrium, f32"), single::given, single::statics_generated);
+    methods.add((Family::Generated, "generated, equilibrium, f32"), given, single::statics_at_generated);
     methods.add((Family::Generated, "generated, superposition"), same, |case: &At, out: &mut All| {
-        match four_bar::parts_at(case.start, &case.loads).and_then(|parts| parts.total()) {
+        // By the linkage with sweeps, so that the function that P1d measures is called there alone, and becomes part of its caller.
+        let loads = swept::four_bar::Loads { F13: case.loads.F13, F14: case.loads.F14 };
+        match swept::four_bar::parts_at(case.start, &loads).and_then(|parts| parts.total()) {
             Ok(all) => *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] },
             Err(_) => out.torque = f64::NAN,
         }
@@ -280,9 +282,9 @@ fn torque(poses: &Posed<Truth>) -> Methods<'_> {
         *out = expert::careful_pose(case.start).map_or(f64::NAN, |pose| pose.torque_of(&case.loads));
         true
     });
-    methods.add((Family::Generated, "generated, virtual work"), same, torque_at_generated);
+    methods.add((Family::Generated, "generated, virtual work"), same, double::torque_at_generated);
     methods.add((Family::Generated, "generated, virtual work, fused"), same, torque_at_fused);
-    methods.add((Family::Generated, "generated, virtual work, f32"), single::given, single::torque_generated);
+    methods.add((Family::Generated, "generated, virtual work, f32"), given, single::torque_at_generated);
     methods.add(ANGLES, same, |case: &At, out: &mut f64| {
         let mut all = All::default();
         textbook::statics(case.start, &case.loads, &mut all);

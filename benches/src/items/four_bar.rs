@@ -1,6 +1,6 @@
 //! P1: the four-bar of METU Example 6.3.
 
-use linkage_runtime::{Vector2, polar};
+use linkage_runtime::Vector2;
 use nalgebra::{SMatrix, SVector};
 
 use super::dense::{self, Pin, eliminations};
@@ -8,44 +8,14 @@ use super::{Case, Extent, Item, Reactions, Start, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, Vector, equilibrium, in_frame, left, vector};
 use crate::expert::four_bar as expert;
 use crate::generators;
-use crate::linkages::four_bar::{self, Loads, Pose};
+use crate::linkages::four_bar::{Loads, Pose};
 use crate::linkages::four_bar_fused;
 
-macro_rules! loads {
-    ($linkage:ident, $scalar:ident) => {
-        #[allow(clippy::cast_possible_truncation, reason = "in single precision")]
-        impl super::Loads for crate::linkages::$linkage::Loads {
-            fn toward(first: f64, second: f64) -> Self {
-                Self { F13: polar(50.0, first as $scalar), F14: polar(100.0, second as $scalar) }
-            }
-            fn rounded(self) -> Self {
-                let rounded = |force: Vector2<$scalar>| force.map(|x| super::rounded(x.into()) as $scalar);
-                Self { F13: rounded(self.F13), F14: rounded(self.F14) }
-            }
-            fn depend(&mut self, change: f64) {
-                self.F13.x += change as $scalar;
-                self.F14.x += change as $scalar;
-            }
-        }
-    };
-}
-loads!(four_bar, f64);
-loads!(four_bar_fused, f64);
-loads!(four_bar_single, f32);
-
-impl Start for Pose {
-    fn depend(&mut self, _: f64) -> bool {
-        false
-    }
-}
+loads!(four_bar, f64; F13: 50.0 N, F14: 100.0 N);
+loads!(four_bar_fused, f64; F13: 50.0 N, F14: 100.0 N);
+loads!(four_bar_single, f32; F13: 50.0 N, F14: 100.0 N);
 
 impl Start for four_bar_fused::Pose {
-    fn depend(&mut self, _: f64) -> bool {
-        false
-    }
-}
-
-impl Start for expert::Pose {
     fn depend(&mut self, _: f64) -> bool {
         false
     }
@@ -69,9 +39,9 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
             id: "P1a",
             title: "four-bar: all forces and the torque, from a pose",
             competitors: vec![
-                turn.prepared("expert", expert::pose, statics_expert),
-                turn.prepared("careful expert", careful_pose, statics_careful),
-                turn.prepared("generated", pose, statics_generated),
+                turn.prepared("expert", expert::pose, double::statics_expert),
+                turn.prepared("careful expert", careful_pose, double::statics_careful),
+                turn.prepared("generated", pose, double::statics_generated),
                 turn.prepared("generated, fused", fused_pose, statics_fused),
             ],
         },
@@ -79,9 +49,9 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
             id: "P1b",
             title: "four-bar: all forces and the torque, from the driver's angle",
             competitors: vec![
-                turn.competitor("expert", statics_at_expert),
-                turn.competitor("careful expert", statics_at_careful),
-                turn.competitor("generated", statics_at_generated),
+                turn.competitor("expert", double::statics_at_expert),
+                turn.competitor("careful expert", double::statics_at_careful),
+                turn.competitor("generated", double::statics_at_generated),
                 turn.competitor("generated, fused", statics_at_fused),
                 turn.competitor("generated, by way of a pose", statics_at_pose),
             ],
@@ -90,9 +60,9 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
             id: "P1c",
             title: "four-bar: the torque only, from the driver's angle",
             competitors: vec![
-                turn.competitor("expert", torque_at_expert),
-                turn.competitor("careful expert", torque_at_careful),
-                turn.competitor("generated", torque_at_generated),
+                turn.competitor("expert", double::torque_at_expert),
+                turn.competitor("careful expert", double::torque_at_careful),
+                turn.competitor("generated", double::torque_at_generated),
                 turn.competitor("generated, fused", torque_at_fused),
             ],
         },
@@ -100,9 +70,9 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
             id: "P1d",
             title: "four-bar: forces and torque by each of two loads, from the driver's angle",
             competitors: vec![
-                parts.competitor("expert", parts_at_expert),
-                parts.competitor("careful expert", parts_at_careful),
-                parts.competitor("generated", parts_at_generated),
+                parts.competitor("expert", double::parts_at_expert),
+                parts.competitor("careful expert", double::parts_at_careful),
+                parts.competitor("generated", double::parts_at_generated),
                 parts.competitor("generated, fused", parts_at_fused),
             ],
         },
@@ -128,49 +98,123 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     items.into()
 }
 
-fn statics_expert(case: &Case<expert::Pose, Loads>, out: &mut All) -> bool {
-    case.start.statics(&case.loads, out);
-    true
-}
+/// What competes in every scalar: the experts, and what is generated in plain arithmetic.
+macro_rules! competitors {
+    ($name:ident, $scalar:ident, $linkage:ident) => {
+        pub(crate) mod $name {
+            use crate::expert::$linkage as expert;
+            use crate::items::{Case, Reactions, Start};
+            use crate::linkages::$linkage::{self as generated, Loads, Pose};
 
-fn statics_careful(case: &Case<expert::Pose, Loads>, out: &mut All) -> bool {
-    case.start.statics(&case.loads, out);
-    out.is_finite()
-}
+            type All = Reactions<4, $scalar>;
+            type At = Case<$scalar, Loads>;
 
-fn statics_generated(case: &Posed, out: &mut All) -> bool {
-    match case.start.statics(&case.loads) {
-        Ok(all) => {
-            *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
-            true
+            impl Start for Pose {
+                fn depend(&mut self, _: f64) -> bool {
+                    false
+                }
+            }
+
+            impl Start for expert::Pose {
+                fn depend(&mut self, _: f64) -> bool {
+                    false
+                }
+            }
+
+            pub(crate) fn statics_expert(case: &Case<expert::Pose, Loads>, out: &mut All) -> bool {
+                case.start.statics(&case.loads, out);
+                true
+            }
+
+            pub(crate) fn statics_careful(case: &Case<expert::Pose, Loads>, out: &mut All) -> bool {
+                case.start.statics(&case.loads, out);
+                out.is_finite()
+            }
+
+            pub(crate) fn statics_generated(case: &Case<Pose, Loads>, out: &mut All) -> bool {
+                match case.start.statics(&case.loads) {
+                    Ok(all) => {
+                        *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
+                        true
+                    }
+                    Err(_) => false,
+                }
+            }
+
+            pub(crate) fn statics_at_expert(case: &At, out: &mut All) -> bool {
+                expert::pose(case.start).statics(&case.loads, out);
+                true
+            }
+
+            pub(crate) fn statics_at_careful(case: &At, out: &mut All) -> bool {
+                let Some(pose) = expert::careful_pose(case.start) else { return false };
+                pose.statics(&case.loads, out);
+                out.is_finite()
+            }
+
+            pub(crate) fn statics_at_generated(case: &At, out: &mut All) -> bool {
+                match generated::statics_at(case.start, &case.loads) {
+                    Ok(all) => {
+                        *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
+                        true
+                    }
+                    Err(_) => false,
+                }
+            }
+
+            pub(crate) fn torque_at_expert(case: &At, out: &mut $scalar) -> bool {
+                *out = expert::pose(case.start).torque_of(&case.loads);
+                true
+            }
+
+            pub(crate) fn torque_at_careful(case: &At, out: &mut $scalar) -> bool {
+                let Some(pose) = expert::careful_pose(case.start) else { return false };
+                *out = pose.torque_of(&case.loads);
+                out.is_finite()
+            }
+
+            pub(crate) fn torque_at_generated(case: &At, out: &mut $scalar) -> bool {
+                match generated::torque_at(case.start, &case.loads) {
+                    Ok(torque) => {
+                        *out = torque.T12;
+                        true
+                    }
+                    Err(_) => false,
+                }
+            }
+
+            pub(crate) fn parts_at_expert(case: &At, out: &mut [All; 2]) -> bool {
+                expert::pose(case.start).parts(&case.loads, out);
+                true
+            }
+
+            pub(crate) fn parts_at_careful(case: &At, out: &mut [All; 2]) -> bool {
+                let Some(pose) = expert::careful_pose(case.start) else { return false };
+                pose.parts(&case.loads, out);
+                out[0].is_finite() && out[1].is_finite()
+            }
+
+            pub(crate) fn parts_at_generated(case: &At, out: &mut [All; 2]) -> bool {
+                match generated::parts_at(case.start, &case.loads) {
+                    Ok(parts) => {
+                        let (first, second) = (&parts.F13, &parts.F14);
+                        *out = [
+                            Reactions { torque: first.T12, forces: [first.A0, first.A, first.B, first.B0] },
+                            Reactions { torque: second.T12, forces: [second.A0, second.A, second.B, second.B0] },
+                        ];
+                        true
+                    }
+                    Err(_) => false,
+                }
+            }
         }
-        Err(_) => false,
-    }
+    };
 }
+competitors!(double, f64, four_bar);
+competitors!(single, f32, four_bar_single);
 
 fn statics_fused(case: &Case<four_bar_fused::Pose, Loads>, out: &mut All) -> bool {
     match case.start.statics(&fused_loads(&case.loads)) {
-        Ok(all) => {
-            *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
-            true
-        }
-        Err(_) => false,
-    }
-}
-
-fn statics_at_expert(case: &At, out: &mut All) -> bool {
-    expert::pose(case.start).statics(&case.loads, out);
-    true
-}
-
-fn statics_at_careful(case: &At, out: &mut All) -> bool {
-    let Some(pose) = expert::careful_pose(case.start) else { return false };
-    pose.statics(&case.loads, out);
-    out.is_finite()
-}
-
-pub(crate) fn statics_at_generated(case: &At, out: &mut All) -> bool {
-    match four_bar::statics_at(case.start, &case.loads) {
         Ok(all) => {
             *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
             true
@@ -222,52 +266,6 @@ fn statics_at_pose(case: &At, out: &mut All) -> bool {
     match Pose::at(case.start).and_then(|pose| pose.statics(&case.loads)) {
         Ok(all) => {
             *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
-            true
-        }
-        Err(_) => false,
-    }
-}
-
-fn torque_at_expert(case: &At, out: &mut f64) -> bool {
-    *out = expert::pose(case.start).torque_of(&case.loads);
-    true
-}
-
-fn torque_at_careful(case: &At, out: &mut f64) -> bool {
-    let Some(pose) = expert::careful_pose(case.start) else { return false };
-    *out = pose.torque_of(&case.loads);
-    out.is_finite()
-}
-
-pub(crate) fn torque_at_generated(case: &At, out: &mut f64) -> bool {
-    match four_bar::torque_at(case.start, &case.loads) {
-        Ok(torque) => {
-            *out = torque.T12;
-            true
-        }
-        Err(_) => false,
-    }
-}
-
-fn parts_at_expert(case: &At, out: &mut [All; 2]) -> bool {
-    expert::pose(case.start).parts(&case.loads, out);
-    true
-}
-
-fn parts_at_careful(case: &At, out: &mut [All; 2]) -> bool {
-    let Some(pose) = expert::careful_pose(case.start) else { return false };
-    pose.parts(&case.loads, out);
-    out[0].is_finite() && out[1].is_finite()
-}
-
-fn parts_at_generated(case: &At, out: &mut [All; 2]) -> bool {
-    match four_bar::parts_at(case.start, &case.loads) {
-        Ok(parts) => {
-            let (first, second) = (&parts.F13, &parts.F14);
-            *out = [
-                Reactions { torque: first.T12, forces: [first.A0, first.A, first.B, first.B0] },
-                Reactions { torque: second.T12, forces: [second.A0, second.A, second.B, second.B0] },
-            ];
             true
         }
         Err(_) => false,
@@ -418,11 +416,20 @@ mod tests {
         let angles = [std::f64::consts::PI, f64::NAN, f64::INFINITY].map(|start| Case { start, loads });
         for case in angles.into_iter().chain([Case { start: 1.0, loads: endless }]) {
             let mut out = All::default();
-            assert!(!statics_at_generated(&case, &mut out) && !statics_at_careful(&case, &mut out), "{case:?}");
+            assert!(
+                !double::statics_at_generated(&case, &mut out) && !double::statics_at_careful(&case, &mut out),
+                "{case:?}"
+            );
             let mut out = [All::default(); 2];
-            assert!(!parts_at_generated(&case, &mut out) && !parts_at_careful(&case, &mut out), "{case:?}");
+            assert!(
+                !double::parts_at_generated(&case, &mut out) && !double::parts_at_careful(&case, &mut out),
+                "{case:?}"
+            );
             let mut out = 0.0;
-            assert!(!torque_at_generated(&case, &mut out) && !torque_at_careful(&case, &mut out), "{case:?}");
+            assert!(
+                !double::torque_at_generated(&case, &mut out) && !double::torque_at_careful(&case, &mut out),
+                "{case:?}"
+            );
         }
     }
 }

@@ -1,86 +1,113 @@
-//! P1b and P1c in single precision.
+//! All items in single precision, but for what is eliminated and what is generated in fused arithmetic.
 
-use linkage_runtime::Vector2;
-
-use super::four_bar::exact;
-use super::{Case, Extent, Item, Reactions, Turn};
+use super::{Case, Extent, Item, Turn, four_bar, six_bar, slider_crank};
 use crate::expert::four_bar_single as expert;
-use crate::linkages::four_bar;
-use crate::linkages::four_bar_single::{self, Loads};
-
-type All = Reactions<4, f32>;
-type At = Case<f32, Loads>;
+use crate::linkages::{self, four_bar_single};
 
 pub(super) fn items(extent: Extent) -> Vec<Item> {
-    let turn = Turn::new(Extent { single: true, ..extent }, 80.0, |theta, loads| vec![exact(theta, loads)]);
+    let extent = Extent { single: true, ..extent };
+    let mut items = of_four_bar(extent);
+    items.push(of_six_bar(extent));
+    items.push(of_slider_crank(extent));
+    items
+}
+
+fn of_four_bar(extent: Extent) -> Vec<Item> {
+    use four_bar::single;
+
+    let turn = Turn::new(extent, 80.0, |theta, loads| vec![four_bar::exact(theta, loads)]);
+    let parts = Turn::new(extent, 80.0, four_bar::exact_parts);
+    let pose = |theta| four_bar_single::Pose::at(theta).expect("a pose");
+    let careful_pose = |theta| expert::careful_pose(theta).expect("a pose");
     vec![
+        Item {
+            id: "P1a-f32",
+            title: "four-bar in f32: all forces and the torque, from a pose",
+            competitors: vec![
+                turn.posed("expert", prepared(expert::pose), single::statics_expert),
+                turn.posed("careful expert", prepared(careful_pose), single::statics_careful),
+                turn.posed("generated", prepared(pose), single::statics_generated),
+            ],
+        },
         Item {
             id: "P1b-f32",
             title: "four-bar in f32: all forces and the torque, from the driver's angle",
             competitors: vec![
-                turn.posed("expert", given, statics_expert),
-                turn.posed("careful expert", given, statics_careful),
-                turn.posed("generated", given, statics_generated),
+                turn.posed("expert", given, single::statics_at_expert),
+                turn.posed("careful expert", given, single::statics_at_careful),
+                turn.posed("generated", given, single::statics_at_generated),
             ],
         },
         Item {
             id: "P1c-f32",
             title: "four-bar in f32: the torque only, from the driver's angle",
             competitors: vec![
-                turn.posed("expert", given, torque_expert),
-                turn.posed("careful expert", given, torque_careful),
-                turn.posed("generated", given, torque_generated),
+                turn.posed("expert", given, single::torque_at_expert),
+                turn.posed("careful expert", given, single::torque_at_careful),
+                turn.posed("generated", given, single::torque_at_generated),
+            ],
+        },
+        Item {
+            id: "P1d-f32",
+            title: "four-bar in f32: forces and torque by each of two loads, from the driver's angle",
+            competitors: vec![
+                parts.posed("expert", given, single::parts_at_expert),
+                parts.posed("careful expert", given, single::parts_at_careful),
+                parts.posed("generated", given, single::parts_at_generated),
             ],
         },
     ]
 }
 
+fn of_six_bar(extent: Extent) -> Item {
+    let turn = Turn::new(extent, 50.0, |theta, loads| vec![six_bar::exact(theta, loads)]);
+    Item {
+        id: "P2b-f32",
+        title: "six-bar with weights in f32: all forces and the torque, from the driver's angle",
+        competitors: vec![
+            turn.posed("expert", given, six_bar::single::statics_at_expert),
+            turn.posed("generated", given, six_bar::single::statics_at_generated),
+        ],
+    }
+}
+
+fn of_slider_crank(extent: Extent) -> Item {
+    let turn = Turn::new(extent, 45.0, |theta, loads| vec![slider_crank::exact(theta, loads)]);
+    Item {
+        id: "P3b-f32",
+        title: "slider-crank in f32: all forces and the torque, from the driver's angle",
+        competitors: vec![
+            turn.posed("expert", given, slider_crank::single::statics_at_expert),
+            turn.posed("generated", given, slider_crank::single::statics_at_generated),
+        ],
+    }
+}
+
 /// A case whose numbers single precision holds.
 #[allow(clippy::cast_possible_truncation, reason = "they are numbers of single precision")]
-pub(crate) fn given(case: &Case<f64, four_bar::Loads>) -> At {
-    let force = |force: Vector2<f64>| force.map(|part| part as f32);
-    let four_bar::Loads { F13, F14 } = case.loads;
-    Case { start: case.start as f32, loads: Loads { F13: force(F13), F14: force(F14) } }
+pub(crate) fn given<L: Copy, K: From<L>>(case: &Case<f64, L>) -> Case<f32, K> {
+    Case { start: case.start as f32, loads: case.loads.into() }
 }
 
-fn statics_expert(case: &At, out: &mut All) -> bool {
-    expert::pose(case.start).statics(&case.loads, out);
-    true
-}
-
-fn statics_careful(case: &At, out: &mut All) -> bool {
-    let Some(pose) = expert::careful_pose(case.start) else { return false };
-    pose.statics(&case.loads, out);
-    out.is_finite()
-}
-
-pub(crate) fn statics_generated(case: &At, out: &mut All) -> bool {
-    match four_bar_single::statics_at(case.start, &case.loads) {
-        Ok(all) => {
-            *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
-            true
-        }
-        Err(_) => false,
+/// The same, but for what `prepare` makes of the driver's angle.
+fn prepared<S, L: Copy, K: From<L>>(prepare: impl Fn(f32) -> S) -> impl Fn(&Case<f64, L>) -> Case<S, K> {
+    move |case| {
+        let Case { start, loads } = given(case);
+        Case { start: prepare(start), loads }
     }
 }
 
-fn torque_expert(case: &At, out: &mut f32) -> bool {
-    *out = expert::pose(case.start).torque_of(&case.loads);
-    true
-}
-
-fn torque_careful(case: &At, out: &mut f32) -> bool {
-    let Some(pose) = expert::careful_pose(case.start) else { return false };
-    *out = pose.torque_of(&case.loads);
-    out.is_finite()
-}
-
-pub(crate) fn torque_generated(case: &At, out: &mut f32) -> bool {
-    match four_bar_single::torque_at(case.start, &case.loads) {
-        Ok(torque) => {
-            *out = torque.T12;
-            true
+/// The same of the loads.
+macro_rules! given {
+    ($double:ident, $single:ident; $($load:ident),+) => {
+        impl From<linkages::$double::Loads> for linkages::$single::Loads {
+            #[allow(clippy::cast_possible_truncation, reason = "they are numbers of single precision")]
+            fn from(loads: linkages::$double::Loads) -> Self {
+                Self { $($load: loads.$load.map(|part| part as f32)),+ }
+            }
         }
-        Err(_) => false,
-    }
+    };
 }
+given!(four_bar, four_bar_single; F13, F14);
+given!(six_bar, six_bar_single; F, G);
+given!(slider_crank, slider_crank_single; gas);

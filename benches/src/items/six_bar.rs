@@ -1,28 +1,17 @@
 //! P2: a six-bar with weight on every link.
 
-use linkage_runtime::{Vector2, polar};
+use linkage_runtime::Vector2;
 use nalgebra::{SMatrix, SVector};
 
 use super::dense::{self, Pin, eliminations};
-use super::{Case, Extent, Item, Reactions, Turn, rounded};
+use super::{Case, Extent, Item, Reactions, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, in_frame, left, vector};
-use crate::expert::six_bar as expert;
 use crate::generators;
-use crate::linkages::six_bar::{self, Loads, Pose};
+use crate::linkages::six_bar::{Loads, Pose};
 use crate::linkages::six_bar_fused;
 
-impl super::Loads for Loads {
-    fn toward(first: f64, second: f64) -> Self {
-        Self { F: polar(50.0, first), G: polar(100.0, second) }
-    }
-    fn rounded(self) -> Self {
-        Self { F: self.F.map(rounded), G: self.G.map(rounded) }
-    }
-    fn depend(&mut self, change: f64) {
-        self.F.x += change;
-        self.G.x += change;
-    }
-}
+loads!(six_bar, f64; F: 50.0 N, G: 100.0 N);
+loads!(six_bar_single, f32; F: 50.0 N, G: 100.0 N);
 
 type All = Reactions<7>;
 type At = Case<f64, Loads>;
@@ -30,8 +19,8 @@ type At = Case<f64, Loads>;
 pub(super) fn items(extent: Extent) -> Vec<Item> {
     let turn = Turn::new(extent, 50.0, |theta, loads| vec![exact(theta, loads)]);
     let mut competitors = vec![
-        turn.competitor("expert", statics_at_expert),
-        turn.competitor("generated", statics_at_generated),
+        turn.competitor("expert", double::statics_at_expert),
+        turn.competitor("generated", double::statics_at_generated),
         turn.competitor("generated, fused", statics_at_fused),
     ];
     competitors.extend(eliminations!(|method, call| turn.competitor(method, call), "15x15", statics_at_eliminated));
@@ -43,20 +32,37 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     }]
 }
 
-fn statics_at_expert(case: &At, out: &mut All) -> bool {
-    expert::statics(case.start, &case.loads, out);
-    true
-}
+/// What competes in every scalar: the expert, and what is generated in plain arithmetic.
+macro_rules! competitors {
+    ($name:ident, $scalar:ident, $linkage:ident) => {
+        pub(crate) mod $name {
+            use crate::expert::$linkage as expert;
+            use crate::items::{Case, Reactions};
+            use crate::linkages::$linkage::{self as generated, Loads};
 
-fn statics_at_generated(case: &At, out: &mut All) -> bool {
-    match six_bar::statics_at(case.start, &case.loads) {
-        Ok(all) => {
-            *out = Reactions { torque: all.T, forces: [all.A0, all.A, all.B, all.B0, all.C, all.D, all.D0] };
-            true
+            type All = Reactions<7, $scalar>;
+            type At = Case<$scalar, Loads>;
+
+            pub(crate) fn statics_at_expert(case: &At, out: &mut All) -> bool {
+                expert::statics(case.start, &case.loads, out);
+                true
+            }
+
+            pub(crate) fn statics_at_generated(case: &At, out: &mut All) -> bool {
+                match generated::statics_at(case.start, &case.loads) {
+                    Ok(all) => {
+                        *out =
+                            Reactions { torque: all.T, forces: [all.A0, all.A, all.B, all.B0, all.C, all.D, all.D0] };
+                        true
+                    }
+                    Err(_) => false,
+                }
+            }
         }
-        Err(_) => false,
-    }
+    };
 }
+competitors!(double, f64, six_bar);
+competitors!(single, f32, six_bar_single);
 
 fn statics_at_fused(case: &At, out: &mut All) -> bool {
     let Loads { F, G } = case.loads;

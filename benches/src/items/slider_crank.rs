@@ -1,27 +1,17 @@
 //! P3: an engine's slider-crank.
 
-use linkage_runtime::{Vector2, polar};
+use linkage_runtime::Vector2;
 use nalgebra::{SMatrix, SVector};
 
 use super::dense::{self, eliminations};
-use super::{Case, Extent, Item, Reactions, Turn, rounded};
+use super::{Case, Extent, Item, Reactions, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, vector};
-use crate::expert::slider_crank as expert;
 use crate::generators;
-use crate::linkages::slider_crank::{self, Loads, Pose};
+use crate::linkages::slider_crank::{Loads, Pose};
 use crate::linkages::slider_crank_fused;
 
-impl super::Loads for Loads {
-    fn toward(first: f64, _: f64) -> Self {
-        Self { gas: polar(50.0, first) }
-    }
-    fn rounded(self) -> Self {
-        Self { gas: self.gas.map(rounded) }
-    }
-    fn depend(&mut self, change: f64) {
-        self.gas.x += change;
-    }
-}
+loads!(slider_crank, f64; gas: 50.0 N);
+loads!(slider_crank_single, f32; gas: 50.0 N);
 
 type All = Reactions<4>;
 type At = Case<f64, Loads>;
@@ -29,8 +19,8 @@ type At = Case<f64, Loads>;
 pub(super) fn items(extent: Extent) -> Vec<Item> {
     let turn = Turn::new(extent, 45.0, |theta, loads| vec![exact(theta, loads)]);
     let mut competitors = vec![
-        turn.competitor("expert", statics_at_expert),
-        turn.competitor("generated", statics_at_generated),
+        turn.competitor("expert", double::statics_at_expert),
+        turn.competitor("generated", double::statics_at_generated),
         turn.competitor("generated, fused", statics_at_fused),
     ];
     competitors.extend(eliminations!(|method, call| turn.competitor(method, call), "9x9", statics_at_eliminated));
@@ -38,20 +28,36 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     vec![Item { id: "P3b", title: "slider-crank: all forces and the torque, from the driver's angle", competitors }]
 }
 
-fn statics_at_expert(case: &At, out: &mut All) -> bool {
-    expert::statics(case.start, &case.loads, out);
-    true
-}
+/// What competes in every scalar: the expert, and what is generated in plain arithmetic.
+macro_rules! competitors {
+    ($name:ident, $scalar:ident, $linkage:ident) => {
+        pub(crate) mod $name {
+            use crate::expert::$linkage as expert;
+            use crate::items::{Case, Reactions};
+            use crate::linkages::$linkage::{self as generated, Loads};
 
-fn statics_at_generated(case: &At, out: &mut All) -> bool {
-    match slider_crank::statics_at(case.start, &case.loads) {
-        Ok(all) => {
-            *out = Reactions { torque: all.T, forces: [all.O, all.A, all.B, all.P.force] };
-            true
+            type All = Reactions<4, $scalar>;
+            type At = Case<$scalar, Loads>;
+
+            pub(crate) fn statics_at_expert(case: &At, out: &mut All) -> bool {
+                expert::statics(case.start, &case.loads, out);
+                true
+            }
+
+            pub(crate) fn statics_at_generated(case: &At, out: &mut All) -> bool {
+                match generated::statics_at(case.start, &case.loads) {
+                    Ok(all) => {
+                        *out = Reactions { torque: all.T, forces: [all.O, all.A, all.B, all.P.force] };
+                        true
+                    }
+                    Err(_) => false,
+                }
+            }
         }
-        Err(_) => false,
-    }
+    };
 }
+competitors!(double, f64, slider_crank);
+competitors!(single, f32, slider_crank_single);
 
 fn statics_at_fused(case: &At, out: &mut All) -> bool {
     match slider_crank_fused::statics_at(case.start, &slider_crank_fused::Loads { gas: case.loads.gas }) {
