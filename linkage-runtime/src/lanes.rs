@@ -12,7 +12,7 @@ macro_rules! lanes {
 
         /// Of the last block, positions up to a multiple of this are computed: no instruction computes more at once.
         #[cfg(feature = "std")]
-        const STEP: usize = 16;
+        const STEP: usize = 64 / size_of::<$scalar>();
 
         /// A number at each position of a block.
         pub type Column = [$scalar; BLOCK];
