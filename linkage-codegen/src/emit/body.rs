@@ -47,6 +47,8 @@ pub(super) struct Body<'a> {
     /// The name of every value that has its own statement, or is an input.
     names: BTreeMap<ValueId, Ident>,
     checks: Checks,
+    /// Of sines that are found in two statements, what lies between.
+    angles: BTreeMap<(Kernel, Vec<ValueId>), [Ident; 3]>,
 }
 
 /// What stands above values, one after the other: the heading of a new section, and what a value means.
@@ -93,7 +95,7 @@ impl<'a> Body<'a> {
             used.insert(name.clone());
             names.insert(value, ident(&name));
         }
-        let mut body = Self { program, graph, names, checks: Checks::Reported };
+        let mut body = Self { program, graph, names, checks: Checks::Reported, angles: BTreeMap::new() };
         let mut uses = program.uses();
         // The results of one call read their arguments together.
         let mut calls = BTreeSet::new();
@@ -110,14 +112,8 @@ impl<'a> Body<'a> {
                 || matches!(program.op(*value), Some(Op::Kernel { kernel, .. }) if *kernel != Kernel::MulAdd)
                 || program.outputs.iter().any(|(_, output)| output == value);
             if own {
-                let wanted = body.wanted_name(*value, &readers);
-                let mut name = wanted.clone();
-                let mut number = 2;
-                while !used.insert(name.clone()) {
-                    name = format!("{wanted}_{number}");
-                    number += 1;
-                }
-                body.names.insert(*value, ident(&name));
+                let name = new_name(&mut used, &body.wanted_name(*value, &readers));
+                body.names.insert(*value, name);
             }
         }
         body
@@ -132,6 +128,7 @@ impl<'a> Body<'a> {
     /// All statements, without a branch, and the conditions under which the results mean something.
     pub(super) fn straight(mut self) -> (Vec<TokenStream>, Vec<TokenStream>, Self) {
         self.checks = Checks::Gathered;
+        self.angles = self.angles();
         let (statements, body) = self.each_statement();
         let angles: BTreeSet<(Kernel, Vec<ValueId>)> = body.kernels().collect();
         let angles = angles.into_iter().filter_map(|(kernel, args)| body.is_short(kernel, &args));
@@ -303,7 +300,6 @@ impl<'a> Body<'a> {
 
     fn call(&self, kernel: Kernel, args: &[ValueId]) -> TokenStream {
         if let (Kernel::SinCos, [arg]) = (kernel, args)
-            && self.checks != Checks::Gathered
             && let Some(whole) = self.halved(*arg)
         {
             let function = self.sin_cos("sin_cos_half");
@@ -357,40 +353,46 @@ impl<'a> Body<'a> {
         ident(&format!("{short}{fused}{function}"))
     }
 
-    /// Without a branch, sine and cosine are two statements: the angle is brought between ±π/4, and both are found of what is left.
-    fn in_two(&self, kernel: Kernel, args: &[ValueId], parts: &[(u8, ValueId)]) -> Option<(TokenStream, TokenStream)> {
-        if self.checks != Checks::Gathered {
-            return None;
+    /// Names for the angles of all sines, in quarter turns, and for what is left of each, in two parts.
+    fn angles(&self) -> BTreeMap<(Kernel, Vec<ValueId>), [Ident; 3]> {
+        let mut used: BTreeSet<String> = self.names.values().map(ToString::to_string).collect();
+        let mut angles = BTreeMap::new();
+        for step in &self.program.steps {
+            if let Step::Let(value) = step
+                && self.is_sine(*value)
+                && let Some(Op::Kernel { kernel, args, .. }) = self.program.op(*value)
+                && !angles.contains_key(&(*kernel, args.clone()))
+            {
+                let name = self.names.get(value).map(ToString::to_string).unwrap_or_default();
+                let name = name.trim_end_matches("_sin").trim_end_matches("_cos");
+                let parts = ["quarters", "rest", "tail"].map(|part| new_name(&mut used, &format!("{name}_{part}")));
+                angles.insert((*kernel, args.clone()), parts);
+            }
         }
+        angles
+    }
+
+    /// Without a branch, sine and cosine are two statements: the angle is brought between ±π/4, and both are found of what is left.
+    fn in_two(&self, kernel: Kernel, args: &[ValueId]) -> Option<(TokenStream, TokenStream)> {
+        let [quarters, rest, tail] = self.angles.get(&(kernel, args.to_vec()))?;
         let args = args.iter().map(|arg| self.value(*arg));
         let reduced = match kernel {
-            Kernel::SinCos => {
-                let function = self.sin_cos("angle");
-                quote!(math::#function(#(#args),*))
-            }
             Kernel::SinCosSum(phase) => {
                 let function = self.sin_cos("angle_sum");
                 let (high, low) = split(&self.graph.number(phase), self.graph.scalar());
                 quote!(math::#function(#(#args),*, #high, #low))
             }
-            _ => return None,
+            _ => {
+                let function = self.sin_cos("angle");
+                quote!(math::#function(#(#args),*))
+            }
         };
-        let name = parts.iter().find_map(|(_, part)| self.names.get(part)).map(ToString::to_string).unwrap_or_default();
-        let name = name.trim_end_matches("_sin").trim_end_matches("_cos");
-        let [quarters, rest, tail] = ["quarters", "rest", "tail"].map(|part| self.new_name(&format!("{name}_{part}")));
         let function = self.sin_cos("sin_cos");
-        let docs = quote!(#[doc = " the angle in quarter turns, and what is left of it, in two parts"]);
+        let doc = " the angle in quarter turns, and what is left of it, in two parts";
         Some((
-            quote!(#docs let (#quarters, #rest, #tail) = #reduced;),
+            quote!(#[doc = #doc] let (#quarters, #rest, #tail) = #reduced;),
             quote!(math::#function(#quarters, #rest, #tail)),
         ))
-    }
-
-    /// A name that nothing else has.
-    fn new_name(&self, wanted: &str) -> Ident {
-        let is_taken = |name: &Ident| self.names.values().any(|other| other == name);
-        let names = core::iter::once(ident(wanted)).chain((2..).map(|number| ident(&format!("{wanted}_{number}"))));
-        names.into_iter().find(|name| !is_taken(name)).unwrap_or_else(|| ident(wanted))
     }
 
     /// All statements.
@@ -448,7 +450,7 @@ impl<'a> Body<'a> {
             return vec![quote!(#heading #meaning let #name = #code;)];
         };
         let pattern = self.pattern(kernel, &parts);
-        match self.in_two(kernel, args, &parts) {
+        match self.in_two(kernel, args) {
             Some((first, code)) => vec![quote!(#heading #first), quote!(#meaning let #pattern = #code;)],
             None => {
                 let code = self.call(kernel, args);
@@ -576,6 +578,17 @@ impl<'a> Body<'a> {
         let late = self.asked_late();
         quote!(if #moderate !math::all_finite(#values) { #late return Err(Error::NotFinite { what: #what }); })
     }
+}
+
+/// The wanted name, or with a number the first of that kind that is not used yet.
+fn new_name(used: &mut BTreeSet<String>, wanted: &str) -> Ident {
+    let mut name = wanted.to_owned();
+    let mut number = 2;
+    while !used.insert(name.clone()) {
+        name = format!("{wanted}_{number}");
+        number += 1;
+    }
+    ident(&name)
 }
 
 /// A constant as an unevaluated sum of two numbers of the scalar.
