@@ -353,7 +353,7 @@ impl<'a> Body<'a> {
         ident(&format!("{short}{fused}{function}"))
     }
 
-    /// Names for the angles of all sines, in quarter turns, and for what is left of each, in two parts.
+    /// Names for the angles of all sines, in quarter turns, and for what is left of each, the rest less the tail.
     fn angles(&self) -> BTreeMap<(Kernel, Vec<ValueId>), [Ident; 3]> {
         let mut used: BTreeSet<String> = self.names.values().map(ToString::to_string).collect();
         let mut angles = BTreeMap::new();
@@ -388,7 +388,7 @@ impl<'a> Body<'a> {
             }
         };
         let function = self.sin_cos("sin_cos");
-        let doc = " the angle in quarter turns, and what is left of it, in two parts";
+        let doc = " the angle in quarter turns, and what is left of it: the rest less the tail";
         Some((
             quote!(#[doc = #doc] let (#quarters, #rest, #tail) = #reduced;),
             quote!(math::#function(#quarters, #rest, #tail)),

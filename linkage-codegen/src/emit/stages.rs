@@ -113,8 +113,8 @@ pub(super) fn stages(work: Work, given: &[Ident]) -> Vec<Stage> {
     stages
 }
 
-/// For each stage, how many statements are before its end. Near the length that a stage should have it ends where the fewest names are
-/// read later.
+/// For each stage, how many statements are before its end. It ends behind an angle that is reduced, or else, near the length that a stage
+/// should have, where the fewest names are read later.
 fn cuts(statements: &[Statement]) -> Vec<usize> {
     let length: Vec<usize> = statements.iter().map(|one| operations(&one.tokens)).collect();
     let kept = kept(statements);

@@ -105,7 +105,7 @@ impl<'g> Expr<'g> {
         let value = self.as_it_is();
         // Behind both, in the order of evaluation; one that was there before keeps its only way.
         if other.id < value.id {
-            self.graph.arena.borrow_mut().from_pose.insert(value.id, other.id);
+            self.graph.arena.borrow_mut().from_pose.entry(value.id).or_insert(other.id);
         }
         value
     }

@@ -659,6 +659,12 @@ impl Graph {
         self.arena.borrow_mut().scene = Some(scene);
     }
 
+    /// The scene of which results are worked out.
+    #[must_use]
+    pub fn scene(&self) -> Option<usize> {
+        self.arena.borrow().scene
+    }
+
     /// The results of all scenes are worked out.
     pub fn end_scenes(&self) {
         self.arena.borrow_mut().scene = None;

@@ -578,8 +578,8 @@ impl<'g> Rounding<'g> {
         }
         let deviations: Vec<Deviation<'g>> = args.iter().map(|arg| self.deviation(*arg)).collect();
         let args: Vec<Expr<'g>> = args.iter().map(|arg| graph.expr(*arg)).collect();
-        // 0.95 ulp of a sine, 0.70 of an angle, and no ulp is more than 2u|x|; 1.5 ε of a direction.
-        let ulps = Number::ratio(190, 100);
+        // 0.95 ulp of a sine, fused 0.96, 0.70 of an angle, and no ulp is more than 2u|x|; 1.5 ε of a direction.
+        let ulps = Number::ratio(if graph.is_fused() { 192 } else { 190 }, 100);
         let own = graph.constant(&ulps) * self.rounded(value);
         let of_sine = |own: Expr<'g>| {
             let other = graph.kernel(kernel, &args, 1 - part);

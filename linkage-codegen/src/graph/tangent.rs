@@ -122,15 +122,15 @@ impl<'g> Tangent<'g> {
             Op::Held(inner) => self.of(value(inner)),
             Op::Quantity(inner) => {
                 let derivative = self.of(value(inner));
+                // A change of sign is made where it is used.
+                let is_negated = matches!(derivative.op(), Op::Neg(_));
                 let derivative = match graph.put_together_from_pose(of.id()) {
                     Some(other) => derivative.or_from_pose(self.of(value(other))),
                     None => derivative,
                 };
-                let Some(label) = graph.label(of.id()).filter(|_| !self.posed) else { return derivative };
-                // A change of sign is made where it is used.
-                if let Op::Neg(_) = derivative.op() {
+                let Some(label) = graph.label(of.id()).filter(|_| !self.posed && !is_negated) else {
                     return derivative;
-                }
+                };
                 let (name, by) = (&label.name, &self.name);
                 derivative.named(format!("{name}_by_{by}"), format!("∂{name}/∂{by}"))
             }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use crate::graph::{Expr, Graph, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, PointId};
-use crate::model::{End, Gear, JointKind, Model, PLACE};
+use crate::model::{End, Gear, JointKind, Model, PLACE, Wanted};
 
 /// The direction that a link carries.
 #[derive(Clone, Copy, Debug)]
@@ -381,15 +381,19 @@ impl<'m> Placement<'m> {
         self.orientation(link).direction
     }
 
-    /// The direction that a link carries is known before it is brought to unit size, but for a few roundings of its size. No pose keeps that.
+    /// The direction that a link carries is known before it is brought to unit size, but for a few roundings of its size. No pose keeps that: what reads it
+    /// has another way there ([`Expr::or_from_pose`]).
     pub fn know_rough(&mut self, link: LinkId, direction: Vector<'m>) {
         self.rough.insert(link, direction);
     }
 
-    /// The direction that a link carries as it is known first: for a product with what was known before, where its size counts once.
+    /// The direction that a link carries as it is known first: for a product with what was known before, where its size counts once. In a scene
+    /// with bounds of errors that of unit size: rounding is counted of what a pose keeps.
     #[must_use]
     pub fn rough_direction(&self, link: LinkId) -> Vector<'m> {
-        self.rough.get(&link).copied().unwrap_or_else(|| self.direction(link))
+        let counts = |scene: usize| self.model.scenes[scene].results.contains(&Wanted::ErrorBound);
+        let rough = self.rough.get(&link).filter(|_| !self.graph().scene().is_some_and(counts));
+        rough.copied().unwrap_or_else(|| self.direction(link))
     }
 
     /// A vector of a link's frame, along and across the direction that the link carries.

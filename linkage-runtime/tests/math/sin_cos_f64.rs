@@ -19,8 +19,10 @@ fn check(name: &str, arguments: impl IntoIterator<Item = f64>) {
             worst.see(ulps(got, truth), || format!("{x:e}"));
         }
     }
-    for (worst, what) in worst.iter().zip(["sin", "cos", "fused sin", "fused cos"]) {
-        worst.is_at_most(bounds::SIN_COS, &format!("{what}, {name}"));
+    let [plain, fused] = [bounds::SIN_COS, bounds::FUSED_SIN_COS];
+    let promised = [("sin", plain), ("cos", plain), ("fused sin", fused), ("fused cos", fused)];
+    for (worst, (what, bound)) in worst.iter().zip(promised) {
+        worst.is_at_most(bound, &format!("{what}, {name}"));
     }
 }
 
@@ -82,7 +84,7 @@ fn check_sums(name: &str, arguments: impl IntoIterator<Item = (f64, (f64, f64))>
         }
     }
     worst[0].is_at_most(bounds::SIN_COS, &format!("sums, {name}"));
-    worst[1].is_at_most(bounds::SIN_COS, &format!("fused sums, {name}"));
+    worst[1].is_at_most(bounds::FUSED_SIN_COS, &format!("fused sums, {name}"));
 }
 
 /// The error in ulp after an absolute allowance.
@@ -110,10 +112,11 @@ fn next_to_multiples_of_half_pi() {
     );
 }
 
-/// The largest errors that were found, the first three fused, of a cosine and two sines: there every rounding goes the same way.
+/// The largest errors that were found, first those of two cosines and two sines in fused operations: there every rounding goes the same way.
 #[test]
 fn where_roundings_add_up() {
     let found = [
+        0x40A7_A123_01AA_5E4A,
         0x408C_D6B8_B459_A946,
         0x408F_EE5E_75F9_7818,
         0x4063_2492_BB9A_7D9F,

@@ -20,8 +20,8 @@
 //!
 //! Where moreover a driven angle ψ opens the outer pins, `D² = (b − a)² + 4ab sin²(ψ/2)`, all areas are divided when the linkage is
 //! compiled, so that the root is `sin μ` at once: by `2 r₁ r₂`, or at a fold so that `cos(ψ/2)` or `sin(ψ/2)` is left of the one margin and
-//! all factors are in the other. There `cos μ = u₁ · u₂ = (r₁² + r₂² − D²)/(2 r₁ r₂)` is one subtraction; of the square that vanishes at a fold
-//! where the links are stretched, so that it is −1 there, and nothing is lost beside it.
+//! all factors are in the other. There `cos μ = u₁ · u₂ = (r₁² + r₂² − D²)/(2 r₁ r₂)` is one subtraction; where
+//! the links fold stretched it is found of cos²(ψ/2) instead, which vanishes there, and nothing is lost beside the −1.
 //!
 //! Where a drive gives the length of one link, `r₁² = x² + y²` with a constant y, and D and r₂ are constants, the same four factors are
 //! taken together as `p = (D + r₂)² − r₁²`, `q = r₁² − (D − r₂)²`: there the constants fold.
@@ -330,7 +330,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         let direction = direction.named_direction(&link, &meaning);
         closed.push(direction);
         *found = dyad.orient(assembly, leg, direction)?;
-        if let (Some(rough), true) = (rough, leg.is_single()) {
+        if let Some(rough) = rough.filter(|_| leg.is_single()) {
             assembly.placement.know_rough(leg.link(), rough);
         }
         assembly.placement.connect(leg.outer);
@@ -444,9 +444,14 @@ struct Along<'m> {
 /// A vector of nearly the given length brought to unit size: by one step, `u = v (3 − v·v/r²)/(2r)`, which squares the error; where legs are
 /// so different that this does not suffice, or not known before run time, by root and division.
 ///
-/// After one step v may serve as well. Products of the second leg may read it whatever they are; of the first leg, which leads, only those
-/// that ask for it: forces are resolved along it, and would have its roundings twice.
-fn to_unit<'m>(arm: Vector<'m>, [length, other]: [Expr<'m>; 2], (link, name): (&str, &str), leads: bool) -> Along<'m> {
+/// After one step v may serve as well. Products of the second leg may read it whatever they are; of the first one only those that ask for it:
+/// forces are resolved along that leg, and would have its roundings twice.
+fn to_unit<'m>(
+    arm: Vector<'m>,
+    [length, other]: [Expr<'m>; 2],
+    (link, name): (&str, &str),
+    is_first: bool,
+) -> Along<'m> {
     let graph = arm.graph();
     let by = |factor: Expr<'m>, equation: String| arm.scaled(factor.named(format!("unit_{link}"), equation));
     if !lengths_are_alike(graph.scalar(), length, other) {
@@ -460,11 +465,11 @@ fn to_unit<'m>(arm: Vector<'m>, [length, other]: [Expr<'m>; 2], (link, name): (&
         let part = |of: Expr<'m>, arm: Option<Expr<'m>>| of.along(arm, length, name);
         Vector::new(part(of.x, arm.map(|arm| arm.x)), part(of.y, arm.map(|arm| arm.y)))
     };
-    let rough = (leads && serves).then(|| {
+    let rough = (is_first && serves).then(|| {
         let rough = arm.scaled(graph.one() / length);
         along(rough.named_direction(&format!("rough_{link}"), &format!("arm_{link}/{name}")), Some(arm))
     });
-    Along { unit: along(unit, (serves && !leads).then_some(arm)), rough }
+    Along { unit: along(unit, (serves && !is_first).then_some(arm)), rough }
 }
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {

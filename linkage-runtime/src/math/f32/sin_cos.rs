@@ -127,12 +127,6 @@ fn reduced(x: f32, rounded: f32) -> Reduced {
 }
 
 impl Reduced {
-    /// The quadrant as the bits of a number, y and t.
-    #[inline]
-    pub(super) fn in_numbers(self) -> (f32, f32, f32) {
-        (f32::from_bits(self.quadrant), self.y, self.t)
-    }
-
     /// The angle plus a small one.
     #[inline]
     pub(super) fn plus(self, small: f32) -> Self {

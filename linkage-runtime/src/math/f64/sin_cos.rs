@@ -157,12 +157,6 @@ fn reduced(x: f64, rounded: f64) -> Reduced {
 }
 
 impl Reduced {
-    /// The quadrant as the bits of a number, y and t.
-    #[inline]
-    pub(super) fn in_numbers(self) -> (f64, f64, f64) {
-        (f64::from_bits(self.quadrant), self.y, self.t)
-    }
-
     /// The angle plus a small one.
     #[inline]
     pub(super) fn plus(self, small: f64) -> Self {

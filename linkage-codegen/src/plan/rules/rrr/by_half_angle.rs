@@ -233,7 +233,7 @@ impl<'a, 'm> Opening<'a, 'm> {
         OfAngle { sum, far }
     }
 
-    /// cos μ by the law of cosines, from the spread; where the dyad folds stretched, from the square that is nothing there.
+    /// cos μ by the law of cosines, from the spread; where the dyad folds stretched only, from the square that is nothing there.
     ///
     /// Where the driver goes all round, the spread is at most two. The more it may be, the more its rounding tells in the cosine, which then is
     /// that between the directions.
@@ -247,7 +247,7 @@ impl<'a, 'm> Opening<'a, 'm> {
         let [mine, its] = [short, long].map(|index| dyad.length_name(&dyad.legs[index]));
         let joint = dyad.joint_name(dyad.inner);
         let squares = r.squared() + other.squared();
-        if self.least[0].is_zero() {
+        if self.least[0].is_zero() && !self.least[1].is_zero() {
             let cosine = (squares - (arms.b + arms.a).squared()) / area + (span / area) * arms.half.x.squared();
             return Some(cosine.named(dyad.cosine_name(), format!("cos μ at {joint} = 4ab cos²(ψ/2){divided} − 1")));
         }
