@@ -451,7 +451,7 @@ fn fused_operations_are_rounded_once_in_vectors_too() {
 }
 
 linkage! {
-    /// Links and a drive whose names are those that a sweep makes of other ones.
+    /// Links and drives whose names are those that a sweep makes of other ones.
     mod namesakes;
     ground { O: (0, 0) } link a { O -> P: 0.5m } link a_cos { P -> Q: 0.25m } link a_sin { Q -> R: 0.125m }
     revolute O: ground -> a; revolute P: a -> a_cos; revolute Q: a_cos -> a_sin;

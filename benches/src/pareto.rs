@@ -10,7 +10,7 @@ use nalgebra::SVector;
 use crate::exact::{Big, Exact, difference, size, vector};
 use crate::expert::four_bar as expert;
 use crate::harness::{Competitor, Mode, measure};
-use crate::items::four_bar::{double, equations, exact, exact_parts, put, single, statics_at_fused, torque_at_fused};
+use crate::items::four_bar::{double, equations, exact, exact_parts, fused, put, single};
 use crate::items::single::given;
 use crate::items::{Case, Errors, Item, Random, Reactions, Results, Start, dense, rounded};
 use crate::linkages::four_bar::{Loads, Pose};
@@ -242,7 +242,7 @@ fn all(poses: &Posed<Truth>) -> Methods<'_> {
     });
     methods.add(CAREFUL, same, |case: &At, out: &mut All| answer(expert::careful_pose(case.start), case, out));
     methods.add((Family::Generated, "generated, equilibrium"), same, double::statics_at_generated);
-    methods.add((Family::Generated, "generated, equilibrium, fused"), same, statics_at_fused);
+    methods.add((Family::Generated, "generated, equilibrium, fused"), same, fused::statics_at_generated);
     methods.add((Family::Generated, "generated, equilibrium, f32"), given, single::statics_at_generated);
     methods.add((Family::Generated, "generated, superposition"), same, |case: &At, out: &mut All| {
         // By the linkage with sweeps, so that the function that P1d measures is called there alone, and becomes part of its caller.
@@ -283,7 +283,7 @@ fn torque(poses: &Posed<Truth>) -> Methods<'_> {
         true
     });
     methods.add((Family::Generated, "generated, virtual work"), same, double::torque_at_generated);
-    methods.add((Family::Generated, "generated, virtual work, fused"), same, torque_at_fused);
+    methods.add((Family::Generated, "generated, virtual work, fused"), same, fused::torque_at_generated);
     methods.add((Family::Generated, "generated, virtual work, f32"), given, single::torque_at_generated);
     methods.add(ANGLES, same, |case: &At, out: &mut f64| {
         let mut all = All::default();

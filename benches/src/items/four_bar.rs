@@ -4,7 +4,7 @@ use linkage_runtime::Vector2;
 use nalgebra::{SMatrix, SVector};
 
 use super::dense::{self, Pin, eliminations};
-use super::{Case, Extent, Item, Reactions, Start, Turn};
+use super::{Case, Extent, Item, Reactions, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, Vector, equilibrium, in_frame, left, vector};
 use crate::expert::four_bar as expert;
 use crate::generators;
@@ -15,11 +15,8 @@ loads!(four_bar, f64; F13: 50.0 N, F14: 100.0 N);
 loads!(four_bar_fused, f64; F13: 50.0 N, F14: 100.0 N);
 loads!(four_bar_single, f32; F13: 50.0 N, F14: 100.0 N);
 
-impl Start for four_bar_fused::Pose {
-    fn depend(&mut self, _: f64) -> bool {
-        false
-    }
-}
+same_loads!(four_bar, f64, four_bar_fused; F13, F14);
+same_loads!(four_bar, f32, four_bar_single; F13, F14);
 
 type All = Reactions<4>;
 type At = Case<f64, Loads>;
@@ -42,7 +39,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 turn.prepared("expert", expert::pose, double::statics_expert),
                 turn.prepared("careful expert", careful_pose, double::statics_careful),
                 turn.prepared("generated", pose, double::statics_generated),
-                turn.prepared("generated, fused", fused_pose, statics_fused),
+                turn.prepared("generated, fused", fused_pose, fused::statics_generated),
             ],
         },
         Item {
@@ -52,7 +49,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 turn.competitor("expert", double::statics_at_expert),
                 turn.competitor("careful expert", double::statics_at_careful),
                 turn.competitor("generated", double::statics_at_generated),
-                turn.competitor("generated, fused", statics_at_fused),
+                turn.competitor("generated, fused", fused::statics_at_generated),
                 turn.competitor("generated, by way of a pose", statics_at_pose),
             ],
         },
@@ -63,7 +60,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 turn.competitor("expert", double::torque_at_expert),
                 turn.competitor("careful expert", double::torque_at_careful),
                 turn.competitor("generated", double::torque_at_generated),
-                turn.competitor("generated, fused", torque_at_fused),
+                turn.competitor("generated, fused", fused::torque_at_generated),
             ],
         },
         Item {
@@ -73,7 +70,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
                 parts.competitor("expert", double::parts_at_expert),
                 parts.competitor("careful expert", double::parts_at_careful),
                 parts.competitor("generated", double::parts_at_generated),
-                parts.competitor("generated, fused", parts_at_fused),
+                parts.competitor("generated, fused", fused::parts_at_generated),
             ],
         },
     ];
@@ -98,22 +95,68 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     items.into()
 }
 
+/// The torque and the forces, as generated functions name them.
+macro_rules! reactions {
+    ($all:expr) => {{
+        let all = &$all;
+        Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] }
+    }};
+}
+
+/// What is generated, in a scalar and an arithmetic.
+macro_rules! generated {
+    ($scalar:ident, $linkage:ident, $given:ident) => {
+        impl Start for crate::linkages::$linkage::Pose {
+            fn depend(&mut self, _: f64) -> bool {
+                false
+            }
+        }
+
+        pub(crate) fn statics_generated(
+            case: &Case<crate::linkages::$linkage::Pose, crate::linkages::$given::Loads>,
+            out: &mut Reactions<4, $scalar>,
+        ) -> bool {
+            match case.start.statics(&case.loads.into()) {
+                Ok(all) => {
+                    *out = reactions!(all);
+                    true
+                }
+                Err(_) => false,
+            }
+        }
+
+        generated_at!(
+            statics_at_generated,
+            $scalar,
+            $linkage::statics_at,
+            $given,
+            |all| reactions!(all),
+            Reactions<4, $scalar>
+        );
+        generated_at!(torque_at_generated, $scalar, $linkage::torque_at, $given, |torque| torque.T12, $scalar);
+        generated_at!(
+            parts_at_generated,
+            $scalar,
+            $linkage::parts_at,
+            $given,
+            |parts| [reactions!(parts.F13), reactions!(parts.F14)],
+            [Reactions<4, $scalar>; 2]
+        );
+    };
+}
+
 /// What competes in every scalar: the experts, and what is generated in plain arithmetic.
 macro_rules! competitors {
     ($name:ident, $scalar:ident, $linkage:ident) => {
         pub(crate) mod $name {
             use crate::expert::$linkage as expert;
             use crate::items::{Case, Reactions, Start};
-            use crate::linkages::$linkage::{self as generated, Loads, Pose};
+            use crate::linkages::$linkage::Loads;
 
             type All = Reactions<4, $scalar>;
             type At = Case<$scalar, Loads>;
 
-            impl Start for Pose {
-                fn depend(&mut self, _: f64) -> bool {
-                    false
-                }
-            }
+            generated!($scalar, $linkage, $linkage);
 
             impl Start for expert::Pose {
                 fn depend(&mut self, _: f64) -> bool {
@@ -131,16 +174,6 @@ macro_rules! competitors {
                 out.is_finite()
             }
 
-            pub(crate) fn statics_generated(case: &Case<Pose, Loads>, out: &mut All) -> bool {
-                match case.start.statics(&case.loads) {
-                    Ok(all) => {
-                        *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
-                        true
-                    }
-                    Err(_) => false,
-                }
-            }
-
             pub(crate) fn statics_at_expert(case: &At, out: &mut All) -> bool {
                 expert::pose(case.start).statics(&case.loads, out);
                 true
@@ -150,16 +183,6 @@ macro_rules! competitors {
                 let Some(pose) = expert::careful_pose(case.start) else { return false };
                 pose.statics(&case.loads, out);
                 out.is_finite()
-            }
-
-            pub(crate) fn statics_at_generated(case: &At, out: &mut All) -> bool {
-                match generated::statics_at(case.start, &case.loads) {
-                    Ok(all) => {
-                        *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
-                        true
-                    }
-                    Err(_) => false,
-                }
             }
 
             pub(crate) fn torque_at_expert(case: &At, out: &mut $scalar) -> bool {
@@ -173,16 +196,6 @@ macro_rules! competitors {
                 out.is_finite()
             }
 
-            pub(crate) fn torque_at_generated(case: &At, out: &mut $scalar) -> bool {
-                match generated::torque_at(case.start, &case.loads) {
-                    Ok(torque) => {
-                        *out = torque.T12;
-                        true
-                    }
-                    Err(_) => false,
-                }
-            }
-
             pub(crate) fn parts_at_expert(case: &At, out: &mut [All; 2]) -> bool {
                 expert::pose(case.start).parts(&case.loads, out);
                 true
@@ -193,79 +206,23 @@ macro_rules! competitors {
                 pose.parts(&case.loads, out);
                 out[0].is_finite() && out[1].is_finite()
             }
-
-            pub(crate) fn parts_at_generated(case: &At, out: &mut [All; 2]) -> bool {
-                match generated::parts_at(case.start, &case.loads) {
-                    Ok(parts) => {
-                        let (first, second) = (&parts.F13, &parts.F14);
-                        *out = [
-                            Reactions { torque: first.T12, forces: [first.A0, first.A, first.B, first.B0] },
-                            Reactions { torque: second.T12, forces: [second.A0, second.A, second.B, second.B0] },
-                        ];
-                        true
-                    }
-                    Err(_) => false,
-                }
-            }
         }
     };
 }
 competitors!(double, f64, four_bar);
 competitors!(single, f32, four_bar_single);
 
-fn statics_fused(case: &Case<four_bar_fused::Pose, Loads>, out: &mut All) -> bool {
-    match case.start.statics(&fused_loads(&case.loads)) {
-        Ok(all) => {
-            *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
-            true
-        }
-        Err(_) => false,
-    }
-}
+/// What is generated in fused arithmetic.
+pub(crate) mod fused {
+    use crate::items::{Case, Reactions, Start};
 
-/// The loads, of the type of the linkage in fused arithmetic.
-fn fused_loads(loads: &Loads) -> four_bar_fused::Loads {
-    four_bar_fused::Loads { F13: loads.F13, F14: loads.F14 }
-}
-
-pub(crate) fn statics_at_fused(case: &At, out: &mut All) -> bool {
-    match four_bar_fused::statics_at(case.start, &fused_loads(&case.loads)) {
-        Ok(all) => {
-            *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
-            true
-        }
-        Err(_) => false,
-    }
-}
-
-pub(crate) fn torque_at_fused(case: &At, out: &mut f64) -> bool {
-    match four_bar_fused::torque_at(case.start, &fused_loads(&case.loads)) {
-        Ok(torque) => {
-            *out = torque.T12;
-            true
-        }
-        Err(_) => false,
-    }
-}
-
-fn parts_at_fused(case: &At, out: &mut [All; 2]) -> bool {
-    match four_bar_fused::parts_at(case.start, &fused_loads(&case.loads)) {
-        Ok(parts) => {
-            let (first, second) = (&parts.F13, &parts.F14);
-            *out = [
-                Reactions { torque: first.T12, forces: [first.A0, first.A, first.B, first.B0] },
-                Reactions { torque: second.T12, forces: [second.A0, second.A, second.B, second.B0] },
-            ];
-            true
-        }
-        Err(_) => false,
-    }
+    generated!(f64, four_bar_fused, four_bar);
 }
 
 fn statics_at_pose(case: &At, out: &mut All) -> bool {
     match Pose::at(case.start).and_then(|pose| pose.statics(&case.loads)) {
         Ok(all) => {
-            *out = Reactions { torque: all.T12, forces: [all.A0, all.A, all.B, all.B0] };
+            *out = reactions!(all);
             true
         }
         Err(_) => false,

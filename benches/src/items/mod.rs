@@ -23,6 +23,49 @@ macro_rules! loads {
     };
 }
 
+/// The loads of a linkage as those of the same one in another scalar or arithmetic: the nearest numbers.
+macro_rules! same_loads {
+    ($given:ident, $scalar:ident, $linkage:ident; $($load:ident),+) => {
+        impl From<crate::linkages::$given::Loads> for crate::linkages::$linkage::Loads {
+            #[allow(clippy::cast_possible_truncation, clippy::unnecessary_cast, reason = "in whichever scalar")]
+            fn from(loads: crate::linkages::$given::Loads) -> Self {
+                Self { $($load: loads.$load.map(|part| part as $scalar)),+ }
+            }
+        }
+    };
+}
+
+/// A generated function as a competitor from the driver's angle, with the loads that the linkage is given: what is made of what it finds.
+macro_rules! generated_at {
+    ($name:ident, $scalar:ident, $linkage:ident::$scene:ident, $given:ident, |$found:ident| $results:expr, $out:ty) => {
+        pub(crate) fn $name(
+            case: &crate::items::Case<$scalar, crate::linkages::$given::Loads>,
+            out: &mut $out,
+        ) -> bool {
+            match crate::linkages::$linkage::$scene(case.start, &case.loads.into()) {
+                Ok($found) => {
+                    *out = $results;
+                    true
+                }
+                Err(_) => false,
+            }
+        }
+    };
+}
+
+/// The expert's function as a competitor from the driver's angle.
+macro_rules! expert_at {
+    ($name:ident, $scalar:ident, $linkage:ident, $forces:literal) => {
+        pub(crate) fn $name(
+            case: &crate::items::Case<$scalar, crate::linkages::$linkage::Loads>,
+            out: &mut crate::items::Reactions<$forces, $scalar>,
+        ) -> bool {
+            crate::expert::$linkage::statics(case.start, &case.loads, out);
+            true
+        }
+    };
+}
+
 pub(crate) mod dense;
 pub(crate) mod four_bar;
 pub(crate) mod single;

@@ -2,7 +2,7 @@
 
 use super::{Case, Extent, Item, Turn, four_bar, six_bar, slider_crank};
 use crate::expert::four_bar_single as expert;
-use crate::linkages::{self, four_bar_single};
+use crate::linkages::four_bar_single;
 
 pub(super) fn items(extent: Extent) -> Vec<Item> {
     let extent = Extent { single: true, ..extent };
@@ -65,8 +65,8 @@ fn of_six_bar(extent: Extent) -> Item {
         id: "P2b-f32",
         title: "six-bar with weights in f32: all forces and the torque, from the driver's angle",
         competitors: vec![
-            turn.posed("expert", given, six_bar::single::statics_at_expert),
-            turn.posed("generated", given, six_bar::single::statics_at_generated),
+            turn.posed("expert", given, six_bar::statics_at_expert_single),
+            turn.posed("generated", given, six_bar::statics_at_generated_single),
         ],
     }
 }
@@ -77,8 +77,8 @@ fn of_slider_crank(extent: Extent) -> Item {
         id: "P3b-f32",
         title: "slider-crank in f32: all forces and the torque, from the driver's angle",
         competitors: vec![
-            turn.posed("expert", given, slider_crank::single::statics_at_expert),
-            turn.posed("generated", given, slider_crank::single::statics_at_generated),
+            turn.posed("expert", given, slider_crank::statics_at_expert_single),
+            turn.posed("generated", given, slider_crank::statics_at_generated_single),
         ],
     }
 }
@@ -96,18 +96,3 @@ fn prepared<S, L: Copy, K: From<L>>(prepare: impl Fn(f32) -> S) -> impl Fn(&Case
         Case { start: prepare(start), loads }
     }
 }
-
-/// The same of the loads.
-macro_rules! given {
-    ($double:ident, $single:ident; $($load:ident),+) => {
-        impl From<linkages::$double::Loads> for linkages::$single::Loads {
-            #[allow(clippy::cast_possible_truncation, reason = "they are numbers of single precision")]
-            fn from(loads: linkages::$double::Loads) -> Self {
-                Self { $($load: loads.$load.map(|part| part as f32)),+ }
-            }
-        }
-    };
-}
-given!(four_bar, four_bar_single; F13, F14);
-given!(six_bar, six_bar_single; F, G);
-given!(slider_crank, slider_crank_single; gas);

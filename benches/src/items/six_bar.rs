@@ -8,7 +8,6 @@ use super::{Case, Extent, Item, Reactions, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, in_frame, left, vector};
 use crate::generators;
 use crate::linkages::six_bar::{Loads, Pose};
-use crate::linkages::six_bar_fused;
 
 loads!(six_bar, f64; F: 50.0 N, G: 100.0 N);
 loads!(six_bar_single, f32; F: 50.0 N, G: 100.0 N);
@@ -19,8 +18,8 @@ type At = Case<f64, Loads>;
 pub(super) fn items(extent: Extent) -> Vec<Item> {
     let turn = Turn::new(extent, 50.0, |theta, loads| vec![exact(theta, loads)]);
     let mut competitors = vec![
-        turn.competitor("expert", double::statics_at_expert),
-        turn.competitor("generated", double::statics_at_generated),
+        turn.competitor("expert", statics_at_expert),
+        turn.competitor("generated", statics_at_generated),
         turn.competitor("generated, fused", statics_at_fused),
     ];
     competitors.extend(eliminations!(|method, call| turn.competitor(method, call), "15x15", statics_at_eliminated));
@@ -32,48 +31,27 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     }]
 }
 
-/// What competes in every scalar: the expert, and what is generated in plain arithmetic.
-macro_rules! competitors {
-    ($name:ident, $scalar:ident, $linkage:ident) => {
-        pub(crate) mod $name {
-            use crate::expert::$linkage as expert;
-            use crate::items::{Case, Reactions};
-            use crate::linkages::$linkage::{self as generated, Loads};
-
-            type All = Reactions<7, $scalar>;
-            type At = Case<$scalar, Loads>;
-
-            pub(crate) fn statics_at_expert(case: &At, out: &mut All) -> bool {
-                expert::statics(case.start, &case.loads, out);
-                true
-            }
-
-            pub(crate) fn statics_at_generated(case: &At, out: &mut All) -> bool {
-                match generated::statics_at(case.start, &case.loads) {
-                    Ok(all) => {
-                        *out =
-                            Reactions { torque: all.T, forces: [all.A0, all.A, all.B, all.B0, all.C, all.D, all.D0] };
-                        true
-                    }
-                    Err(_) => false,
-                }
-            }
-        }
+/// What is generated, in a scalar and an arithmetic.
+macro_rules! generated {
+    ($name:ident, $scalar:ident, $linkage:ident, $given:ident) => {
+        generated_at!(
+            $name,
+            $scalar,
+            $linkage::statics_at,
+            $given,
+            |all| Reactions { torque: all.T, forces: [all.A0, all.A, all.B, all.B0, all.C, all.D, all.D0] },
+            Reactions<7, $scalar>
+        );
     };
 }
-competitors!(double, f64, six_bar);
-competitors!(single, f32, six_bar_single);
+generated!(statics_at_generated, f64, six_bar, six_bar);
+generated!(statics_at_generated_single, f32, six_bar_single, six_bar_single);
+generated!(statics_at_fused, f64, six_bar_fused, six_bar);
+same_loads!(six_bar, f64, six_bar_fused; F, G);
+same_loads!(six_bar, f32, six_bar_single; F, G);
 
-fn statics_at_fused(case: &At, out: &mut All) -> bool {
-    let Loads { F, G } = case.loads;
-    match six_bar_fused::statics_at(case.start, &six_bar_fused::Loads { F, G }) {
-        Ok(all) => {
-            *out = Reactions { torque: all.T, forces: [all.A0, all.A, all.B, all.B0, all.C, all.D, all.D0] };
-            true
-        }
-        Err(_) => false,
-    }
-}
+expert_at!(statics_at_expert, f64, six_bar, 7);
+expert_at!(statics_at_expert_single, f32, six_bar_single, 7);
 
 /// The equations: moments about the origin of each link's frame.
 #[inline]

@@ -8,7 +8,6 @@ use super::{Case, Extent, Item, Reactions, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, equilibrium, vector};
 use crate::generators;
 use crate::linkages::slider_crank::{Loads, Pose};
-use crate::linkages::slider_crank_fused;
 
 loads!(slider_crank, f64; gas: 50.0 N);
 loads!(slider_crank_single, f32; gas: 50.0 N);
@@ -19,8 +18,8 @@ type At = Case<f64, Loads>;
 pub(super) fn items(extent: Extent) -> Vec<Item> {
     let turn = Turn::new(extent, 45.0, |theta, loads| vec![exact(theta, loads)]);
     let mut competitors = vec![
-        turn.competitor("expert", double::statics_at_expert),
-        turn.competitor("generated", double::statics_at_generated),
+        turn.competitor("expert", statics_at_expert),
+        turn.competitor("generated", statics_at_generated),
         turn.competitor("generated, fused", statics_at_fused),
     ];
     competitors.extend(eliminations!(|method, call| turn.competitor(method, call), "9x9", statics_at_eliminated));
@@ -28,46 +27,27 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     vec![Item { id: "P3b", title: "slider-crank: all forces and the torque, from the driver's angle", competitors }]
 }
 
-/// What competes in every scalar: the expert, and what is generated in plain arithmetic.
-macro_rules! competitors {
-    ($name:ident, $scalar:ident, $linkage:ident) => {
-        pub(crate) mod $name {
-            use crate::expert::$linkage as expert;
-            use crate::items::{Case, Reactions};
-            use crate::linkages::$linkage::{self as generated, Loads};
-
-            type All = Reactions<4, $scalar>;
-            type At = Case<$scalar, Loads>;
-
-            pub(crate) fn statics_at_expert(case: &At, out: &mut All) -> bool {
-                expert::statics(case.start, &case.loads, out);
-                true
-            }
-
-            pub(crate) fn statics_at_generated(case: &At, out: &mut All) -> bool {
-                match generated::statics_at(case.start, &case.loads) {
-                    Ok(all) => {
-                        *out = Reactions { torque: all.T, forces: [all.O, all.A, all.B, all.P.force] };
-                        true
-                    }
-                    Err(_) => false,
-                }
-            }
-        }
+/// What is generated, in a scalar and an arithmetic.
+macro_rules! generated {
+    ($name:ident, $scalar:ident, $linkage:ident, $given:ident) => {
+        generated_at!(
+            $name,
+            $scalar,
+            $linkage::statics_at,
+            $given,
+            |all| Reactions { torque: all.T, forces: [all.O, all.A, all.B, all.P.force] },
+            Reactions<4, $scalar>
+        );
     };
 }
-competitors!(double, f64, slider_crank);
-competitors!(single, f32, slider_crank_single);
+generated!(statics_at_generated, f64, slider_crank, slider_crank);
+generated!(statics_at_generated_single, f32, slider_crank_single, slider_crank_single);
+generated!(statics_at_fused, f64, slider_crank_fused, slider_crank);
+same_loads!(slider_crank, f64, slider_crank_fused; gas);
+same_loads!(slider_crank, f32, slider_crank_single; gas);
 
-fn statics_at_fused(case: &At, out: &mut All) -> bool {
-    match slider_crank_fused::statics_at(case.start, &slider_crank_fused::Loads { gas: case.loads.gas }) {
-        Ok(all) => {
-            *out = Reactions { torque: all.T, forces: [all.O, all.A, all.B, all.P.force] };
-            true
-        }
-        Err(_) => false,
-    }
-}
+expert_at!(statics_at_expert, f64, slider_crank, 4);
+expert_at!(statics_at_expert_single, f32, slider_crank_single, 4);
 
 /// Unknowns: the forces at O, A, B, the guide's force and couple, the torque. Moments about O, A and B.
 #[inline]

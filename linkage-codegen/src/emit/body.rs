@@ -364,7 +364,7 @@ impl<'a> Body<'a> {
                 && !angles.contains_key(&(*kernel, args.clone()))
             {
                 let name = self.names.get(value).map(ToString::to_string).unwrap_or_default();
-                let name = name.trim_end_matches("_sin").trim_end_matches("_cos");
+                let name = ["_sin", "_cos"].into_iter().find_map(|part| name.strip_suffix(part)).unwrap_or(&name);
                 let parts = ["quarters", "rest", "tail"].map(|part| new_name(&mut used, &format!("{name}_{part}")));
                 angles.insert((*kernel, args.clone()), parts);
             }

@@ -381,8 +381,8 @@ impl<'m> Placement<'m> {
         self.orientation(link).direction
     }
 
-    /// The direction that a link carries is known before it is brought to unit size, but for a few roundings of its size. No pose keeps that: what reads it
-    /// has another way there ([`Expr::or_from_pose`]).
+    /// The direction that a link carries is known before it is brought to unit size, but for a few roundings of its size. No pose keeps that:
+    /// what reads it has another way there ([`Expr::or_from_pose`]).
     pub fn know_rough(&mut self, link: LinkId, direction: Vector<'m>) {
         self.rough.insert(link, direction);
     }

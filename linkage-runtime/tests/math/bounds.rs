@@ -4,8 +4,8 @@
 /// add up to 0.944 ulp if all are the worst at once.
 pub(crate) const SIN_COS: f64 = 0.95;
 
-/// Both of `fused_sin_cos`: the roundings of the cosine add up to 0.957 ulp, 0.5 at last, 0.196 of each of the two sums before, 0.045 of the product,
-/// and 0.02 for the tail, which is multiplied by y in place of sin y.
+/// Both of `fused_sin_cos`: the roundings of the cosine add up to 0.957 ulp, 0.5 at last, 0.196 of each of the two sums before, 0.045 of the
+/// product, and 0.02 for the tail, which is multiplied by y in place of sin y.
 pub(crate) const FUSED_SIN_COS: f64 = 0.96;
 
 /// The same of `sin_cos_sum` and `fused_sin_cos_sum`, after an absolute allowance of so many ε²·max(4, |x|).

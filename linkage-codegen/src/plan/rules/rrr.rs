@@ -20,8 +20,8 @@
 //!
 //! Where moreover a driven angle ψ opens the outer pins, `D² = (b − a)² + 4ab sin²(ψ/2)`, all areas are divided when the linkage is
 //! compiled, so that the root is `sin μ` at once: by `2 r₁ r₂`, or at a fold so that `cos(ψ/2)` or `sin(ψ/2)` is left of the one margin and
-//! all factors are in the other. There `cos μ = u₁ · u₂ = (r₁² + r₂² − D²)/(2 r₁ r₂)` is one subtraction; where
-//! the links fold stretched it is found of cos²(ψ/2) instead, which vanishes there, and nothing is lost beside the −1.
+//! all factors are in the other. There `cos μ = u₁ · u₂ = (r₁² + r₂² − D²)/(2 r₁ r₂)` is one subtraction; where the links fold stretched
+//! only, it is found of cos²(ψ/2) instead, which vanishes there, and nothing is lost beside the −1.
 //!
 //! Where a drive gives the length of one link, `r₁² = x² + y²` with a constant y, and D and r₂ are constants, the same four factors are
 //! taken together as `p = (D + r₂)² − r₁²`, `q = r₁² − (D − r₂)²`: there the constants fold.
@@ -322,7 +322,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let (r1, r2) = (dyad.length(first), dyad.length(second));
     let name = dyad.joint_name(dyad.inner);
     let (mut directions, mut closed) = ([closing.d; 2], Vec::new());
-    for ((found, leg), Along { unit: direction, rough }) in
+    for ((found, leg), Pointing { unit: direction, rough }) in
         directions.iter_mut().zip(&dyad.legs).zip(arms(dyad, &closing))
     {
         let link = dyad.link_name(leg);
@@ -398,7 +398,7 @@ fn pins_are_close(d2: Expr<'_>, lengths: [Expr<'_>; 2]) -> bool {
 /// Of legs of the same order the longer one is the shorter one and d: both vectors have the rounding of the shorter link and of d, which is
 /// at most twice as long as the longer link. Legs whose pins are close are of the same order, whatever one of them measures: found by
 /// themselves, they would differ from d by the rounding of constants, over 2D. Of others each is found by itself.
-fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Along<'m>; 2] {
+fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
     let lengths = dyad.lengths();
     let Closing { d, d2, of_angle, .. } = *closing;
     let (graph, name) = (d2.graph(), dyad.joint_name(dyad.inner));
@@ -435,7 +435,7 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Along<'m>; 2] {
 }
 
 /// The direction of a leg.
-struct Along<'m> {
+struct Pointing<'m> {
     unit: Vector<'m>,
     /// The same before it is brought to unit size, if its size has a few roundings only.
     rough: Option<Vector<'m>>,
@@ -451,11 +451,14 @@ fn to_unit<'m>(
     [length, other]: [Expr<'m>; 2],
     (link, name): (&str, &str),
     is_first: bool,
-) -> Along<'m> {
+) -> Pointing<'m> {
     let graph = arm.graph();
     let by = |factor: Expr<'m>, equation: String| arm.scaled(factor.named(format!("unit_{link}"), equation));
     if !lengths_are_alike(graph.scalar(), length, other) {
-        return Along { unit: by(graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}")), rough: None };
+        return Pointing {
+            unit: by(graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}")),
+            rough: None,
+        };
     }
     let half = |n: i64| graph.constant(&Number::ratio(n, 2));
     let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
@@ -469,7 +472,7 @@ fn to_unit<'m>(
         let rough = arm.scaled(graph.one() / length);
         along(rough.named_direction(&format!("rough_{link}"), &format!("arm_{link}/{name}")), Some(arm))
     });
-    Along { unit: along(unit, (serves && !is_first).then_some(arm)), rough }
+    Pointing { unit: along(unit, (serves && !is_first).then_some(arm)), rough }
 }
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {

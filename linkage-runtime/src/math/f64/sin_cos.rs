@@ -95,6 +95,7 @@ fn large_sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
     reduce_large_sum(x, hi, lo).one_by_one()
 }
 
+/// [`sin_cos`] without its branch.
 #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
 #[inline]
 fn short(x: f64) -> (f64, f64) {

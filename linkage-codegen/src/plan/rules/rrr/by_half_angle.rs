@@ -246,12 +246,11 @@ impl<'a, 'm> Opening<'a, 'm> {
         let [r, other] = [short, long].map(|index| dyad.lengths()[index]);
         let [mine, its] = [short, long].map(|index| dyad.length_name(&dyad.legs[index]));
         let joint = dyad.joint_name(dyad.inner);
-        let squares = r.squared() + other.squared();
         if self.least[0].is_zero() && !self.least[1].is_zero() {
-            let cosine = (squares - (arms.b + arms.a).squared()) / area + (span / area) * arms.half.x.squared();
+            let cosine = (span / area) * arms.half.x.squared() - area.graph().one();
             return Some(cosine.named(dyad.cosine_name(), format!("cos μ at {joint} = 4ab cos²(ψ/2){divided} − 1")));
         }
-        let cosine = (squares - (arms.b - arms.a).squared()) / area - spread;
+        let cosine = (r.squared() + other.squared() - (arms.b - arms.a).squared()) / area - spread;
         Some(cosine.named(dyad.cosine_name(), format!("cos μ at {joint} = ({mine}² + {its}²){divided} − D2_{joint}")))
     }
 
