@@ -451,9 +451,10 @@ fn fused_operations_are_rounded_once_in_vectors_too() {
 }
 
 linkage! {
-    /// Links and drives whose names are those that a sweep makes of other ones.
+    /// Parameters, links and drives whose names are those of a sweep's columns, or that it makes of other ones.
     mod namesakes;
-    ground { O: (0, 0) } link a { O -> P: 0.5m } link a_cos { P -> Q: 0.25m } link a_sin { Q -> R: 0.125m }
+    param kept: length = 0.5m; param holds: length = 0.25m;
+    ground { O: (0, 0) } link a { O -> P: kept } link a_cos { P -> Q: holds } link a_sin { Q -> R: 0.125m }
     revolute O: ground -> a; revolute P: a -> a_cos; revolute Q: a_cos -> a_sin;
     drive a_quarters: O; drive a_rest: P; drive a_tail: Q;
     load W: gravity = 9.81m/s^2 @ -90deg; mass a: 1kg at (0.25m, 0); mass a_cos: 1kg at (0.125m, 0); mass a_sin: 1kg at (0.1m, 0);
@@ -472,9 +473,10 @@ fn names_that_meet_are_kept_apart() {
         a_tail: Series::Each(&third),
     };
     let results = namesakes::Path { effort_a_quarters: a, effort_a_rest: b, effort_a_tail: c };
-    namesakes::path(&inputs, results).expect("regular");
+    let linkage = namesakes::Linkage::new(&namesakes::Params::default()).expect("lengths");
+    namesakes::path(&linkage, &inputs, results).expect("regular");
     for index in 0..COUNT {
-        let one = namesakes::held_at(first[index], second[index], third[index]).expect("regular");
+        let one = namesakes::held_at(&linkage, first[index], second[index], third[index]).expect("regular");
         let expected = [one.effort_a_quarters, one.effort_a_rest, one.effort_a_tail];
         assert_eq!(efforts.map(|row| row[index].to_bits()), expected.map(f64::to_bits), "position {index}");
     }

@@ -51,6 +51,20 @@ pub(super) struct Body<'a> {
     angles: BTreeMap<(Kernel, Vec<ValueId>), [Ident; 3]>,
 }
 
+/// A `let` statement.
+pub(super) struct Statement<'a> {
+    section: &'a str,
+    meaning: &'a str,
+    pub(super) code: TokenStream,
+}
+
+#[cfg(test)]
+impl From<TokenStream> for Statement<'_> {
+    fn from(code: TokenStream) -> Self {
+        Self { section: "", meaning: "", code }
+    }
+}
+
 /// What stands above values, one after the other: the heading of a new section, and what a value means.
 #[derive(Default)]
 struct Notes<'a> {
@@ -60,15 +74,33 @@ struct Notes<'a> {
 
 impl<'a> Notes<'a> {
     /// What stands above the next value. What holds for the one before as well, as for the components of a vector, is not said again.
-    fn above(&mut self, value: &'a Value) -> (Option<&'a str>, Option<&'a str>) {
-        let is_new = !value.section.is_empty() && value.section != self.section;
-        let heading = is_new.then_some(value.section.as_str());
-        let meaning = value.label.as_ref().map_or("", |label| &label.equation);
+    fn above(&mut self, section: &'a str, meaning: &'a str) -> (Option<&'a str>, Option<&'a str>) {
+        let heading = Some(section).filter(|section| !section.is_empty() && *section != self.section);
         let is_said = heading.is_none() && meaning == self.meaning;
         self.section = heading.unwrap_or(self.section);
         self.meaning = meaning;
         (heading, Some(meaning).filter(|meaning| !meaning.is_empty() && !is_said))
     }
+
+    /// The statement with what stands above it.
+    fn with(&mut self, Statement { section, meaning, code }: &Statement<'a>) -> TokenStream {
+        let (heading, meaning) = self.above(section, meaning);
+        let [heading, meaning] =
+            [heading.map(|heading| format!(" — {heading} —")), meaning.map(|meaning| format!(" {meaning}"))]
+                .map(|text| text.map(|text| quote!(#[doc = #text])));
+        quote!(#heading #meaning #code)
+    }
+}
+
+/// Statements with their headings and meanings.
+pub(super) fn with_notes(statements: &[Statement]) -> TokenStream {
+    let mut notes = Notes::default();
+    statements.iter().map(|statement| notes.with(statement)).collect()
+}
+
+/// The section of a value, and what it means.
+fn notes_of(value: &Value) -> (&str, &str) {
+    (&value.section, value.label.as_ref().map_or("", |label| &label.equation))
 }
 
 /// What becomes of a check.
@@ -126,10 +158,16 @@ impl<'a> Body<'a> {
     }
 
     /// All statements, without a branch, and the conditions under which the results mean something.
-    pub(super) fn straight(mut self) -> (Vec<TokenStream>, Vec<TokenStream>, Self) {
+    pub(super) fn straight(mut self) -> (Vec<Statement<'a>>, Vec<TokenStream>, Self) {
         self.checks = Checks::Gathered;
         self.angles = self.angles();
-        let (statements, body) = self.each_statement();
+        let body = self;
+        let mut calls = body.calls();
+        let values = body.program.steps.iter().filter_map(|step| match step {
+            Step::Let(value) => Some(*value),
+            _ => None,
+        });
+        let statements = values.flat_map(|value| body.let_statements(value, &mut calls)).collect();
         let angles: BTreeSet<(Kernel, Vec<ValueId>)> = body.kernels().collect();
         let angles = angles.into_iter().filter_map(|(kernel, args)| body.is_short(kernel, &args));
         // No angle is short that is not finite.
@@ -204,7 +242,8 @@ impl<'a> Body<'a> {
         for step in &self.program.steps {
             let Step::Let(of) = step else { continue };
             let Some(name) = names(*of) else { continue };
-            let (heading, meaning) = notes.above(self.program.value(*of));
+            let (section, meaning) = notes_of(self.program.value(*of));
+            let (heading, meaning) = notes.above(section, meaning);
             lines.extend(heading.map(|heading| format!("{heading}:")));
             lines.extend(meaning.map(|meaning| format!("  {meaning}")));
             let formula = Formula { model, terms: Values { program: self.program, names: &names, of: *of } };
@@ -373,7 +412,7 @@ impl<'a> Body<'a> {
     }
 
     /// Without a branch, sine and cosine are two statements: the angle is brought between ±π/4, and both are found of what is left.
-    fn in_two(&self, kernel: Kernel, args: &[ValueId]) -> Option<(TokenStream, TokenStream)> {
+    fn in_two(&self, kernel: Kernel, args: &[ValueId]) -> Option<(Statement<'a>, TokenStream)> {
         let [quarters, rest, tail] = self.angles.get(&(kernel, args.to_vec()))?;
         let args = args.iter().map(|arg| self.value(*arg));
         let reduced = match kernel {
@@ -388,21 +427,37 @@ impl<'a> Body<'a> {
             }
         };
         let function = self.sin_cos("sin_cos");
-        let doc = " the angle in quarter turns, and what is left of it: the rest less the tail";
+        let meaning = "the angle in quarter turns, and what is left of it: the rest less the tail";
         Some((
-            quote!(#[doc = #doc] let (#quarters, #rest, #tail) = #reduced;),
+            Statement { section: "", meaning, code: quote!(let (#quarters, #rest, #tail) = #reduced;) },
             quote!(math::#function(#quarters, #rest, #tail)),
         ))
     }
 
     /// All statements.
     pub(super) fn statements(self) -> (TokenStream, Self) {
-        let (statements, body) = self.each_statement();
-        (statements.into_iter().collect(), body)
+        let mut notes = Notes::default();
+        let mut calls = self.calls();
+        let mut statements = TokenStream::new();
+        for step in &self.program.steps {
+            let statement = match step {
+                Step::Let(value) => {
+                    let own = self.let_statements(*value, &mut calls);
+                    statements.extend(own.iter().map(|statement| notes.with(statement)));
+                    continue;
+                }
+                Step::Check { guard, weaker, .. } => self.check(guard, weaker.as_ref()),
+                Step::FiniteInput(value) => self.finite_input(*value),
+                Step::FiniteResults(checked) => self.finite_results(checked),
+            };
+            // Behind a check it is said again.
+            notes.meaning = "";
+            statements.extend(statement);
+        }
+        (statements, self)
     }
 
-    fn each_statement(self) -> (Vec<TokenStream>, Self) {
-        let mut notes = Notes::default();
+    fn calls(&self) -> Calls {
         let mut calls: Calls = BTreeMap::new();
         for step in &self.program.steps {
             if let Step::Let(value) = step
@@ -411,27 +466,11 @@ impl<'a> Body<'a> {
                 calls.entry((*kernel, args.clone())).or_default().push((*part, *value));
             }
         }
-        let mut statements = Vec::new();
-        for step in &self.program.steps {
-            let statement = match step {
-                Step::Let(value) => {
-                    statements.extend(self.let_statements(*value, &mut calls, &mut notes));
-                    continue;
-                }
-                _ if self.checks == Checks::Gathered => continue,
-                Step::Check { guard, weaker, .. } => self.check(guard, weaker.as_ref()),
-                Step::FiniteInput(value) => self.finite_input(*value),
-                Step::FiniteResults(checked) => self.finite_results(checked),
-            };
-            // Behind a check it is said again.
-            notes.meaning = "";
-            statements.push(statement);
-        }
-        (statements, self)
+        calls
     }
 
     /// The statement of a value, if it has one of its own, and that before it if it takes two.
-    fn let_statements(&self, value: ValueId, calls: &mut Calls, notes: &mut Notes<'a>) -> Vec<TokenStream> {
+    fn let_statements(&self, value: ValueId, calls: &mut Calls) -> Vec<Statement<'a>> {
         let Some(name) = self.names.get(&value) else { return Vec::new() };
         let call = match self.program.op(value) {
             Some(Op::Kernel { kernel, args, .. }) => match calls.remove(&(*kernel, args.clone())) {
@@ -441,20 +480,22 @@ impl<'a> Body<'a> {
             },
             _ => None,
         };
-        let (heading, meaning) = notes.above(self.program.value(value));
-        let [heading, meaning] =
-            [heading.map(|heading| format!(" — {heading} —")), meaning.map(|meaning| format!(" {meaning}"))]
-                .map(|text| text.map(|text| quote!(#[doc = #text])));
+        let (section, meaning) = notes_of(self.program.value(value));
         let Some((kernel, args, parts)) = call else {
             let code = self.written_out(value).tokens;
-            return vec![quote!(#heading #meaning let #name = #code;)];
+            return vec![Statement { section, meaning, code: quote!(let #name = #code;) }];
         };
         let pattern = self.pattern(kernel, &parts);
         match self.in_two(kernel, args) {
-            Some((first, code)) => vec![quote!(#heading #first), quote!(#meaning let #pattern = #code;)],
+            Some((first, code)) => {
+                vec![
+                    Statement { section, ..first },
+                    Statement { section, meaning, code: quote!(let #pattern = #code;) },
+                ]
+            }
             None => {
                 let code = self.call(kernel, args);
-                vec![quote!(#heading #meaning let #pattern = #code;)]
+                vec![Statement { section, meaning, code: quote!(let #pattern = #code;) }]
             }
         }
     }

@@ -5,9 +5,10 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
+use super::body::with_notes;
 use super::functions::{body, input_name, lane_bindings, outputs};
 use super::literals::ident;
-use super::stages::{self, Stage, Work};
+use super::stages::{self, Column, Stage, Work};
 use super::types::{drive_doc, given_motion, has_params, load_doc, motion_doc, motion_type, run_time_loads, scalar};
 use crate::Linkage;
 use crate::graph::{Kernel, Op, Symbol};
@@ -223,35 +224,12 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
     let (statements, conditions, body) = body(linkage, program).straight();
     let results = outputs(&body, program);
     let stages = stages::stages(Work { statements, conditions, results }, &given);
-    let kept: Vec<Ident> = stages.iter().flat_map(|stage| &stage.keeps).cloned().collect();
-    let kept_count = Literal::usize_unsuffixed(kept.len());
-    let (taken, left) = (given.iter().map(column), kept.iter().map(column));
-    let into: Vec<Ident> = fields.iter().map(|field| ident(&format!("{field}_results"))).collect();
-    let mut checked = false;
-    let loops = stages.into_iter().map(|stage| {
-        let Stage { reads, statements, conditions, keeps, results } = stage;
-        let (from, to) = (reads.iter().map(column), keeps.iter().map(column));
-        let results = results.into_iter().map(|(place, value)| {
-            let column = &into[place];
-            quote!(#column[lane] = #value;)
-        });
-        // All conditions so far, those of the stages before among them.
-        let before = (checked && !conditions.is_empty()).then(|| quote!((holds[lane] > 0.0)));
-        checked |= !conditions.is_empty();
-        let holds = before.into_iter().chain(conditions).reduce(|all, one| quote!(#all & #one));
-        let holds = holds.map(|all| quote!(holds[lane] = if #all { 1.0 } else { 0.0 };));
-        quote! {
-            for lane in 0..lanes {
-                #(let #reads = #from[lane];)*
-                #statements
-                #(#to[lane] = #keeps;)*
-                #(#results)*
-                #holds
-            }
-        }
+    let kept = stages.iter().flat_map(|stage| &stage.keeps).filter_map(|(column, _)| match column {
+        Column::Kept(place) => Some(place + 1),
+        _ => None,
     });
-    let loops: Vec<TokenStream> = loops.collect();
-    let always = (!checked).then(|| quote!(*holds = [1.0; math::BLOCK];));
+    let kept_count = Literal::usize_unsuffixed(kept.max().unwrap_or(0));
+    let loops = loops(stages);
     let doc = format!(" The positions of the sweep `{}`, of which several are computed at once.", sweep.name);
     let items = quote! {
         #[doc = #doc]
@@ -262,9 +240,7 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
                 let lanes = lanes.min(math::BLOCK);
                 #shared
                 #bindings
-                let math::Block { given: [#(#taken),*], kept: [#(#left),*], results: [#(#into),*], holds } = block;
-                #always
-                #(#loops)*
+                #loops
             }
             #[inline(always)]
             fn give(&self, first: usize, [#(#given_columns),*]: &mut [math::Column; #given_count]) {
@@ -281,6 +257,47 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
         }
     };
     Lanes { items, call: quote!(math::sweep(count, &mut #ty { #(#names),* })) }
+}
+
+/// A loop over the positions of a block for each stage.
+fn loops(stages: Vec<Stage>) -> TokenStream {
+    let of = |column: Column| {
+        let (kind, place) = match column {
+            Column::Given(place) => (quote!(given), place),
+            Column::Kept(place) => (quote!(kept), place),
+            Column::Result(place) => (quote!(results), place),
+        };
+        let place = Literal::usize_unsuffixed(place);
+        quote!(block.#kind[#place])
+    };
+    let mut checked = false;
+    let loops = stages.into_iter().map(|Stage { reads, statements, conditions, keeps }| {
+        let statements = with_notes(&statements);
+        let reads = reads.into_iter().map(|(name, column)| {
+            let column = of(column);
+            quote!(let #name = #column[lane];)
+        });
+        let keeps = keeps.into_iter().map(|(column, value)| {
+            let column = of(column);
+            quote!(#column[lane] = #value;)
+        });
+        // All conditions so far, those of the stages before among them.
+        let before = (checked && !conditions.is_empty()).then(|| quote!((block.holds[lane] > 0.0)));
+        checked |= !conditions.is_empty();
+        let holds = before.into_iter().chain(conditions).reduce(|all, one| quote!(#all & #one));
+        let holds = holds.map(|all| quote!(block.holds[lane] = if #all { 1.0 } else { 0.0 };));
+        quote! {
+            for lane in 0..lanes {
+                #(#reads)*
+                #statements
+                #(#keeps)*
+                #holds
+            }
+        }
+    });
+    let loops: Vec<TokenStream> = loops.collect();
+    let always = (!checked).then(|| quote!(block.holds = [1.0; math::BLOCK];));
+    quote!(#always #(#loops)*)
 }
 
 /// A sweep with its types.
