@@ -326,6 +326,50 @@ fn slides_that_are_nearly_parallel() {
     }
 }
 
+/// Where a link is longer than others reach by less than rounding, poses at which they reach farthest have places, and forces or a dead centre.
+#[test]
+fn lengths_that_differ_by_less_than_rounding() {
+    let (mut dead, mut alive) = (0, 0);
+    let mut check = |text: &str, drives: &[f64]| {
+        let arguments = Arguments { drives: drives.to_vec(), loads: vec![[1.0, 2.0]], ..Arguments::default() };
+        for arithmetic in ["plain", "fused"] {
+            let linkage = compile(&text.replacen(';', &format!("; arithmetic {arithmetic};"), 1));
+            scene::<Double>(&linkage, "where", &arguments).unwrap_or_else(|fault| panic!("{fault:?}, {text}"));
+            match scene::<Double>(&linkage, "all", &arguments) {
+                Ok(values) => {
+                    assert!(values.values().all(|value| value.0.is_finite()), "{text}");
+                    alive += 1;
+                }
+                Err(Fault::Failed(Failure::DeadCentre { .. })) => dead += 1,
+                Err(fault) => panic!("{fault:?}, {text}"),
+            }
+        }
+    };
+    let decimal = |tenths: u32, more: &str| format!("{}.{}{more}m", tenths / 10, tenths % 10);
+    let straight = core::f64::consts::PI;
+    for (a, c) in (1..30).flat_map(|a| (1..30).map(move |c| (a, c))).step_by(7) {
+        for more in ["000000000000000001", "0000000000000000001"] {
+            let [crank, offset, rod] = [decimal(a, ""), decimal(c, ""), decimal(a + c, more)];
+            let slider = format!(
+                "pub mod sample; ground {{ A0: (0, 0), C: (0, -{offset}) }} link crank {{ A0 -> A: {crank} }} link rod {{ A -> B: {rod} }}
+                 link piston {{ B }} revolute A0: ground -> crank; revolute A: crank -> rod; revolute B: rod -> piston;
+                 prismatic C: ground.C -> piston.B along 0deg; drive theta: A0; assemble B: ahead(A);
+                 load F: force(piston.B); scene all: equilibrium; scene where: position;"
+            );
+            check(&slider, &[straight / 2.0]);
+            let ground = decimal(3, "");
+            let five = format!(
+                "pub mod sample; ground {{ A0: (0, 0), B0: ({ground}, 0) }} link a {{ A0 -> A: {crank} }} link b {{ B0 -> B: {offset} }}
+                 link c {{ A -> C: {ground} }} link d {{ B -> C: {rod} }} revolute A0: ground -> a; revolute B0: ground -> b;
+                 revolute A: a -> c; revolute B: b -> d; revolute C: c -> d; drive p: A0; drive q: B0; assemble C: left(A -> B);
+                 load F: force(c.C); scene all: equilibrium; scene where: position;"
+            );
+            check(&five, &[straight, 0.0]);
+        }
+    }
+    assert!(dead > 100, "{dead} dead centres, {alive} others");
+}
+
 #[test]
 fn where_dyads_with_inner_slides_end_is_a_typed_error() {
     let run = |text: &str, name: &str, drive: f64| {

@@ -18,7 +18,7 @@
 //! | 1 pivots of 10⁻¹ to 10⁻⁷ | here: distances from where the motion ends or the determinant of all equations changes its sign; slides inclined by 10⁻¹ to 10⁻⁶ | all that have such poses: not planets |
 //! | 2 the same, loads compatible | here: without what the virtual displacement of the singular pose sees | as 1 |
 //! | 3 folds | here: dimensions with which pivots meet or links lie on each other, 1 to 10⁻⁷ from there; blocks and cascades with a loop in them that folds; digits of four-bars in `families.rs` | those that fold: pins and slides in closed loops of equal lengths |
-//! | 4 lengths that differ by 10² to 10⁸ | here, each set of lengths small; of blocks and cascades some joints next to others, 10² to 10⁴; of three-pin dyads in `families.rs` too; triads under 9 | all; f32 as far as it tells lengths apart, 10⁴ |
+//! | 4 lengths that differ by 10² to 10⁸ | here, each set of lengths small; of blocks and cascades some joints next to others; of three-pin dyads in `families.rs` too; triads under 9 | all; f32 as far as it tells lengths apart, 10⁴ |
 //! | 5, 14 along the axes, collinear, in line | here: directions by quarter turns, drives too; joints of blocks and cascades on a lattice; `families.rs` | all |
 //! | 6 far from the origin, the point of a slide or a slot far along its line: the same bits; for moved points of lines errors of efforts, and in cascades of all, of the same size; all rules in `rules.rs` | here | all |
 //! | 7 loads 10⁸ apart, a single load | here | all |
@@ -48,7 +48,8 @@ use support::families::{
 use support::far_points::{self, is_force};
 use support::general::{Coordinates, equations_at};
 use support::linkages::{
-    Class, Layout, Place, Random, direction, in_single_precision, intersection, minus, plus, sample_with_forces, size,
+    CLOSEST_IN_SINGLE, Class, Layout, Place, Random, direction, in_single_precision, intersection, minus, plus,
+    sample_with_forces, size,
 };
 use support::measures::{Measures, is_moment, measure};
 use support::numbers::{Double, Extended, Single};
@@ -335,6 +336,8 @@ struct Poses {
     text: String,
     longest: f64,
     each: Vec<Pose>,
+    /// Whether single precision holds its dimensions.
+    in_single: bool,
 }
 
 struct Pose {
@@ -354,7 +357,7 @@ impl Member {
     fn near(self, drives: Vec<(f64, f64)>) -> Poses {
         let pose = |(drive, pivot)| Pose { drive, loads: self.loads.clone(), pivot };
         let each = drives.into_iter().map(pose).collect();
-        Poses { text: self.text, longest: self.longest, each }
+        Poses { text: self.text, longest: self.longest, each, in_single: true }
     }
 
     fn drives(&self, random: &mut Random, count: usize) -> Vec<f64> {
@@ -615,7 +618,7 @@ const FAMILIES: [Hard; 9] = [
                 Some(Pose { drive, loads, pivot: 1.0 })
             });
             let each = poses.collect();
-            vec![Poses { text: member.text, longest: member.longest, each }]
+            vec![Poses { text: member.text, longest: member.longest, each, in_single: true }]
         },
     },
     Hard { name: "9 triads", of: |kind| kind.name == "Newton: triads", make: |_, random| special_triads(random) },
@@ -686,12 +689,14 @@ fn lengths_apart(kind: &Kind, random: &mut Random) -> Vec<Poses> {
     let (dimensions, angle) = match &kind.drawn {
         Drawn::ByDimensions { dimensions, angle, .. } => (dimensions, angle),
         Drawn::ByPlaces(class) => {
-            let distance = 10f64.powi(-2 - i32::try_from(random.below(3)).expect("small"));
-            let member = kind.laid(*class, Layout::Apart(distance), random);
-            let middle = member.range.0.midpoint(member.range.1);
-            let drives = (0..=5).flat_map(|k| [1.0, -1.0].map(|sign| middle + sign * 0.5 * 10f64.powi(-k)));
-            let drives = drives.collect();
-            return vec![member.poses(drives)];
+            let laid = [3, 7].map(|powers| {
+                let distance = 10f64.powi(-2 - i32::try_from(random.below(powers)).expect("small"));
+                let member = kind.laid(*class, Layout::Apart(distance), random);
+                let middle = member.range.0.midpoint(member.range.1);
+                let drives = (0..=5).flat_map(|k| [1.0, -1.0].map(|sign| middle + sign * 0.5 * 10f64.powi(-k)));
+                Poses { in_single: distance >= CLOSEST_IN_SINGLE, ..member.poses(drives.collect()) }
+            });
+            return laid.into();
         }
     };
     let lengths = dimensions.len() - usize::from(*angle);
@@ -938,7 +943,7 @@ const ENOUGH: usize = 30;
 const TOLD: f64 = 0.03;
 
 impl Cell {
-    fn add<T: Scalar>(&mut self, Poses { text, longest, each }: &Poses, fused: bool, bounded: bool) {
+    fn add<T: Scalar>(&mut self, Poses { text, longest, each, .. }: &Poses, fused: bool, bounded: bool) {
         let text = computed_in::<T>(text, fused);
         let Some(linkage) = (if bounded { with_bounds(&text) } else { compile_if_it_closes(&text) }) else { return };
         for Pose { drive, loads, pivot } in each {
@@ -1020,7 +1025,9 @@ impl Size {
             for poses in make() {
                 let bounded = members % self.bounded == 0;
                 double.add::<Double>(&poses, self.fused, bounded);
-                single.add::<Single>(&poses, self.fused, bounded);
+                if poses.in_single {
+                    single.add::<Single>(&poses, self.fused, bounded);
+                }
             }
             members += usize::from(double.poses > before.0 && single.poses > before.1);
         }

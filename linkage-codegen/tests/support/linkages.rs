@@ -320,9 +320,15 @@ pub fn sample_with_forces(seed: u64, class: Class, layout: Layout) -> Sample {
     let starts = if matches!(class, Class::Cascade) { String::new() } else { builder.starts_of_drives(0.0) };
     let mut sample = builder.finish(loads, Vec::new(), kind);
     sample.text.push_str(&starts);
-    sample.text = in_single_precision(&sample.text.replace("scalar f64;\n", ""));
+    sample.text = sample.text.replace("scalar f64;\n", "");
+    if !matches!(layout, Layout::Apart(distance) if distance < CLOSEST_IN_SINGLE) {
+        sample.text = in_single_precision(&sample.text);
+    }
     sample
 }
+
+/// How near pins of a linkage may be, as a part of its size, so that single precision tells its lengths apart.
+pub const CLOSEST_IN_SINGLE: f64 = 0.99e-4;
 
 /// A declaration with all its decimals rounded to single precision.
 #[allow(clippy::cast_possible_truncation, reason = "that is the point")]
