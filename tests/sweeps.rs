@@ -451,6 +451,32 @@ fn fused_operations_are_rounded_once_in_vectors_too() {
 }
 
 linkage! {
+    /// Two places, one of them a parameter.
+    mod places;
+    param d: length = 1.4m;
+    ground { A0: (0, 0), B0: (d, 0) }
+    link crank { A0 -> A: 0.8m } link coupler { A -> B: 1m } link rocker { B0 -> B: 1.2m }
+    revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+    drive theta: A0; assemble B: left(A -> B0);
+    scene ends: position -> (B0, B); scene path: sweep(ends);
+}
+
+#[test]
+fn what_is_the_same_at_every_position_may_be_a_result() {
+    let linkage = places::Linkage::new(&places::Params::default()).expect("lengths");
+    let theta = angles();
+    let mut numbers = [[0.0; COUNT]; 4];
+    let [x0, y0, x, y] = &mut numbers;
+    let inputs = places::PathInputs { theta: Series::Each(&theta) };
+    places::path(&linkage, &inputs, places::Path { B0_x: x0, B0_y: y0, B_x: x, B_y: y }).expect("regular");
+    for (index, theta) in theta.iter().enumerate() {
+        let one = places::ends_at(&linkage, *theta).expect("regular");
+        let expected = [one.B0.x, one.B0.y, one.B.x, one.B.y];
+        assert_eq!(numbers.map(|row| row[index].to_bits()), expected.map(f64::to_bits), "position {index}");
+    }
+}
+
+linkage! {
     /// Parameters, links and drives whose names are those of a sweep's columns, or that it makes of other ones.
     mod namesakes;
     param kept: length = 0.5m; param holds: length = 0.25m;

@@ -47,6 +47,11 @@ fn cases() -> Vec<Case> {
         if sample.text.contains("load I: inertia;") {
             sample.text.push_str(CONTROL);
         }
+        for scene in SCENES {
+            if sample.text.contains(&format!("scene {scene}:")) {
+                let _ = writeln!(sample.text, "scene {scene}_path: sweep({scene});");
+            }
+        }
         // With its unknown anywhere a linkage may be one that is refused.
         let linkage = linkage_codegen::analyse(sample.text.parse().expect("tokens")).ok()?;
         Some(Case {
@@ -88,7 +93,8 @@ fn module(case: &Case) -> String {
         .zip(&arguments.params)
         .map(|(p, value)| format!("{}: {}", p.name, number(*value)))
         .collect();
-    let mut text = format!("mod {name} {{\nuse linkage_runtime::{{Error, Vector2, linkage}};\nlinkage! {{\n");
+    let mut text =
+        format!("mod {name} {{\nuse linkage_runtime::{{Error, Series, SweepError, Vector2, linkage}};\nlinkage! {{\n");
     let _ = writeln!(text, "{declaration}}}\npub fn run() -> Result<(), Error> {{");
     let mut first = String::new();
     if !params.is_empty() {
@@ -109,6 +115,9 @@ fn module(case: &Case) -> String {
     let mut drives: Vec<String> = arguments.drives.iter().map(|value| number(*value)).collect();
     drives.extend(closures(case));
     let drives = drives.join(", ");
+    let names = model.drives.iter().map(|drive| &drive.name.text);
+    let angles = names.zip(&arguments.drives).map(|(name, value)| format!("{name}: {}", number(*value)));
+    let given: Vec<String> = angles.chain(motion.iter().cloned()).chain(loads.iter().cloned()).collect();
     let _ = writeln!(text, "let pose = sample::Pose::at({first}{drives});");
     for scene in scenes(linkage) {
         let functions = &linkage.functions.scenes[index_of(linkage, scene)];
@@ -128,8 +137,48 @@ fn module(case: &Case) -> String {
             "println!(\"{name} {scene} pose {{:?}}\", pose.and_then(|pose| pose.{scene}({from_pose})));"
         );
     }
+    let sides = closures(case).map_or(String::new(), |sides| format!("{sides}, "));
+    let emitted = linkage_codegen::expand(declaration.parse().expect("tokens")).to_string();
+    for scene in scenes(linkage) {
+        text.push_str(&sweep(name, scene, scalar, &emitted, &format!("{first}{sides}"), &given));
+    }
     text.push_str("Ok(())\n}\n}\n");
     text
+}
+
+/// How many positions are swept: several blocks, and one that is not full.
+const POSITIONS: usize = 150;
+
+/// The sweep of a scene, in which nothing changes: all positions have the numbers of the last, which are printed.
+fn sweep(case: &str, scene: &str, scalar: &str, emitted: &str, first: &str, given: &[String]) -> String {
+    let ty: String = scene[..1].to_uppercase() + &scene[1..] + "Path";
+    let fields = |ty: &str| -> Vec<String> {
+        let (_, rest) = emitted.split_once(&format!("pub struct {ty} < 'a >")).expect("the sweep's type");
+        let (body, _) = rest.split_once('}').expect("its end");
+        body.split("pub ").skip(1).map(|field| field.split_whitespace().next().expect("a name").to_owned()).collect()
+    };
+    let inputs = fields(&format!("{ty}Inputs")).into_iter().map(|name| {
+        let value = given.iter().find_map(|one| one.strip_prefix(&format!("{name}: "))).expect("what is given");
+        format!("{name}: Series::Constant({value})")
+    });
+    let inputs: Vec<String> = inputs.collect();
+    let results = fields(&ty);
+    let rooms = (0..results.len()).map(|_| format!("[0.0{scalar}; {POSITIONS}]")).collect::<Vec<_>>().join(", ");
+    let taken = (0..results.len()).map(|index| format!("room_{index}")).collect::<Vec<_>>().join(", ");
+    let given_out: Vec<String> =
+        results.iter().enumerate().map(|(index, name)| format!("{name}: room_{index}")).collect();
+    format!(
+        "let mut room = [{rooms}];
+         let [{taken}] = &mut room;
+         let swept = sample::{scene}_path({first}&sample::{ty}Inputs {{ {} }}, sample::{ty} {{ {} }});
+         assert!(swept.is_err() || room.iter().all(|row| row.iter().all(|x| x.to_bits() == row[{POSITIONS} - 1].to_bits())));
+         println!(\"{case} {scene} sweep {{:?}}\", swept.map(|()| room.map(|row| row[{POSITIONS} - 1])).map_err(|error| match error {{
+             SweepError::Position {{ index: 0, error }} => error,
+             other => panic!(\"{{other:?}}\"),
+         }}));\n",
+        inputs.join(", "),
+        given_out.join(", ")
+    )
 }
 
 /// The argument that gives the sides, if some are chosen at run time.
@@ -204,11 +253,11 @@ fn bits<T: Number>(printed: &str) -> Option<Vec<u64>> {
 
 fn interpreted<T: Number>(case: &Case, scene: &str, form: &str) -> Option<Vec<u64>> {
     let Case { linkage, arguments, .. } = case;
-    let values: Result<Vec<T>, Fault> = if form == "straight" {
-        direct(linkage, &linkage.functions.scenes[index_of(linkage, scene)].direct, arguments)
-    } else {
+    let values: Result<Vec<T>, Fault> = if form == "pose" {
         pose(linkage, arguments)
             .and_then(|kept| values_from_kept(linkage, scene, &kept, arguments).map(|(_, values)| values))
+    } else {
+        direct(linkage, &linkage.functions.scenes[index_of(linkage, scene)].direct, arguments)
     };
     Some(values.ok()?.iter().map(|value| value.to_f64().to_bits()).collect())
 }
@@ -222,7 +271,7 @@ fn random_linkages_compile_to_what_the_interpreter_computes() {
     let (mut results, mut controlled, mut failures) = (0, 0, 0);
     for case in &cases {
         let lines = printed.lines().filter_map(|line| line.strip_prefix(case.name.as_str())?.strip_prefix(' '));
-        let (mut seen, all) = (0, 2 * scenes(&case.linkage).count());
+        let (mut seen, all) = (0, 3 * scenes(&case.linkage).count());
         for line in lines {
             let Some((scene, rest)) = line.split_once(' ') else { panic!("{line}") };
             if scene == "fails" {

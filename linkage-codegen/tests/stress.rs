@@ -920,7 +920,9 @@ fn at_its_dead_centre<T: Number>(linkage: &Linkage, arguments: &Arguments) -> bo
 
 /// Whether there are forces in exact arithmetic only.
 fn is_refused<T: Number>(linkage: &Linkage, arguments: &Arguments) -> bool {
-    scene::<T>(linkage, "all", arguments).is_err() && scene::<Extended>(linkage, "all", arguments).is_ok()
+    let refused = |name| scene::<T>(linkage, name, arguments).is_err();
+    let is_regular = |name| scene::<Extended>(linkage, name, arguments).is_ok();
+    ["all", "work"].into_iter().any(refused) && ["all", "work"].into_iter().all(is_regular)
 }
 
 /// The largest part of its bar that a measure takes, and its name.

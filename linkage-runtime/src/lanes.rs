@@ -24,9 +24,9 @@ macro_rules! lanes {
         pub struct Block<const GIVEN: usize, const KEPT: usize, const RESULTS: usize> {
             /// What the scene reads.
             pub given: [Column; GIVEN],
-            /// What one stage of the computation leaves for the next.
+            /// What a stage of the computation leaves for later ones.
             pub kept: [Column; KEPT],
-            /// What the scene finds.
+            /// What the scene finds; later stages read it too.
             pub results: [Column; RESULTS],
             /// Positive where all checks hold. Elsewhere the numbers mean nothing.
             pub holds: Column,

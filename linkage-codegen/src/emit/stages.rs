@@ -38,9 +38,10 @@ impl<'a> Task<'a> {
     fn new(statement: Statement<'a>) -> Self {
         let pattern = statement.code.clone().into_iter().skip(1);
         let pattern = pattern.take_while(|token| !matches!(token, TokenTree::Punct(punct) if punct.as_char() == '='));
-        let defines = names(&pattern.collect());
+        let mut defines = names(&pattern.collect());
+        defines.remove("_");
         let mut reads = names(&statement.code);
-        reads.retain(|name, _| !defines.contains_key(name));
+        reads.retain(|name, _| name != "_" && !defines.contains_key(name));
         Self { statement, defines, reads, level: 0 }
     }
 
@@ -49,12 +50,14 @@ impl<'a> Task<'a> {
     }
 
     fn reduces_an_angle(&self) -> bool {
-        self.reads.keys().any(|name| is_reduction(name))
+        calls(&self.statement.code, &REDUCTIONS)
     }
 
     /// Whether what reads it waits for as long as dozens of other operations take: for a root, a quotient, or the rest of an angle.
     fn is_long(&self) -> bool {
-        self.reduces_an_angle() || self.reads.contains_key("sqrt") || divides(&self.statement.code)
+        self.reduces_an_angle()
+            || calls(&self.statement.code, &["sqrt", "unit", "atan2"])
+            || divides(&self.statement.code)
     }
 }
 
@@ -83,6 +86,12 @@ const LENGTH: usize = 40;
 const SINE: usize = 30;
 /// And the reduction of their angle.
 const REDUCTION: usize = 10;
+/// The angle of a vector, and its unit vector.
+const ATAN2: usize = 50;
+const UNIT: usize = 15;
+
+/// The functions that reduce an angle.
+const REDUCTIONS: [&str; 4] = ["short_angle", "short_angle_sum", "short_fused_angle", "short_fused_angle_sum"];
 
 /// The stages of some work, of which the names in `given` are known before.
 pub(super) fn stages<'a>(work: Work<'a>, given: &[Ident]) -> Vec<Stage<'a>> {
@@ -117,12 +126,34 @@ pub(super) fn stages<'a>(work: Work<'a>, given: &[Ident]) -> Vec<Stage<'a>> {
     let given = given.iter().enumerate().map(|(place, name)| (name.to_string(), Column::Given(place)));
     let mut columns: BTreeMap<String, Column> = given.collect();
     for (place, result) in results.into_iter().enumerate() {
-        let column = Column::Result(place);
-        columns.entry(result.to_string()).or_insert(column);
+        let (column, name) = (Column::Result(place), result.to_string());
         stages[reading(&result)].keeps.push((column, result));
+        // What is prepared may be a result too: it is read where it is.
+        if stage_of.contains_key(&name) {
+            columns.entry(name).or_insert(column);
+        }
     }
     keep(&mut stages, &wanted, &stage_of, columns);
+    debug_assert!(columns_have_what_is_read(&stages), "a column is read that has other numbers");
     stages
+}
+
+/// Whether each column that a stage reads has been filled, and with the numbers of that name, by a stage before it.
+fn columns_have_what_is_read(stages: &[Stage]) -> bool {
+    let mut filled: Vec<(Column, String)> = Vec::new();
+    for Stage { reads, keeps, .. } in stages {
+        let has = |(name, column): &(Ident, Column)| {
+            matches!(column, Column::Given(_)) || filled.iter().any(|(own, text)| own == column && name == text)
+        };
+        if !reads.iter().all(has) {
+            return false;
+        }
+        for (column, tokens) in keeps {
+            filled.retain(|(own, _)| own != column);
+            filled.push((*column, tokens.to_string()));
+        }
+    }
+    true
 }
 
 /// Gives columns to what later stages read, of which `columns` are known already.
@@ -228,7 +259,8 @@ fn cuts(tasks: &[Task]) -> Vec<usize> {
             sum += length[end - 1];
             reduces |= tasks[end - 1].reduces_an_angle();
             let waits = tasks[end].level > tasks[end - 1].level;
-            if waits && (reduces || (sum >= LENGTH / 2 && rest - sum >= LENGTH / 2)) {
+            let parts = sum >= LENGTH / 2 && rest - sum >= LENGTH / 2;
+            if waits && (reduces || parts) {
                 best = Some((kept[end], end));
                 break;
             }
@@ -238,7 +270,7 @@ fn cuts(tasks: &[Task]) -> Vec<usize> {
             if sum > LENGTH + LENGTH / 2 && best.is_some() {
                 break;
             }
-            if sum >= LENGTH / 2 && best.is_none_or(|(least, _)| kept[end] <= least) {
+            if parts && best.is_none_or(|(least, _)| kept[end] <= least) {
                 best = Some((kept[end], end));
             }
         }
@@ -281,7 +313,9 @@ fn operations(tokens: &TokenStream) -> usize {
             TokenTree::Punct(punct) => usize::from("+-*/".contains(punct.as_char())),
             TokenTree::Ident(name) if name == "mul_add" || name == "sqrt" => 1,
             TokenTree::Ident(name) if name == "short_sin_cos" || name == "short_fused_sin_cos" => SINE,
-            TokenTree::Ident(name) if is_reduction(&name.to_string()) => REDUCTION,
+            TokenTree::Ident(name) if REDUCTIONS.iter().any(|one| name == one) => REDUCTION,
+            TokenTree::Ident(name) if name == "atan2" => ATAN2,
+            TokenTree::Ident(name) if name == "unit" => UNIT,
             TokenTree::Ident(_) | TokenTree::Literal(_) => 0,
         })
         .sum()
@@ -295,21 +329,35 @@ fn divides(tokens: &TokenStream) -> bool {
     })
 }
 
-fn is_reduction(name: &str) -> bool {
-    ["short_angle", "short_angle_sum", "short_fused_angle", "short_fused_angle_sum"].contains(&name)
+/// Whether one of these functions is called.
+fn calls(tokens: &TokenStream, functions: &[&str]) -> bool {
+    let mut path = false;
+    tokens.clone().into_iter().any(|token| {
+        let found = match &token {
+            TokenTree::Group(group) => calls(&group.stream(), functions),
+            TokenTree::Ident(name) => path && functions.iter().any(|one| name == one),
+            TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+        };
+        path = matches!(&token, TokenTree::Punct(punct) if punct.as_char() == ':');
+        found
+    })
 }
 
-/// All identifiers.
+/// All identifiers that are names of values: no part of a path, no method.
 fn names(tokens: &TokenStream) -> Names {
     let mut found = Names::new();
-    for token in tokens.clone() {
-        match token {
+    let mut tokens = tokens.clone().into_iter().peekable();
+    let mut inside = false;
+    while let Some(token) = tokens.next() {
+        let next = matches!(tokens.peek(), Some(TokenTree::Punct(punct)) if punct.as_char() == ':');
+        match &token {
             TokenTree::Group(group) => found.extend(names(&group.stream())),
-            TokenTree::Ident(name) => {
-                found.insert(name.to_string(), name);
+            TokenTree::Ident(name) if !inside && !next => {
+                found.insert(name.to_string(), name.clone());
             }
-            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+            _ => {}
         }
+        inside = matches!(&token, TokenTree::Punct(punct) if [':', '.'].contains(&punct.as_char()));
     }
     found
 }
@@ -416,6 +464,36 @@ mod tests {
             stages[1].reads.iter().map(|(_, column)| *column).collect::<Vec<_>>(),
             [Column::Kept(0), Column::Result(1), Column::Kept(1)]
         );
+    }
+
+    /// What is prepared once for all positions is no number of a column.
+    #[test]
+    fn a_result_that_no_statement_finds_is_read_where_it_is() {
+        let statements = vec![
+            quote!(let (quarters, rest, tail) = math::short_angle(angle + length);),
+            quote!(let (sine, _) = math::short_sin_cos(quarters, rest, tail);),
+            quote!(let place = length * sine;),
+        ];
+        let stages = staged(statements, Vec::new(), vec![quote!(length), quote!(place)], &[ident("angle")]);
+        assert!(stages.iter().all(|stage| stage.reads.iter().all(|(name, _)| name != "length")));
+        assert_eq!(stages[0].keeps[0].0, Column::Result(0));
+    }
+
+    #[test]
+    fn names_are_those_of_values() {
+        let found = |tokens: TokenStream| super::names(&tokens).into_keys().collect::<Vec<_>>();
+        assert_eq!(found(quote!(math::sqrt(sqrt_of.abs() + 2.0 * x) - f64::from(y))), ["sqrt_of", "x", "y"]);
+        assert!(super::calls(&quote!(2.0 * math::sqrt(x)), &["sqrt"]) && !super::calls(&quote!(2.0 * sqrt), &["sqrt"]));
+    }
+
+    #[test]
+    fn no_stage_is_short() {
+        for links in 1..150 {
+            let stages = chain(links);
+            let short =
+                |stage: &Stage| stage.statements.iter().map(|one| operations(&one.code)).sum::<usize>() < LENGTH / 2;
+            assert!(stages.len() <= 2 || !stages[1..].iter().any(short), "{links}");
+        }
     }
 
     #[test]

@@ -106,7 +106,9 @@ pub fn measure<T: Number>(
             work_terms(&here, &velocities) + passed_power(linkage, &general, &velocities, &solution)
         });
     let torque = over((all[&unknown.name].to_f64() - work[&unknown.name].to_f64()).abs(), terms) / epsilon;
-    Ok(Measures { unit, closure, backward, free_body, torque })
+    let found = Measures { unit, closure, backward, free_body, torque };
+    assert!([unit, closure, backward, free_body, torque].into_iter().all(f64::is_finite), "{found:?}");
+    Ok(found)
 }
 
 /// Whether a driven link moves one dyad, with a slide at most. Near a dead centre of others the function straight from the drives may have
