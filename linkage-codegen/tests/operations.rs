@@ -435,6 +435,15 @@ fn four_bar() {
 fn slider_crank() {
     let linkage = linkage("slider_crank");
     let mut page = page("Slider-crank");
+    let [least, most] = page.remove("Pose::at").expect("the pose");
+    TALLY.set([0; 7]);
+    let (sin, cos, g, h) = slider_crank_pose(1.0);
+    let travel = h + sin;
+    assert_eq!(TALLY.get(), least);
+    // The pin's line is x = 1 mm, and the rod has its length.
+    let off = [42.0 * (cos.0 - g.0) - 1.0, 42.0 * g.0.hypot(h.0) - 142.0, 42.0 * (travel.0 - h.0 - 1f64.sin())];
+    assert!(off.iter().all(|off| off.abs() < 1e-12), "{off:?}");
+    assert_eq!(emitted(&linkage.functions.pose), most, "the pose: what is emitted is not what the page says");
     hold(&linkage, &mut page, "hold", hold_at);
     hold(&linkage, &mut page, "weights", |theta, _| weights_at(theta));
     hold(&linkage, &mut page, "torque", slider_crank_torque_at);
