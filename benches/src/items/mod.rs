@@ -53,6 +53,13 @@ macro_rules! generated_at {
     };
 }
 
+/// The forces and the torque that generated functions find, each in a scalar and an arithmetic, with the loads that its linkage is given.
+macro_rules! generated_statics_at {
+    ($forces:literal, |$all:ident| $reactions:expr; $($name:ident: $scalar:ident, $linkage:ident, $given:ident;)+) => {$(
+        generated_at!($name, $scalar, $linkage::statics_at, $given, |$all| $reactions, Reactions<$forces, $scalar>);
+    )+};
+}
+
 /// The expert's function as a competitor from the driver's angle.
 macro_rules! expert_at {
     ($name:ident, $scalar:ident, $linkage:ident, $forces:literal) => {

@@ -31,22 +31,11 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     }]
 }
 
-/// What is generated, in a scalar and an arithmetic.
-macro_rules! generated {
-    ($name:ident, $scalar:ident, $linkage:ident, $given:ident) => {
-        generated_at!(
-            $name,
-            $scalar,
-            $linkage::statics_at,
-            $given,
-            |all| Reactions { torque: all.T, forces: [all.A0, all.A, all.B, all.B0, all.C, all.D, all.D0] },
-            Reactions<7, $scalar>
-        );
-    };
-}
-generated!(statics_at_generated, f64, six_bar, six_bar);
-generated!(statics_at_generated_single, f32, six_bar_single, six_bar_single);
-generated!(statics_at_fused, f64, six_bar_fused, six_bar);
+generated_statics_at!(7, |all| Reactions { torque: all.T, forces: [all.A0, all.A, all.B, all.B0, all.C, all.D, all.D0] };
+    statics_at_generated: f64, six_bar, six_bar;
+    statics_at_generated_single: f32, six_bar_single, six_bar_single;
+    statics_at_fused: f64, six_bar_fused, six_bar;
+);
 same_loads!(six_bar, f64, six_bar_fused; F, G);
 same_loads!(six_bar, f32, six_bar_single; F, G);
 

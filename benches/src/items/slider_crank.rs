@@ -27,22 +27,11 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     vec![Item { id: "P3b", title: "slider-crank: all forces and the torque, from the driver's angle", competitors }]
 }
 
-/// What is generated, in a scalar and an arithmetic.
-macro_rules! generated {
-    ($name:ident, $scalar:ident, $linkage:ident, $given:ident) => {
-        generated_at!(
-            $name,
-            $scalar,
-            $linkage::statics_at,
-            $given,
-            |all| Reactions { torque: all.T, forces: [all.O, all.A, all.B, all.P.force] },
-            Reactions<4, $scalar>
-        );
-    };
-}
-generated!(statics_at_generated, f64, slider_crank, slider_crank);
-generated!(statics_at_generated_single, f32, slider_crank_single, slider_crank_single);
-generated!(statics_at_fused, f64, slider_crank_fused, slider_crank);
+generated_statics_at!(4, |all| Reactions { torque: all.T, forces: [all.O, all.A, all.B, all.P.force] };
+    statics_at_generated: f64, slider_crank, slider_crank;
+    statics_at_generated_single: f32, slider_crank_single, slider_crank_single;
+    statics_at_fused: f64, slider_crank_fused, slider_crank;
+);
 same_loads!(slider_crank, f64, slider_crank_fused; gas);
 same_loads!(slider_crank, f32, slider_crank_single; gas);
 

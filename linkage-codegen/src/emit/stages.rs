@@ -25,12 +25,16 @@ pub(super) struct Work<'a> {
 /// Identifiers by their texts, which are compared more cheaply.
 type Names = BTreeMap<String, Ident>;
 
-/// A statement with the names in it.
+/// A statement, and what is asked of it.
 struct Task<'a> {
     statement: Statement<'a>,
     defines: Names,
     reads: Names,
-    /// How many operations that take long are in front of it, one behind the other.
+    operations: usize,
+    reduces_an_angle: bool,
+    /// Whether what reads it waits for as long as dozens of other operations take: for a root, a quotient, or the rest of an angle.
+    is_long: bool,
+    /// How many tasks that are long are in front of it, one behind the other.
     level: usize,
 }
 
@@ -38,26 +42,12 @@ impl<'a> Task<'a> {
     fn new(statement: Statement<'a>) -> Self {
         let pattern = statement.code.clone().into_iter().skip(1);
         let pattern = pattern.take_while(|token| !matches!(token, TokenTree::Punct(punct) if punct.as_char() == '='));
-        let mut defines = names(&pattern.collect());
-        defines.remove("_");
-        let mut reads = names(&statement.code);
-        reads.retain(|name, _| name != "_" && !defines.contains_key(name));
-        Self { statement, defines, reads, level: 0 }
-    }
-
-    fn operations(&self) -> usize {
-        operations(&self.statement.code)
-    }
-
-    fn reduces_an_angle(&self) -> bool {
-        calls(&self.statement.code, &REDUCTIONS)
-    }
-
-    /// Whether what reads it waits for as long as dozens of other operations take: for a root, a quotient, or the rest of an angle.
-    fn is_long(&self) -> bool {
-        self.reduces_an_angle()
-            || calls(&self.statement.code, &["sqrt", "unit", "atan2"])
-            || divides(&self.statement.code)
+        let defines = names(&pattern.collect());
+        let words = Words::of(&statement.code);
+        let (operations, reduces_an_angle, is_long) = (words.operations(), words.reduce_an_angle(), words.are_long());
+        let mut reads = words.names;
+        reads.retain(|name, _| !defines.contains_key(name));
+        Self { statement, defines, reads, operations, reduces_an_angle, is_long, level: 0 }
     }
 }
 
@@ -82,16 +72,90 @@ pub(super) struct Stage<'a> {
 
 /// Operations that a stage has, about.
 const LENGTH: usize = 40;
-/// A sine and cosine count as so many.
-const SINE: usize = 30;
-/// And the reduction of their angle.
-const REDUCTION: usize = 10;
-/// The angle of a vector, and its unit vector.
-const ATAN2: usize = 50;
-const UNIT: usize = 15;
 
-/// The functions that reduce an angle.
-const REDUCTIONS: [&str; 4] = ["short_angle", "short_angle_sum", "short_fused_angle", "short_fused_angle_sum"];
+/// A function that is called, and about how many operations it has.
+struct Function {
+    operations: usize,
+    kind: Kind,
+}
+
+#[derive(PartialEq)]
+enum Kind {
+    Quick,
+    Long,
+    /// Of an angle.
+    Reduction,
+}
+
+impl Function {
+    /// That of a name, if it counts.
+    fn of(name: &str) -> Option<Self> {
+        let (operations, kind) = match name {
+            "mul_add" => (1, Kind::Quick),
+            "sqrt" => (1, Kind::Long),
+            "unit" => (15, Kind::Long),
+            "atan2" => (50, Kind::Long),
+            "short_angle" | "short_angle_sum" | "short_fused_angle" | "short_fused_angle_sum" => (10, Kind::Reduction),
+            "short_sin_cos" | "short_fused_sin_cos" => (30, Kind::Quick),
+            _ => return None,
+        };
+        Some(Self { operations, kind })
+    }
+}
+
+/// What code consists of: the names of its values, the functions that it calls, its operators.
+#[derive(Default)]
+struct Words {
+    names: Names,
+    functions: Vec<Function>,
+    operators: Vec<char>,
+}
+
+impl Words {
+    fn of(code: &TokenStream) -> Self {
+        let mut words = Self::default();
+        words.add(code);
+        words
+    }
+
+    fn operations(&self) -> usize {
+        self.operators.len() + self.functions.iter().map(|function| function.operations).sum::<usize>()
+    }
+
+    fn reduce_an_angle(&self) -> bool {
+        self.functions.iter().any(|function| function.kind == Kind::Reduction)
+    }
+
+    fn are_long(&self) -> bool {
+        self.operators.contains(&'/') || self.functions.iter().any(|function| function.kind != Kind::Quick)
+    }
+
+    fn add(&mut self, code: &TokenStream) {
+        let is = |token: Option<&TokenTree>, sign: char| matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == sign);
+        let mut tokens = code.clone().into_iter().peekable();
+        let mut before: Option<TokenTree> = None;
+        while let Some(token) = tokens.next() {
+            match &token {
+                TokenTree::Group(group) => self.add(&group.stream()),
+                TokenTree::Punct(punct) if "+-*/".contains(punct.as_char()) => self.operators.push(punct.as_char()),
+                TokenTree::Ident(name) if is(before.as_ref(), ':') => {
+                    self.functions.extend(Function::of(&name.to_string()));
+                }
+                TokenTree::Ident(name) if name == "_" => {}
+                // Neither a method nor the beginning of a path.
+                TokenTree::Ident(name) if !is(before.as_ref(), '.') && !is(tokens.peek(), ':') => {
+                    self.names.insert(name.to_string(), name.clone());
+                }
+                _ => {}
+            }
+            before = Some(token);
+        }
+    }
+}
+
+fn names(code: &TokenStream) -> Names {
+    Words::of(code).names
+}
 
 /// The stages of some work, of which the names in `given` are known before.
 pub(super) fn stages<'a>(work: Work<'a>, given: &[Ident]) -> Vec<Stage<'a>> {
@@ -167,10 +231,12 @@ fn keep(
     let mut left: Vec<BTreeMap<&String, (&Ident, usize)>> = stages.iter().map(|_| BTreeMap::new()).collect();
     for (number, names) in wanted.iter().enumerate() {
         for (text, name) in names {
-            match stage_of.get(text) {
-                Some(own) if *own < number && !columns.contains_key(text) => left[*own].insert(text, (name, number)),
-                _ => None,
-            };
+            if let Some(own) = stage_of.get(text)
+                && *own < number
+                && !columns.contains_key(text)
+            {
+                left[*own].insert(text, (name, number));
+            }
         }
     }
     // The last stage that reads each column: it may write into it, as it reads the numbers of a position first.
@@ -195,7 +261,7 @@ fn find_levels(tasks: &mut [Task]) {
     let mut ready: BTreeMap<String, usize> = BTreeMap::new();
     for task in tasks {
         task.level = task.reads.keys().filter_map(|name| ready.get(name).copied()).max().unwrap_or(0);
-        let level = task.level + usize::from(task.is_long());
+        let level = task.level + usize::from(task.is_long);
         ready.extend(task.defines.keys().map(|name| (name.clone(), level)));
     }
 }
@@ -219,7 +285,7 @@ fn sink(tasks: &mut [Task], conditions: &[TokenStream]) {
             let first = task.defines.keys().filter_map(|name| Some(read.0.get(name)?.0)).min();
             if let Some(first) = first
                 && first > task.level
-                && !task.is_long()
+                && !task.is_long
             {
                 let computed = task.reads.keys().filter(|name| level_of.contains_key(*name));
                 let not_kept = computed.filter(|name| read.0.get(*name).is_none_or(|(_, last)| *last < first));
@@ -248,7 +314,7 @@ impl Levels {
 /// For each stage, how many tasks are before its end. It ends in front of what waits for its roots and quotients, or else, near the length
 /// that a stage should have, where the fewest names are read later. Angles that are reduced always end it.
 fn cuts(tasks: &[Task]) -> Vec<usize> {
-    let length: Vec<usize> = tasks.iter().map(Task::operations).collect();
+    let length: Vec<usize> = tasks.iter().map(|task| task.operations).collect();
     let kept = kept(tasks);
     let mut cuts = Vec::new();
     let (mut begin, mut rest) = (0, length.iter().sum::<usize>());
@@ -257,7 +323,7 @@ fn cuts(tasks: &[Task]) -> Vec<usize> {
         let mut reduces = false;
         for end in begin + 1..tasks.len() {
             sum += length[end - 1];
-            reduces |= tasks[end - 1].reduces_an_angle();
+            reduces |= tasks[end - 1].reduces_an_angle;
             let waits = tasks[end].level > tasks[end - 1].level;
             let parts = sum >= LENGTH / 2 && rest - sum >= LENGTH / 2;
             if waits && (reduces || parts) {
@@ -303,65 +369,6 @@ fn kept(tasks: &[Task]) -> Vec<usize> {
     kept
 }
 
-/// How many operations a statement has, about.
-fn operations(tokens: &TokenStream) -> usize {
-    tokens
-        .clone()
-        .into_iter()
-        .map(|token| match token {
-            TokenTree::Group(group) => operations(&group.stream()),
-            TokenTree::Punct(punct) => usize::from("+-*/".contains(punct.as_char())),
-            TokenTree::Ident(name) if name == "mul_add" || name == "sqrt" => 1,
-            TokenTree::Ident(name) if name == "short_sin_cos" || name == "short_fused_sin_cos" => SINE,
-            TokenTree::Ident(name) if REDUCTIONS.iter().any(|one| name == one) => REDUCTION,
-            TokenTree::Ident(name) if name == "atan2" => ATAN2,
-            TokenTree::Ident(name) if name == "unit" => UNIT,
-            TokenTree::Ident(_) | TokenTree::Literal(_) => 0,
-        })
-        .sum()
-}
-
-fn divides(tokens: &TokenStream) -> bool {
-    tokens.clone().into_iter().any(|token| match token {
-        TokenTree::Group(group) => divides(&group.stream()),
-        TokenTree::Punct(punct) => punct.as_char() == '/',
-        TokenTree::Ident(_) | TokenTree::Literal(_) => false,
-    })
-}
-
-/// Whether one of these functions is called.
-fn calls(tokens: &TokenStream, functions: &[&str]) -> bool {
-    let mut path = false;
-    tokens.clone().into_iter().any(|token| {
-        let found = match &token {
-            TokenTree::Group(group) => calls(&group.stream(), functions),
-            TokenTree::Ident(name) => path && functions.iter().any(|one| name == one),
-            TokenTree::Punct(_) | TokenTree::Literal(_) => false,
-        };
-        path = matches!(&token, TokenTree::Punct(punct) if punct.as_char() == ':');
-        found
-    })
-}
-
-/// All identifiers that are names of values: no part of a path, no method.
-fn names(tokens: &TokenStream) -> Names {
-    let mut found = Names::new();
-    let mut tokens = tokens.clone().into_iter().peekable();
-    let mut inside = false;
-    while let Some(token) = tokens.next() {
-        let next = matches!(tokens.peek(), Some(TokenTree::Punct(punct)) if punct.as_char() == ':');
-        match &token {
-            TokenTree::Group(group) => found.extend(names(&group.stream())),
-            TokenTree::Ident(name) if !inside && !next => {
-                found.insert(name.to_string(), name.clone());
-            }
-            _ => {}
-        }
-        inside = matches!(&token, TokenTree::Punct(punct) if [':', '.'].contains(&punct.as_char()));
-    }
-    found
-}
-
 #[cfg(test)]
 mod tests {
     use std::collections::{BTreeMap, BTreeSet};
@@ -369,7 +376,7 @@ mod tests {
     use proc_macro2::{Ident, TokenStream};
     use quote::{format_ident, quote};
 
-    use super::{Column, LENGTH, Stage, Statement, Work, operations, stages};
+    use super::{Column, LENGTH, Stage, Statement, Words, Work, stages};
 
     fn ident(name: &str) -> Ident {
         format_ident!("{name}")
@@ -481,24 +488,26 @@ mod tests {
 
     #[test]
     fn names_are_those_of_values() {
-        let found = |tokens: TokenStream| super::names(&tokens).into_keys().collect::<Vec<_>>();
+        let found = |code: TokenStream| Words::of(&code).names.into_keys().collect::<Vec<_>>();
         assert_eq!(found(quote!(math::sqrt(sqrt_of.abs() + 2.0 * x) - f64::from(y))), ["sqrt_of", "x", "y"]);
-        assert!(super::calls(&quote!(2.0 * math::sqrt(x)), &["sqrt"]) && !super::calls(&quote!(2.0 * sqrt), &["sqrt"]));
+        let is_long = |code: TokenStream| Words::of(&code).are_long();
+        assert!(is_long(quote!(2.0 * math::sqrt(x))) && !is_long(quote!(2.0 * sqrt)));
     }
 
     #[test]
     fn no_stage_is_short() {
         for links in 1..150 {
             let stages = chain(links);
-            let short =
-                |stage: &Stage| stage.statements.iter().map(|one| operations(&one.code)).sum::<usize>() < LENGTH / 2;
+            let short = |stage: &Stage| {
+                stage.statements.iter().map(|one| Words::of(&one.code).operations()).sum::<usize>() < LENGTH / 2
+            };
             assert!(stages.len() <= 2 || !stages[1..].iter().any(short), "{links}");
         }
     }
 
     #[test]
     fn stages_are_neither_long_nor_many() {
-        let work = |stage: &Stage| stage.statements.iter().map(|one| operations(&one.code)).sum::<usize>();
+        let work = |stage: &Stage| stage.statements.iter().map(|one| Words::of(&one.code).operations()).sum::<usize>();
         let stages = chain(200);
         assert!(
             stages.iter().all(|stage| work(stage) <= 2 * LENGTH),

@@ -110,6 +110,12 @@ impl<'g> Expr<'g> {
         value
     }
 
+    /// Whether this is known to be more than 4ε of a size: more than rounding makes of zero, where numbers of this size are added up.
+    #[must_use]
+    pub fn exceeds_rounding_of(self, size: Self) -> bool {
+        (self - self.graph.epsilons(4) * size).sign() == Some(1)
+    }
+
     /// States that the value is positive wherever it is used.
     #[must_use]
     pub fn known_positive(self) -> Self {

@@ -195,7 +195,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         value.named(format!("rounding_{of}_{slide}"), meaning)
     };
     // Coincident pins leave the direction open, unless h keeps them apart.
-    let apart = (h.abs() - graph.epsilons(4) * length).sign() == Some(1);
+    let apart = h.abs().exceeds_rounding_of(length);
     let d2 = if apart {
         d2
     } else {

@@ -255,8 +255,7 @@ pub(super) fn meet<'m>(
     let h2 = h2.named(format!("h2_{inner}"), format!("h² = {formula}, r = |{outer} {inner}|"));
     let reach = reach_across(way, &line);
     // Of a length that is longer by no more than rounding the margin is checked at run time.
-    let margin = r - reach - graph.epsilons(4) * (r + reach);
-    let (h2, rounding) = if margin.sign() == Some(1) {
+    let (h2, rounding) = if (r - reach).exceeds_rounding_of(r + reach) {
         (h2.known_positive(), graph.zero())
     } else {
         let rounding = graph.epsilons(4) * (r * (r + (reach + slack)));

@@ -506,7 +506,7 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let (least, most) = reach(way);
     // By more than rounding makes of the difference of a distance and a limit.
     let is_clear = |margin: Option<Expr<'m>>, limit: Expr<'m>| {
-        margin.and_then(|margin| (margin - graph.epsilons(4) * (limit + length)).sign()) == Some(1)
+        margin.is_some_and(|margin| margin.exceeds_rounding_of(limit + length))
     };
     let rounding = |of: &str, value: Expr<'m>, size: &str| {
         let meaning =
