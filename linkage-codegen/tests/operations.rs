@@ -8,10 +8,11 @@ use std::collections::BTreeMap;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use linkage_codegen::Linkage;
+use linkage_codegen::model::Method;
 use linkage_codegen::program::Program;
 use support::examples::declaration;
 use support::numbers::Double;
-use support::{Arguments, direct};
+use support::{Arguments, direct, from_pose as from_kept, pose};
 
 /// Sums and differences, products, quotients, square roots, sine and cosine pairs, arc tangents, vectors brought to unit size.
 type Tally = [usize; 7];
@@ -278,6 +279,118 @@ fn places_at(theta: f64) -> Found {
     found
 }
 
+/// What the four-bar's pose keeps.
+struct Links {
+    crank: Vector,
+    coupler: Vector,
+    rocker: Vector,
+    /// 1/sin μ.
+    inverse: N,
+    /// From A to C, over the coupler's length.
+    arm: Vector,
+}
+
+impl Links {
+    fn of(kept: Kept<'_>) -> Self {
+        let vector = |x: &str, y: &str| [kept(x), kept(y)];
+        Self {
+            crank: vector("crank_cos", "crank_sin"),
+            coupler: vector("coupler_cos", "coupler_sin"),
+            rocker: vector("rocker_cos", "rocker_sin"),
+            inverse: kept("inverse_sin_mu_B"),
+            arm: vector("arm_coupler_A_C_x", "arm_coupler_A_C_y"),
+        }
+    }
+
+    /// The moment of F14 about B0, over the rocker's length and times a factor.
+    fn m4(&self, factor: f64) -> N {
+        let [x, y] = f14();
+        0.75 * factor * y * self.rocker[0] - 0.75 * factor * x * self.rocker[1]
+    }
+
+    /// The forces in B by F13 and by F14.
+    fn forces(&self, f13: Vector) -> [Vector; 2] {
+        let m3 = cross(self.arm, f13);
+        [times(m3 * self.inverse, self.rocker), times(self.m4(1.0) * self.inverse, self.coupler)]
+    }
+
+    fn torque(&self, a: Vector) -> N {
+        80.0 * cross(self.crank, a)
+    }
+}
+
+fn statics(kept: Kept<'_>, f13: Vector) -> Found {
+    let links = Links::of(kept);
+    let [by_f13, by_f14] = links.forces(f13);
+    let b = add(by_f13, by_f14);
+    let a = sub(b, f13);
+    let [x, y] = f14();
+    let mut found = vec![(T12, links.torque(a))];
+    force(&mut found, &[["A.x", "A.y"], ["A0.x", "A0.y"]], a);
+    force(&mut found, &[["B.x", "B.y"]], b);
+    force(&mut found, &[["B0.x", "B0.y"]], [-x - b[0], -y - b[1]]);
+    found
+}
+
+fn parts(kept: Kept<'_>, f13: Vector) -> Found {
+    let links = Links::of(kept);
+    let [b, by_f14] = links.forces(f13);
+    let a = sub(b, f13);
+    let mut found = vec![("F13.T12", links.torque(a)), ("F14.T12", links.torque(by_f14))];
+    force(&mut found, &[["F13.A.x", "F13.A.y"], ["F13.A0.x", "F13.A0.y"]], a);
+    force(&mut found, &[["F13.B.x", "F13.B.y"]], b);
+    force(&mut found, &[["F13.B0.x", "F13.B0.y"]], [-b[0], -b[1]]);
+    let [x, y] = f14();
+    force(&mut found, &[["F14.A.x", "F14.A.y"], ["F14.A0.x", "F14.A0.y"], ["F14.B.x", "F14.B.y"]], by_f14);
+    force(&mut found, &[["F14.B0.x", "F14.B0.y"]], [-x - by_f14[0], -y - by_f14[1]]);
+    found
+}
+
+/// By the force in A.
+fn torque(kept: Kept<'_>, f13: Vector) -> Found {
+    let links = Links::of(kept);
+    let [by_f13, by_f14] = links.forces(f13);
+    vec![(T12, links.torque(sub(add(by_f13, by_f14), f13)))]
+}
+
+fn bearing(kept: Kept<'_>) -> Found {
+    let links = Links::of(kept);
+    let mut found = Vec::new();
+    force(&mut found, &[["B.x", "B.y"]], times(links.m4(1.0) * links.inverse, links.coupler));
+    found
+}
+
+fn terms(kept: Kept<'_>, f13: Vector) -> Found {
+    let links = Links::of(kept);
+    // The rates of coupler and rocker over −80/100 and −80/120.
+    let [of_coupler, of_rocker] = [links.rocker, links.coupler].map(|other| cross(links.crank, other) * links.inverse);
+    let [x, y] = times(of_coupler, links.arm);
+    let v = [80.0 * (y - links.crank[1]), 80.0 * (links.crank[0] - x)];
+    count(6);
+    let size = f13[0].0.hypot(f13[1].0);
+    let unit = f13.map(|part| N(part.0 / size));
+    let velocity = of_rocker * links.m4(-0.8);
+    vec![
+        ("F13.velocity", dot(v, unit)),
+        ("F13.work", dot(v, f13)),
+        ("F14.velocity", velocity),
+        ("F14.work", 100.0 * velocity),
+    ]
+}
+
+fn places(kept: Kept<'_>) -> Found {
+    let links = Links::of(kept);
+    let angle = |[x, y]: Vector| y.atan2(x);
+    let mut found = vec![("coupler_angle", angle(links.coupler)), ("rocker_angle", angle(links.rocker))];
+    let a = [80.0 * links.crank[0], 80.0 * links.crank[1]];
+    force(&mut found, &[["A.x", "A.y"]], a);
+    force(&mut found, &[["coupler_C.x", "coupler_C.y"]], add(a, [100.0 * links.arm[0], 100.0 * links.arm[1]]));
+    let [x, y] = links.rocker;
+    force(&mut found, &[["B.x", "B.y"]], [120.0 * x + 140.0, 120.0 * y]);
+    force(&mut found, &[["rocker_D.x", "rocker_D.y"]], [90.0 * x + 140.0, 90.0 * y]);
+    found
+}
+
 // --- the slider-crank -------------------------------------------------------------------------------------------------------------
 
 /// Weights of crank, rod and piston, N; how far that of the rod is from A, over the rod's length, and that of the crank from O, over its.
@@ -330,6 +443,49 @@ fn slider_crank_torque_at(theta: f64, gas: Vector) -> Found {
     vec![("T", 42.0 * (cos * ((of_piston + of_rod + OF_CRANK * of_crank) - gas[1]) - sin * across))]
 }
 
+/// The force on the rod across the slide in B, from what the pose keeps: the rod's vector is (−g, h).
+fn across_slide(kept: Kept<'_>, gas: Vector) -> N {
+    let [_, of_rod, of_piston] = WEIGHTS;
+    ((of_piston + OF_ROD * of_rod) - gas[1]) * kept("rod_cos") * kept("inverse_sin_mu_B")
+}
+
+fn hold(kept: Kept<'_>, gas: Vector) -> Found {
+    let [of_crank, of_rod, of_piston] = WEIGHTS;
+    let across = across_slide(kept, gas);
+    let b = of_piston - gas[1];
+    let at_a = b + of_rod;
+    let normal = gas[0] + across;
+    let lift = kept("crank_cos") * (at_a + OF_CRANK * of_crank);
+    let mut found = vec![
+        ("T", 42.0 * (lift - kept("crank_sin") * across)),
+        ("G.normal", normal),
+        ("G.couple", 30.0 * gas[0]),
+        ("G.force.x", -normal),
+    ];
+    force(&mut found, &[["B.x", "B.y"]], [across, b]);
+    force(&mut found, &[["A.x", "A.y"]], [across, at_a]);
+    force(&mut found, &[["O.x", "O.y"]], [across, at_a + of_crank]);
+    found
+}
+
+fn weights(kept: Kept<'_>) -> Found {
+    let lever = kept("crank_sin") * (kept("rod_cos") * kept("inverse_sin_mu_B"));
+    let cos = kept("crank_cos");
+    let [of_crank, of_rod, of_piston] = WEIGHTS.map(|weight| 42.0 * weight);
+    vec![
+        ("W.crank.T", OF_CRANK * of_crank * cos),
+        ("W.rod.T", of_rod * cos - OF_ROD * of_rod * lever),
+        ("W.piston.T", of_piston * (cos - lever)),
+    ]
+}
+
+/// By the force in A.
+fn slider_crank_torque(kept: Kept<'_>, gas: Vector) -> Found {
+    let [of_crank, of_rod, of_piston] = WEIGHTS;
+    let lift = kept("crank_cos") * ((of_piston + of_rod + OF_CRANK * of_crank) - gas[1]);
+    vec![("T", 42.0 * (lift - kept("crank_sin") * across_slide(kept, gas)))]
+}
+
 // --- the page ---------------------------------------------------------------------------------------------------------------------
 
 /// The counts of the page: for each function of an example the least, and what is emitted.
@@ -360,54 +516,100 @@ fn emitted(program: &Program) -> Tally {
     [counts.add, counts.mul, counts.div, counts.sqrt, counts.sin_cos, counts.atan2, counts.unit]
 }
 
-/// Holds a scene's formulas, the page and the emitted function against each other.
-fn hold(
-    linkage: &Linkage,
-    page: &mut BTreeMap<String, [Tally; 2]>,
-    scene: &str,
-    formulas: impl Fn(f64, Vector) -> Found,
-) {
-    let index = linkage.model.scenes.iter().position(|own| own.name.text == scene).expect("a scene");
-    let program = &linkage.functions.scenes[index].direct;
-    let [least, most] = page.remove(&format!("{scene}_at")).unwrap_or_else(|| panic!("the page leaves out {scene}"));
-    // The last is next to the four-bar's fold.
-    for (theta, load) in [(1.0, [-31.0, 38.0]), (-2.5, [0.5, 700.0]), (0.25, [12.0, -3.0]), (3.1413, [9.0, 40.0])] {
-        TALLY.set([0; 7]);
-        let found = formulas(theta, load.map(N));
-        assert_eq!(TALLY.get(), least, "{scene}: what the formulas count is not what the page says");
+/// What a pose keeps, by name.
+type Kept<'a> = &'a dyn Fn(&str) -> N;
 
-        let loads = vec![load; linkage.model.loads.len()];
-        let arguments = Arguments { drives: vec![theta], loads, ..Arguments::default() };
-        let values = direct::<Double>(linkage, program, &arguments).expect("an answer");
-        let largest = values.iter().fold(1.0_f64, |largest, value| largest.max(value.0.abs()));
-        let mut compared = 0;
-        for ((path, _), value) in program.outputs.iter().zip(&values) {
-            let Some((_, own)) = found.iter().find(|(own, _)| own == path) else {
-                // Constants, and what is given, take no formula.
-                assert!([theta, 0.0, 140.0].contains(&value.0), "{scene} finds no {path}");
-                continue;
-            };
-            compared += 1;
-            assert!((own.0 - value.0).abs() <= 1e-13 * largest, "{scene}, {path}: {} and {}", own.0, value.0);
-        }
-        assert_eq!(compared, found.len(), "{scene}: {:?}", program.outputs);
-    }
-    let own = emitted(program);
-    assert_eq!(own, most, "{scene}: what is emitted is not what the page says");
+/// An example, and the rows of the page that are still to be held.
+struct Chapter {
+    linkage: Linkage,
+    rows: BTreeMap<String, [Tally; 2]>,
 }
 
-fn linkage(example: &str) -> Linkage {
-    linkage_codegen::analyse(declaration(example)).unwrap_or_else(|refusal| panic!("{:?}", refusal.errors))
+impl Chapter {
+    fn of(example: &str, title: &str) -> Self {
+        let linkage = linkage_codegen::analyse(declaration(example));
+        Self { linkage: linkage.unwrap_or_else(|refusal| panic!("{:?}", refusal.errors)), rows: page(title) }
+    }
+
+    fn row(&mut self, name: &str) -> [Tally; 2] {
+        self.rows.remove(name).unwrap_or_else(|| panic!("the page leaves out {name}"))
+    }
+
+    /// Holds the formulas of the pose, carried out already, against the page.
+    fn hold_pose(&mut self) {
+        let [least, most] = self.row("Pose::at");
+        assert_eq!(TALLY.get(), least, "the pose: what the formulas count is not what the page says");
+        let own = emitted(&self.linkage.functions.pose);
+        assert_eq!(own, most, "the pose: what is emitted is not what the page says");
+    }
+
+    /// Holds a scene's formulas, from the drive and from what a pose keeps, the page and the emitted functions against each other.
+    fn hold(
+        &mut self,
+        scene: &str,
+        straight: impl Fn(f64, Vector) -> Found,
+        from_pose: impl Fn(Kept<'_>, Vector) -> Found,
+    ) {
+        let rows = [format!("{scene}_at"), format!("Pose::{scene}")].map(|name| (self.row(&name), name));
+        let index = self.linkage.model.scenes.iter().position(|own| own.name.text == scene).expect("a scene");
+        let functions = &self.linkage.functions.scenes[index];
+        let programs = [&functions.direct, &functions.from_pose];
+        // The last is next to the four-bar's fold.
+        for (theta, load) in [(1.0, [-31.0, 38.0]), (-2.5, [0.5, 700.0]), (0.25, [12.0, -3.0]), (3.1413, [9.0, 40.0])] {
+            let loads = vec![load; self.linkage.model.loads.len()];
+            let arguments = Arguments { drives: vec![theta], loads, ..Arguments::default() };
+            let pose = pose::<Double>(&self.linkage, &arguments).expect("a pose");
+            let kept = |name: &str| {
+                let number = self.linkage.plan.pose.iter().find(|kept| kept.name == name);
+                N(pose[&number.expect("a number of the pose").node].0)
+            };
+            let values = [
+                direct::<Double>(&self.linkage, programs[0], &arguments).expect("an answer"),
+                from_kept::<Double>(&self.linkage, programs[1], &pose, &arguments).expect("an answer"),
+            ];
+            for (from_kept, (([least, _], name), values)) in rows.iter().zip(&values).enumerate() {
+                TALLY.set([0; 7]);
+                let load = load.map(N);
+                let found = if from_kept == 1 { from_pose(&kept, load) } else { straight(theta, load) };
+                assert_eq!(TALLY.get(), *least, "{name}: what the formulas count is not what the page says");
+                compare(name, theta, &found, programs[from_kept], values);
+            }
+        }
+        for (([_, most], name), program) in rows.iter().zip(programs) {
+            assert_eq!(emitted(program), *most, "{name}: what is emitted is not what the page says");
+        }
+    }
+
+    /// The page has no other rows, and leaves out no scene but one that only compares the others' methods.
+    fn is_held(self, scenes: &[&str]) {
+        assert!(self.rows.is_empty(), "no scene has {:?}", self.rows);
+        let own = self.linkage.model.scenes.iter().filter(|scene| scene.method != Method::Verify);
+        assert_eq!(own.map(|scene| scene.name.text.as_str()).collect::<Vec<_>>(), scenes);
+    }
+}
+
+/// Holds what formulas have found against the results of a program.
+fn compare(name: &str, theta: f64, found: &Found, program: &Program, values: &[Double]) {
+    let largest = values.iter().fold(1.0_f64, |largest, value| largest.max(value.0.abs()));
+    let mut compared = 0;
+    for ((path, _), value) in program.outputs.iter().zip(values) {
+        let Some((_, own)) = found.iter().find(|(own, _)| own == path) else {
+            // Constants, and what is given, take no formula.
+            assert!([theta, 0.0, 140.0].contains(&value.0), "{name} finds no {path}");
+            continue;
+        };
+        compared += 1;
+        assert!((own.0 - value.0).abs() <= 1e-13 * largest, "{name}, {path}: {} and {}", own.0, value.0);
+    }
+    assert_eq!(compared, found.len(), "{name}: {:?}", program.outputs);
 }
 
 #[test]
 fn four_bar() {
-    let linkage = linkage("four_bar");
-    let mut page = page("Four-bar");
-    let [least, most] = page.remove("Pose::at").expect("the pose");
+    let mut chapter = Chapter::of("four_bar", "Four-bar");
     TALLY.set([0; 7]);
     let found = four_bar_pose(1.0, TWO_CRANKS);
-    assert_eq!(TALLY.get(), least);
+    chapter.hold_pose();
     let [crank, coupler, rocker] =
         [found.crank, found.coupler, found.rocker].map(|vector| vector.map(|part| TWO_CRANKS * part.0));
     let (sin, cos) = 1f64.sin_cos();
@@ -420,32 +622,27 @@ fn four_bar() {
         crank[1] + coupler[1] - rocker[1],
     ];
     assert!(off.iter().all(|off| off.abs() < 1e-12) && rocker[1] > 0.0, "{off:?}");
-    let own = emitted(&linkage.functions.pose);
-    assert_eq!(own, most, "the pose: what is emitted is not what the page says");
-    hold(&linkage, &mut page, "statics", statics_at);
-    hold(&linkage, &mut page, "parts", parts_at);
-    hold(&linkage, &mut page, "torque", torque_at);
-    hold(&linkage, &mut page, "bearing", |theta, _| bearing_at(theta));
-    hold(&linkage, &mut page, "terms", terms_at);
-    hold(&linkage, &mut page, "places", |theta, _| places_at(theta));
-    assert!(page.is_empty(), "no scene has {page:?}");
+    chapter.hold("statics", statics_at, statics);
+    chapter.hold("parts", parts_at, parts);
+    chapter.hold("torque", torque_at, torque);
+    chapter.hold("bearing", |theta, _| bearing_at(theta), |kept, _| bearing(kept));
+    chapter.hold("terms", terms_at, terms);
+    chapter.hold("places", |theta, _| places_at(theta), |kept, _| places(kept));
+    chapter.is_held(&["statics", "parts", "torque", "bearing", "terms", "places"]);
 }
 
 #[test]
 fn slider_crank() {
-    let linkage = linkage("slider_crank");
-    let mut page = page("Slider-crank");
-    let [least, most] = page.remove("Pose::at").expect("the pose");
+    let mut chapter = Chapter::of("slider_crank", "Slider-crank");
     TALLY.set([0; 7]);
     let (sin, cos, g, h) = slider_crank_pose(1.0);
     let travel = h + sin;
-    assert_eq!(TALLY.get(), least);
+    chapter.hold_pose();
     // The pin's line is x = 1 mm, and the rod has its length.
     let off = [42.0 * (cos.0 - g.0) - 1.0, 42.0 * g.0.hypot(h.0) - 142.0, 42.0 * (travel.0 - h.0 - 1f64.sin())];
     assert!(off.iter().all(|off| off.abs() < 1e-12), "{off:?}");
-    assert_eq!(emitted(&linkage.functions.pose), most, "the pose: what is emitted is not what the page says");
-    hold(&linkage, &mut page, "hold", hold_at);
-    hold(&linkage, &mut page, "weights", |theta, _| weights_at(theta));
-    hold(&linkage, &mut page, "torque", slider_crank_torque_at);
-    assert!(page.is_empty(), "no scene has {page:?}");
+    chapter.hold("hold", hold_at, hold);
+    chapter.hold("weights", |theta, _| weights_at(theta), |kept, _| weights(kept));
+    chapter.hold("torque", slider_crank_torque_at, slider_crank_torque);
+    chapter.is_held(&["hold", "weights", "torque"]);
 }

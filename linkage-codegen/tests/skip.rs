@@ -2,7 +2,9 @@
 
 mod support;
 
-use linkage_codegen::graph::{Failure, Graph, Guard, Kernel, Op, Order, Symbol};
+use std::collections::BTreeSet;
+
+use linkage_codegen::graph::{Failure, Graph, Guard, Kernel, NodeId, Op, Order, Sought, Symbol};
 use linkage_codegen::program::{Counts, Definition, Input, Program, Step, ValueId};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use support::compile;
@@ -410,6 +412,41 @@ fn no_program_computes_what_nothing_reads() {
         }
     }
     assert!(computed > 17_000 && looked_at > 850, "{computed} values in {looked_at} programs");
+}
+
+/// What a pose or a prepared linkage keeps is read: by a scene that starts from it, by what can be asked of it, or by a search that does.
+#[test]
+fn nothing_is_kept_that_nothing_reads() {
+    let (mut kept, mut unread) = (0, Vec::new());
+    for (name, linkage) in linkages() {
+        let functions = &linkage.functions;
+        let programs = programs(&linkage);
+        let own = programs.iter().filter(|(_, _, graph)| core::ptr::eq(*graph, &linkage.model.graph));
+        let read: BTreeSet<NodeId> = own
+            .flat_map(|(_, program, _)| program.inputs())
+            .filter_map(|(_, input)| match input {
+                Input::Kept(node) | Input::Prepared(node) => Some(node),
+                Input::Symbol(_) | Input::Known(_) => None,
+            })
+            .collect();
+        let searches = linkage.model.graph.searches();
+        let sought: Vec<String> =
+            searches.iter().flat_map(|(_, search)| search.sought.iter().flat_map(Sought::names)).collect();
+        for number in &linkage.plan.pose {
+            kept += 1;
+            if !read.contains(&number.node) && !sought.contains(&number.name) {
+                unread.push(format!("{name}: {}", number.name));
+            }
+        }
+        for node in &functions.prepared {
+            kept += 1;
+            if !read.contains(node) {
+                unread.push(format!("{name}: prepared {:?}", linkage.model.graph.label(*node)));
+            }
+        }
+    }
+    assert!(unread.is_empty(), "of {kept}: {unread:#?}");
+    assert!(kept > 300, "only {kept}");
 }
 
 /// What a program comes to for numbers of which none is related to another: any given ones, and any results of kernels and roots. So

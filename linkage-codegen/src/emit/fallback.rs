@@ -192,7 +192,7 @@ fn accessors(model: &Model) -> impl Iterator<Item = (String, TokenStream)> {
     };
     let drives = model.drives.iter().map(|drive| number(drive.name.text.clone()));
     let joints = model.joints.iter().flat_map(|joint| {
-        joint.pivot_names().into_iter().map(number).chain([vector(joint.name.text.clone())]).collect::<Vec<_>>()
+        joint.asked_names().into_iter().map(number).chain([vector(joint.name.text.clone())]).collect::<Vec<_>>()
     });
     let links = model.links.iter().skip(1).flat_map(|link| {
         let points = link.points.iter().map(|point| point.name.text.as_str()).chain(["direction"]);

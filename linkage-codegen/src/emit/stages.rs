@@ -198,26 +198,33 @@ pub(super) fn stages<'a>(work: Work<'a>, given: &[Ident]) -> Vec<Stage<'a>> {
         }
     }
     keep(&mut stages, &wanted, &stage_of, columns);
-    debug_assert!(columns_have_what_is_read(&stages), "a column is read that has other numbers");
+    debug_assert!(columns_are_filled_and_read(&stages), "a column is read that has other numbers, or kept for nothing");
     stages
 }
 
-/// Whether each column that a stage reads has been filled, and with the numbers of that name, by a stage before it.
-fn columns_have_what_is_read(stages: &[Stage]) -> bool {
-    let mut filled: Vec<(Column, String)> = Vec::new();
+/// Whether each column that a stage reads has been filled, and with the numbers of that name, by a stage before it; and each that is kept
+/// for later stages is read by one of them.
+fn columns_are_filled_and_read(stages: &[Stage]) -> bool {
+    let mut filled: Vec<(Column, String, bool)> = Vec::new();
     for Stage { reads, keeps, .. } in stages {
-        let has = |(name, column): &(Ident, Column)| {
-            matches!(column, Column::Given(_)) || filled.iter().any(|(own, text)| own == column && name == text)
-        };
-        if !reads.iter().all(has) {
-            return false;
+        for (name, column) in reads {
+            let own = filled.iter_mut().find(|(own, text, _)| own == column && name == text);
+            match (own, column) {
+                (Some((_, _, is_read)), _) => *is_read = true,
+                (None, Column::Given(_)) => {}
+                (None, _) => return false,
+            }
         }
         for (column, tokens) in keeps {
-            filled.retain(|(own, _)| own != column);
-            filled.push((*column, tokens.to_string()));
+            if let Some(index) = filled.iter().position(|(own, ..)| own == column)
+                && !filled.swap_remove(index).2
+            {
+                return false;
+            }
+            filled.push((*column, tokens.to_string(), matches!(column, Column::Result(_))));
         }
     }
-    true
+    filled.iter().all(|(_, _, is_read)| *is_read)
 }
 
 /// Gives columns to what later stages read, of which `columns` are known already.

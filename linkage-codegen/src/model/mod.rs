@@ -208,10 +208,14 @@ impl Joint {
     #[must_use]
     pub fn pivot_names(&self) -> Vec<String> {
         let sine = format!("sin_mu_{}", self.name);
-        match self.kind {
-            JointKind::Prismatic { .. } | JointKind::Slot { .. } => vec![sine, format!("reach_{}", self.name)],
-            _ => vec![sine],
-        }
+        if self.kind.line().is_some() { vec![sine, format!("reach_{}", self.name)] } else { vec![sine] }
+    }
+
+    /// What a pose may be asked of it beside its place.
+    #[must_use]
+    pub fn asked_names(&self) -> Vec<String> {
+        let travel = self.kind.line().map(|_| format!("travel_{}", self.name));
+        self.pivot_names().into_iter().chain(travel).collect()
     }
 
     /// The end that is not on a link.

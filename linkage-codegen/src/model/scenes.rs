@@ -819,8 +819,8 @@ fn check_generated_names(model: &Model, sink: &Sink) {
         methods.insert(drive.name.text.clone(), format!("gives the drive `{}`", drive.name));
     }
     for joint in &model.joints {
-        let pivot = joint.pivot_names();
-        for made in pivot.into_iter().chain([joint.name.text.clone()]) {
+        let asked = joint.asked_names();
+        for made in asked.into_iter().chain([joint.name.text.clone()]) {
             if let Some(other) = methods.insert(made.clone(), format!("belongs to the joint `{}`", joint.name)) {
                 method(&joint.name, &made, &other);
             }

@@ -234,6 +234,15 @@ impl<'m, 'p> Balance<'m, 'p> {
         turned.or_from_pose(by_unit)
     }
 
+    /// The moment about the place that the motion of a link is given for. Where a pose is given, by the arms over the link's length that it keeps
+    /// for equilibrium.
+    #[must_use]
+    pub fn moment_for_power(&self, link: LinkId, about: Vector<'m>) -> Expr<'m> {
+        let (one, length) = (self.graph().one(), self.placement.length(link));
+        let [turned, of_kept] = [one, one / length].map(|factor| self.moment_in_ways(link, about, factor));
+        turned.turned.or_from_pose(length * of_kept.of_kept)
+    }
+
     fn moment_in_ways(&self, link: LinkId, about: Vector<'m>, factor: Expr<'m>) -> Moment<'m> {
         let (direction, ground) = (self.placement.direction(link), self.placement.direction(GROUND));
         let wrench = &self.wrenches[link.index()];

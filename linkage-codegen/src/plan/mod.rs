@@ -45,7 +45,7 @@ use crate::equations::System;
 use crate::graph::{Coordinate, Expr, Graph, Label, NodeId, Op, Order, Sought, Symbol};
 use crate::model::ids::{DriveId, JointId, LinkId, ParamId};
 use crate::model::units::Kind;
-use crate::model::{Along, Closure, End, Model, Pair, Scene, Wanted, reciprocal_name};
+use crate::model::{Along, Closure, End, Joint, Model, Pair, Scene, Wanted, reciprocal_name};
 use crate::topology::{Group, Input, Topology};
 
 /// The solution of a linkage.
@@ -185,14 +185,15 @@ impl Plan {
         let links = placed_links(posed);
         let accessors = accessors(&assembly);
         let mut pose = kept(&assembly);
+        let placed: BTreeSet<NodeId> = pose.iter().map(|kept| kept.node).collect();
         let mut scenes = scenes::outputs(&assembly, posed, [&motion_rules, &force_rules], (system, &links), sink);
         pose.extend(reciprocals(&assembly, &scenes));
         pose.extend(arms(model, &scenes, &pose));
         pose.extend(error_bound::add(&assembly, &mut scenes, &pose));
-        let read = read_of_poses(&model.graph, &scenes);
-        let cosines: Vec<NodeId> =
-            assembly.dyads.iter().filter_map(|pivot| Some(pivot.cosine.as_ref()?.value.id())).collect();
-        pose.retain(|kept| !cosines.contains(&kept.node) || read.contains(&kept.node));
+        let asked = accessors.iter().map(|accessor| &accessor.output);
+        let (read, sought) = (read_of_poses(&model.graph, scenes.iter().chain(asked)), sought(&model.graph));
+        // The others are there because a scene reads them.
+        pose.retain(|kept| !placed.contains(&kept.node) || read.contains(&kept.node) || sought.contains(&kept.name));
         let plan = Self {
             pose,
             accessors,
@@ -305,7 +306,7 @@ fn uncounted<'s>(model: &'s Model, scenes: &'s [Output]) -> impl Iterator<Item =
     both.filter(|(scene, _)| !scene.results.contains(&Wanted::ErrorBound)).map(|(_, output)| output)
 }
 
-/// What scenes read of what a pose keeps.
+/// What scenes and what else can be asked of a pose read of what it keeps.
 fn read_of_poses<'s>(graph: &Graph, scenes: impl IntoIterator<Item = &'s Output>) -> BTreeSet<NodeId> {
     let mut open: Vec<NodeId> = scenes.into_iter().flat_map(Output::leaves).map(|(_, node)| node).collect();
     let (mut seen, mut read) = (BTreeSet::new(), BTreeSet::new());
@@ -437,11 +438,14 @@ fn kept(assembly: &Assembly<'_>) -> Vec<Kept> {
     all
 }
 
+/// The names of what searches seek: they start from a pose.
+fn sought(graph: &Graph) -> BTreeSet<String> {
+    graph.searches().iter().flat_map(|(_, search)| search.sought.iter().flat_map(Sought::names)).collect()
+}
+
 /// What links that are held at one angle share goes by the name by which a search seeks it, otherwise by the first.
 fn each_once(all: Vec<Kept>, graph: &Graph) -> Vec<Kept> {
-    let searches = graph.searches();
-    let sought: BTreeSet<String> =
-        searches.iter().flat_map(|(_, search)| search.sought.iter().flat_map(Sought::names)).collect();
+    let sought = sought(graph);
     let mut names: BTreeMap<NodeId, String> = BTreeMap::new();
     for kept in &all {
         let name = names.entry(kept.node).or_insert_with(|| kept.name.clone());
@@ -485,6 +489,12 @@ fn accessors(assembly: &Assembly<'_>) -> Vec<Accessor> {
             let output = Output::vector(placement.place(end), Meaning::Place);
             all.push(Accessor { name: format!("{name}_{}", point.name), meaning, output });
         }
+    }
+    for (joint, travel) in placement.travels().filter(|(joint, _)| model.drive_of(*joint, false).is_none()) {
+        let Joint { name, kind, .. } = model.joint(joint);
+        let meaning = format!("Travel of the {} `{name}`, {unit}.", kind.noun());
+        let output = Output::scalar(travel, Meaning::Length);
+        all.push(Accessor { name: format!("travel_{name}"), meaning, output });
     }
     for pivot in &assembly.dyads {
         let mut what = pivot.what.clone();

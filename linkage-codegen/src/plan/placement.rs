@@ -177,6 +177,7 @@ pub struct Placement<'m> {
     travels: BTreeMap<JointId, Travel<'m>>,
     angles: BTreeMap<LinkId, Expr<'m>>,
     arms: BTreeMap<[JointId; 2], Expr<'m>>,
+    lengths: BTreeMap<LinkId, Expr<'m>>,
     placed: BTreeSet<JointId>,
 }
 
@@ -195,6 +196,7 @@ impl<'m> Placement<'m> {
             travels: BTreeMap::new(),
             angles,
             arms: BTreeMap::new(),
+            lengths: BTreeMap::new(),
             placed: BTreeSet::new(),
         }
     }
@@ -203,6 +205,17 @@ impl<'m> Placement<'m> {
     #[must_use]
     pub fn graph(&self) -> &'m Graph {
         &self.model.graph
+    }
+
+    /// A link is a leg of this length, over which the moments on it are taken.
+    pub fn set_length(&mut self, link: LinkId, length: Expr<'m>) {
+        self.lengths.insert(link, length);
+    }
+
+    /// The length over which the moments on a link are taken where its dyad is balanced: one if it is no leg between pins.
+    #[must_use]
+    pub fn length(&self, link: LinkId) -> Expr<'m> {
+        self.lengths.get(&link).copied().unwrap_or_else(|| self.graph().one())
     }
 
     /// Places a link. A pose keeps its direction.

@@ -562,7 +562,8 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn power_of(&self, loads: &Balance<'m, '_>, link: LinkId) -> [Expr<'m>; 2] {
         let Twist { rate, at, velocity } = self.twists[link.index()];
         let force = loads.total(link).along(velocity.axes);
-        [velocity.components.dot(force), rate * loads.moment_of_turned(link, at)]
+        let moment = loads.moment_for_power(link, at);
+        [velocity.components.dot(force), rate * moment]
     }
 
     /// The power of an action: `F · v` or `M ω`.

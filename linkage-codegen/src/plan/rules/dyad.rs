@@ -333,6 +333,13 @@ impl<'a> Dyad<'a> {
         super::checked_length(self.model, self.constant_arm(leg).size(), &leg.links, [leg.outer, self.inner])
     }
 
+    /// Moments on a leg of one link are taken over its length, as `share` does.
+    pub(super) fn take_moments_over_length(&self, placement: &mut Placement<'a>, leg: &Leg) {
+        if leg.is_single() && leg.is_constant(self.model) {
+            placement.set_length(leg.link(), self.length(leg));
+        }
+    }
+
     /// The vector between a leg's joints, along and across what its first link carries, if its length is not constant.
     pub(super) fn driven_arm(&self, leg: &Leg) -> Option<Vector<'a>> {
         (!leg.is_constant(self.model)).then(|| self.arm(leg).along)

@@ -160,6 +160,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let direction = by_parts(Vector::new(cosine, sine), e, &name);
     let direction = direction.named_direction(&name, &format!("direction of {name} from {outer} to {inner}"));
     let u = dyad.orient(assembly, rod_leg, direction)?;
+    dyad.take_moments_over_length(&mut assembly.placement, rod_leg);
     assembly.placement.connect(rod_leg.outer);
     assembly.placement.connect(dyad.inner);
     // From the guide's point to the slider's, whichever of the two is the slide's second.

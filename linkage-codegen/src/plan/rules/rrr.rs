@@ -333,6 +333,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         if let Some(rough) = rough.filter(|_| leg.is_single()) {
             assembly.placement.know_rough(leg.link(), rough);
         }
+        dyad.take_moments_over_length(&mut assembly.placement, leg);
         assembly.placement.connect(leg.outer);
     }
     assembly.placement.connect(dyad.inner);
