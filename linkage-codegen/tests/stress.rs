@@ -40,7 +40,7 @@ use linkage_codegen::graph::Failure;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::program::Fault;
 use nalgebra::{DMatrix, DVector};
-use support::bounds::{LOOSEST, median, ratios, with_bounds};
+use support::bounds::{LOOSEST, median, ratios, with_bounds_of};
 use support::families::{
     BARS, boom, four_bar, length, loads, oscillating_block, planet, scotch_yoke, shaper, single, slider_crank,
     slotted_crank, slotted_yoke, tangent_mechanism, welded,
@@ -949,7 +949,10 @@ const TOLD: f64 = 0.03;
 impl Cell {
     fn add<T: Scalar>(&mut self, Poses { text, longest, each, .. }: &Poses, fused: bool, bounded: bool) {
         let text = computed_in::<T>(text, fused);
-        let Some(linkage) = (if bounded { with_bounds(&text) } else { compile_if_it_closes(&text) }) else { return };
+        let Some(linkage) = compile_if_it_closes(&text) else { return };
+        // A pose that is kept for bounds is computed by another program: the bars are those of the one without.
+        let with_bounds = if bounded { with_bounds_of(&linkage, &text) } else { None };
+        assert_eq!(with_bounds.is_some(), bounded, "{text}");
         for Pose { drive, loads, pivot } in each {
             let arguments = at_nearest::<T>(*drive, loads);
             let is_told = T::EPSILON <= TOLD * pivot * pivot;
@@ -968,8 +971,10 @@ impl Cell {
             if self.example.as_ref().is_none_or(|(worst, _)| share > *worst) {
                 self.example = Some((share, format!("{measures:?}\n{}", context())));
             }
-            if bounded && let Ok(found) = scene::<T>(&linkage, "bounded", &arguments) {
-                let ratios = ratios(&linkage, &arguments, &found, &context());
+            if let Some(linkage) = &with_bounds
+                && let Ok(found) = scene::<T>(linkage, "bounded", &arguments)
+            {
+                let ratios = ratios(linkage, &arguments, &found, &context());
                 if is_told {
                     self.bounded += usize::from(!ratios.is_empty());
                     self.ratios.extend(ratios);

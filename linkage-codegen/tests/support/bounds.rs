@@ -19,7 +19,11 @@ pub fn median(ratios: &mut [f64]) -> Option<f64> {
 
 /// A scene `bounded` with all that equilibrium gives, and the bounds; a scene `alone` without them.
 pub fn with_bounds(text: &str) -> Option<Linkage> {
-    let linkage = compile_if_it_closes(text)?;
+    with_bounds_of(&compile_if_it_closes(text)?, text)
+}
+
+/// The same where the linkage without them is there: with bounds `Pose::at` and all that comes from it count their rounding.
+pub fn with_bounds_of(linkage: &Linkage, text: &str) -> Option<Linkage> {
     let unknowns = linkage.model.unknowns.iter().map(|unknown| unknown.name.clone());
     let joints = linkage.model.joints.iter().map(|joint| joint.name.text.clone());
     let results: Vec<String> = unknowns.chain(joints).collect();
