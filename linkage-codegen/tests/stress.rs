@@ -315,6 +315,12 @@ impl Kind {
         matches!(self.drawn, Drawn::ByPlaces(..))
     }
 
+    /// Whether every member has a slide or a slot that is not driven and whose line is given by a point and an angle; of blocks by places and
+    /// cascades most have.
+    fn has_lines(&self) -> bool {
+        ["slider", "blocks", "tangent", "yokes", "slot", "cascades"].into_iter().any(|word| self.name.contains(word))
+    }
+
     fn is_cascade(&self) -> bool {
         matches!(self.drawn, Drawn::ByPlaces(Class::Cascade))
     }
@@ -1132,19 +1138,31 @@ fn bits<T: Number>(linkage: &Linkage, name: &str, arguments: &Arguments) -> Resu
     Ok(all)
 }
 
+/// Of the poses that were tried at least a quarter have results to be compared: where nothing is, nothing is shown.
+fn assert_compared(kind: &Kind, what: &str, compared: usize, tried: usize) {
+    assert!(
+        4 * compared >= tried && tried > 0,
+        "{}, {what}: of {tried} that were tried {compared} were compared",
+        kind.name
+    );
+}
+
 /// 6: elsewhere the same linkage has the same directions and forces.
 fn moved<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     let mut random = Random(15);
+    let (mut compared, mut tried) = (0, 0);
     for offset in ["1000", "123456", "100000000"] {
         for _ in 0..members {
             let member = kind.drawn(&mut random);
             let text = computed_in::<T>(&member.text, fused);
             let text = [shifted(&text, offset), text];
+            tried += 4;
             let [Some(far), Some(near)] = text.each_ref().map(|text| compile_if_it_closes(text)) else { continue };
             for drive in member.drives(&mut random, 4) {
                 let arguments = at_nearest::<T>(drive, &member.loads);
-                let all = |linkage| bits::<T>(linkage, "all", &arguments);
-                assert_eq!(all(&near), all(&far), "{}", text[0]);
+                let [here, there] = [&near, &far].map(|linkage| bits::<T>(linkage, "all", &arguments));
+                assert_eq!(here, there, "{}", text[0]);
+                compared += usize::from(here.is_ok());
                 let kept = |linkage: &Linkage| {
                     let kept = pose::<T>(linkage, &arguments).ok()?;
                     let bits = |node| kept[node].to_f64().to_bits();
@@ -1154,6 +1172,7 @@ fn moved<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
             }
         }
     }
+    assert_compared(kind, "moved", compared, tried);
 }
 
 /// The declaration with all points of the ground, and all starts, moved by the same amount.
@@ -1197,10 +1216,13 @@ fn datum_moved<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     let [line, runner, both]: [&[bool]; 3] = [&[false], &[true], &[false, true]];
     let moves =
         [(20.0, line), (1e3, line), (-123_456.0, line), (1e8, line), (-1e3, runner), (1e8, runner), (-1e5, both)];
+    // Where a line's own point is moved, and where its runner's is, too: a pin in a slot has none.
+    let (mut by_line, mut by_runner, mut tried) = (0, 0, 0);
     for (distance, points) in moves.into_iter().filter(|(_, points)| *points == line || kind.is_by_places()) {
         for _ in 0..members {
             let member = kind.drawn(&mut random);
             let text = computed_in::<T>(&member.text, fused);
+            tried += if points == line { 4 } else { 0 };
             let move_point = |text: String, runner: &bool| {
                 let first = *far_points::lines(&text).first()?;
                 far_points::with_point_moved(&text, first, distance, *runner)
@@ -1218,6 +1240,7 @@ fn datum_moved<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
                 let arguments = at_nearest::<T>(drive, &member.loads);
                 if let Some(further) = further_off::<T>([&far, &near], &arguments) {
                     assert!(further < 10.0, "{further} times, at {drive:?}\n{text}\n{moved}");
+                    *(if points == line { &mut by_line } else { &mut by_runner }) += 1;
                 }
                 if kind.is_cascade() {
                     continue;
@@ -1225,12 +1248,17 @@ fn datum_moved<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
                 let forces = |linkage| {
                     let mut all = bits::<T>(linkage, "all", &arguments)?;
                     all.retain(|(path, _)| is_force(path));
+                    assert!(!all.is_empty(), "no forces\n{text}");
                     Ok::<_, Fault>(all)
                 };
                 assert_eq!(forces(&far), forces(&near), "at {drive:?}\n{text}\n{moved}");
                 assert_eq!(directions::<T>(&far, &arguments), directions::<T>(&near, &arguments), "{text}\n{moved}");
             }
         }
+    }
+    if kind.has_lines() {
+        assert_compared(kind, "points of lines moved", by_line, tried);
+        assert!(by_runner > 0 || !kind.is_by_places(), "{}: no point of a runner was moved", kind.name);
     }
 }
 
@@ -1259,11 +1287,13 @@ fn directions<T: Scalar>(linkage: &Linkage, arguments: &Arguments) -> Option<Vec
 /// 8: in units that differ by a power of two the same linkage has the same digits.
 fn in_other_units<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     let mut random = Random(16);
+    let (mut compared, mut tried) = (0, 0);
     for exponent in [-T::UNITS, -8, 8, T::UNITS] {
         let (factor, power) = (2f64.powi(exponent), 2f64.powi(exponent.abs()));
         for _ in 0..members {
             let member = kind.drawn(&mut random);
             let text = computed_in::<T>(&member.text, fused);
+            tried += 4;
             // A unit of length that is smaller by the factor stands in the declaration exactly.
             let unit = if exponent < 0 { format!("m/{power:?}") } else { format!("m*{power:?}") };
             let plain = compile_if_it_closes(&text);
@@ -1277,6 +1307,7 @@ fn in_other_units<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
                     .map(|(linkage, drive)| scene::<T>(linkage, "all", &at_nearest::<T>(drive, &member.loads)));
                 assert_eq!(found.is_ok(), others.is_ok(), "with 2^{exponent} at {drive:?}\n{text}");
                 let (Ok(found), Ok(others)) = (found, others) else { continue };
+                compared += 1;
                 for (path, value) in found {
                     let expected = value.to_f64() * if is_moment(&plain, &path) { factor } else { 1.0 };
                     assert_eq!(
@@ -1288,16 +1319,19 @@ fn in_other_units<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
             }
         }
     }
+    assert_compared(kind, "in other units", compared, tried);
 }
 
 /// 8: in units of force that differ by a power of two the results have the same digits.
 fn in_other_units_of_force<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     let mut random = Random(20);
+    let (mut compared, mut tried) = (0, 0);
     for exponent in [-T::UNITS, -8, 8, T::UNITS] {
         let factor = 2f64.powi(exponent);
         for _ in 0..members {
             let member = kind.drawn(&mut random);
             let text = computed_in::<T>(&member.text, fused);
+            tried += 8;
             let Some(linkage) = compile_if_it_closes(&text) else { continue };
             for drive in member.drives(&mut random, 4) {
                 let plain = at_nearest::<T>(drive, &member.loads);
@@ -1307,6 +1341,7 @@ fn in_other_units_of_force<T: Scalar>(kind: &Kind, members: usize, fused: bool) 
                     let [found, others] = [&plain, &scaled].map(|arguments| scene::<T>(&linkage, name, arguments));
                     assert_eq!(found.is_ok(), others.is_ok(), "with 2^{exponent} at {drive:?}\n{text}");
                     let (Ok(found), Ok(others)) = (found, others) else { continue };
+                    compared += 1;
                     for (path, value) in found {
                         let factor = if path.ends_with(".velocity") { 1.0 } else { factor };
                         let [expected, other] = [value.to_f64() * factor, others[&path].to_f64()].map(f64::to_bits);
@@ -1316,6 +1351,7 @@ fn in_other_units_of_force<T: Scalar>(kind: &Kind, members: usize, fused: bool) 
             }
         }
     }
+    assert_compared(kind, "in other units of force", compared, tried);
 }
 
 /// 11: at the end of a motion and beyond it, and where a determinant changes its sign: a typed error, or a number that keeps to the bars.
@@ -1384,6 +1420,7 @@ fn ends_of<T: Scalar>(kind: &Kind, member: &Member, doubles: &Linkage, found: &[
 /// 11: NaN and infinity in every argument of every function: a typed error, never a number.
 fn not_finite<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     let mut random = Random(18);
+    let mut looked_at = 0;
     for _ in 0..members {
         let member = kind.drawn(&mut random);
         let mut text = computed_in::<T>(&member.text, fused);
@@ -1400,6 +1437,7 @@ fn not_finite<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
         }) else {
             continue;
         };
+        looked_at += 1;
         let good = at(drive, &member.loads);
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for name in ["all", "parts", "work", "whole"] {
@@ -1425,6 +1463,7 @@ fn not_finite<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
             }
         }
     }
+    assert_compared(kind, "not finite", looked_at, members);
 }
 
 /// One kind: quickly, and at length.
