@@ -7,8 +7,9 @@
 //! ```
 //!
 //! with 10⁶ random poses of four-bars and slider-cranks, and 10⁴ of each other kind and of any in fused arithmetic; with 100 members of a
-//! kind in each family, 50 in fused arithmetic. Bounds are looked at in every fourth member, of cascades in more. Of regular poses one in a
-//! hundred may be refused in doubles, one in five in single precision, down to pivots at which rounding leaves digits: 10⁻⁷ and 10⁻²·⁵.
+//! kind in each family, 50 in fused arithmetic; of 6, 8, and of NaN and infinities with 20 and 10, at the ends of motions with the same 100.
+//! Bounds are looked at in every fourth member, and members are drawn until 30 poses have some. Of regular poses one in a hundred may be
+//! refused in doubles, one in five in single precision, down to pivots at which rounding leaves digits: 10⁻⁷ and 10⁻²·⁵.
 //! Of the bounds there one in a hundred may say that nothing is known; in 5 and 14, where there may be no errors at all, one in twenty; in 1, 2
 //! and 3, whose pivots are about what they are said to be, one in eight, in single precision one in four. So many in 4 and 9 in single
 //! precision, too, where a short link may be shorter than the rounding of long ones, and legs may be 10⁻⁴ from meeting in a point.
