@@ -1,4 +1,5 @@
-//! NaN and infinity in every input of every emitted function, one at a time: a typed error, or the same results bit for bit.
+//! NaN and infinity in every input of every emitted function, one at a time: a typed error of what reads it, and of what does not the same
+//! results bit for bit.
 //!
 //! The functions are those of every example and of the declarations beside them, as the interpreter carries them out: what it finds is what
 //! the emitted code computes, as `emitted.rs` and `emitted_random.rs` hold. Sweeps, `Limits`, and the accelerations that follow from an
@@ -19,10 +20,11 @@ use support::{Arguments, Number, direct, from_pose, moved, pose, prepared};
 
 type Call<'a, T> = Box<dyn Fn(&Arguments) -> Result<Vec<T>, Fault> + 'a>;
 
-/// A function by its name, and where its arguments are good.
+/// A function by its name, where its arguments are good, and the inputs that it reads: itself, or what was called for what it is called on.
 struct Function<'a, T> {
     name: String,
     good: Arguments,
+    reads: Vec<Symbol>,
     call: Call<'a, T>,
 }
 
@@ -33,22 +35,31 @@ struct Tally {
     untouched: usize,
 }
 
-/// All inputs that a program of the linkage reads, but for sides, which are no numbers.
-fn inputs(linkage: &Linkage) -> Vec<Symbol> {
-    let functions = &linkage.functions;
-    let scenes = functions.scenes.iter().flat_map(|scene| [&scene.direct, &scene.from_pose]);
-    let programs = [&functions.prepare, &functions.pose].into_iter().chain(&functions.near).chain(scenes);
-    let mut all: Vec<Symbol> =
-        (0..linkage.model.drives.len()).map(|drive| Symbol::Drive(DriveId::new(drive))).collect();
-    for (_, input) in programs.chain(&functions.accessors).flat_map(Program::inputs) {
-        if let Input::Symbol(
+/// The inputs that a program reads, but for sides, which are no numbers.
+fn read_by(program: &Program) -> impl Iterator<Item = Symbol> {
+    program.inputs().filter_map(|(_, input)| match input {
+        Input::Symbol(
             symbol @ (Symbol::Parameter(_)
             | Symbol::Drive(_)
             | Symbol::Driven(_, Order::Rate | Order::Acceleration)
             | Symbol::Load(..)),
-        ) = input
-            && !all.contains(&symbol)
-        {
+        ) => Some(symbol),
+        _ => None,
+    })
+}
+
+fn drives(linkage: &Linkage) -> impl Iterator<Item = Symbol> {
+    (0..linkage.model.drives.len()).map(|drive| Symbol::Drive(DriveId::new(drive)))
+}
+
+/// All inputs that a program of the linkage reads, and all drives.
+fn inputs(linkage: &Linkage) -> Vec<Symbol> {
+    let functions = &linkage.functions;
+    let scenes = functions.scenes.iter().flat_map(|scene| [&scene.direct, &scene.from_pose]);
+    let programs = [&functions.prepare, &functions.pose].into_iter().chain(&functions.near).chain(scenes);
+    let mut all: Vec<Symbol> = drives(linkage).collect();
+    for symbol in programs.chain(&functions.accessors).flat_map(read_by) {
+        if !all.contains(&symbol) {
             all.push(symbol);
         }
     }
@@ -58,8 +69,7 @@ fn inputs(linkage: &Linkage) -> Vec<Symbol> {
 /// `Pose::at`, which also checks the drives that nothing of a pose depends on.
 fn checked_pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<HashMap<NodeId, T>, Fault> {
     let read: Vec<Input> = linkage.functions.pose.inputs().map(|(_, input)| input).collect();
-    let drives = (0..linkage.model.drives.len()).map(|drive| Symbol::Drive(DriveId::new(drive)));
-    let mut unread = drives.filter(|drive| !read.contains(&Input::Symbol(*drive)));
+    let mut unread = drives(linkage).filter(|drive| !read.contains(&Input::Symbol(*drive)));
     if unread.all(|drive| arguments.of(drive).is_finite()) { pose(linkage, arguments) } else { Err(Fault::NotFinite) }
 }
 
@@ -71,16 +81,23 @@ fn functions<'a, T: Number + 'a>(linkage: &'a Linkage, is_inverse: bool) -> Vec<
     let at = if is_inverse { coordinates(linkage).map(further).collect() } else { poses(linkage) };
     let at: Vec<Arguments> = at.into_iter().map(|drives| Arguments { drives, ..given.clone() }).collect();
     let mut all = Vec::new();
-    let mut add = |name: &str, call: Call<'a, T>| {
+    let (prepare, at_pose) = (&linkage.functions.prepare, &linkage.functions.pose);
+    let mut add = |name: &str, programs: &[&Program], call: Call<'a, T>| {
+        // What parameters alone determine is there before anything else is called.
+        let mut reads: Vec<Symbol> = programs.iter().copied().chain([prepare]).flat_map(read_by).collect();
+        if programs.iter().any(|program| core::ptr::eq(*program, at_pose)) {
+            reads.extend(drives(linkage));
+        }
         let good = at.iter().find(|arguments| call(arguments).is_ok());
         let good = good.unwrap_or_else(|| panic!("{name}: {:?}", call(&at[0]).err())).clone();
-        all.push(Function { name: name.to_owned(), good, call });
+        all.push(Function { name: name.to_owned(), good, reads, call });
     };
     let in_order = move |kept: &HashMap<NodeId, T>| -> Vec<T> {
         linkage.plan.pose.iter().map(|part| kept[&part.node].clone()).collect()
     };
     add(
         "Linkage::new",
+        &[],
         Box::new(|arguments| {
             let values = prepared::<T>(linkage, arguments)?;
             Ok(linkage.functions.prepared.iter().map(|node| values[node].clone()).collect())
@@ -88,42 +105,44 @@ fn functions<'a, T: Number + 'a>(linkage: &'a Linkage, is_inverse: bool) -> Vec<
     );
     for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
         let name = &scene.name.text;
-        add(&format!("{name}_at"), Box::new(|arguments| direct(linkage, &functions.direct, arguments)));
+        let call = |arguments: &Arguments| direct(linkage, &functions.direct, arguments);
+        add(&format!("{name}_at"), &[&functions.direct], Box::new(call));
         if !is_inverse {
             let call = move |arguments: &Arguments| {
                 let kept = checked_pose::<T>(linkage, arguments)?;
                 from_pose(linkage, &functions.from_pose, &kept, arguments)
             };
-            add(&format!("Pose::{name}"), Box::new(call));
+            add(&format!("Pose::{name}"), &[at_pose, &functions.from_pose], Box::new(call));
         }
     }
     if is_inverse {
         return all;
     }
-    add("Pose::at", Box::new(move |arguments| Ok(in_order(&checked_pose::<T>(linkage, arguments)?))));
+    let call = move |arguments: &Arguments| Ok(in_order(&checked_pose::<T>(linkage, arguments)?));
+    add("Pose::at", &[at_pose], Box::new(call));
     for (accessor, program) in linkage.plan.accessors.iter().zip(&linkage.functions.accessors) {
         // Without checks, as it is emitted.
-        let mut program = program.clone();
-        program.steps.retain(|step| matches!(step, Step::Let(_)));
+        let mut unchecked = program.clone();
+        unchecked.steps.retain(|step| matches!(step, Step::Let(_)));
         let call = move |arguments: &Arguments| {
             let kept = checked_pose::<T>(linkage, arguments)?;
-            from_pose(linkage, &program, &kept, arguments)
+            from_pose(linkage, &unchecked, &kept, arguments)
         };
-        add(&format!("Pose::{}", accessor.name), Box::new(call));
+        add(&format!("Pose::{}", accessor.name), &[at_pose, program], Box::new(call));
     }
-    if linkage.functions.near.is_some() {
+    if let Some(near) = &linkage.functions.near {
         let mut before = at[0].clone();
         before.drives[0] += 0.01;
         let from = pose::<T>(linkage, &before).expect("a pose");
         let call = move |arguments: &Arguments| Ok(in_order(&moved(linkage, (&from, &before), arguments)?));
-        add("Pose::moved_to", Box::new(call));
+        add("Pose::moved_to", &[near], Box::new(call));
     }
     all
 }
 
 fn try_all<T: Number>(name: &str, linkage: &Linkage, is_inverse: bool, tally: &mut Tally) {
     let inputs = inputs(linkage);
-    for Function { name: function, good, call } in functions::<T>(linkage, is_inverse) {
+    for Function { name: function, good, reads, call } in functions::<T>(linkage, is_inverse) {
         let before = call(&good).expect("good arguments");
         assert!(before.iter().all(|value| value.to_f64().is_finite()), "{name}, {function}");
         for symbol in &inputs {
@@ -132,6 +151,7 @@ fn try_all<T: Number>(name: &str, linkage: &Linkage, is_inverse: bool, tally: &m
                     tally.refused += 1;
                     continue;
                 };
+                assert!(!reads.contains(symbol), "{name}, {function} reads {symbol:?}, {bad} passes");
                 for (found, expected) in after.iter().zip(&before) {
                     let [found, expected] = [found, expected].map(T::to_f64);
                     assert_eq!(
