@@ -3,7 +3,9 @@
 #![allow(clippy::float_cmp, reason = "the same operations give the same bits")]
 
 use core::f64::consts::TAU;
+use std::sync::{Mutex, PoisonError};
 
+use linkage_runtime::__private::limit_registers;
 use linkage_runtime::{Error, Series, SweepError, Vector2, linkage};
 
 linkage! {
@@ -186,13 +188,29 @@ fn cycle(inputs: &engine::CycleInputs<'_>, rows: &mut [Vec<f64>; 14]) -> Result<
     Ok(())
 }
 
-/// Whichever vector instructions are used, of those that the processor has.
+/// Sweeps with whichever vector instructions there are, of those that the processor has. The limit is that of the process, whose tests run side
+/// by side: whatever sweeps does so within this, one test after the other, and none is left with the limit of another one.
+fn at_each_width(sweep: impl Fn()) {
+    static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+    struct Unlimited;
+    impl Drop for Unlimited {
+        fn drop(&mut self) {
+            limit_registers(u8::MAX);
+        }
+    }
+    // A test that has failed has lifted its limit: others go on. What is declared last is dropped first.
+    let _alone = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    let _unlimited = Unlimited;
+    for bytes in [16, 32, 64, u8::MAX] {
+        limit_registers(bytes);
+        println!("registers of at most {bytes} bytes");
+        sweep();
+    }
+}
+
 #[test]
 fn a_sweep_has_the_bits_of_the_point_function() {
-    for bytes in [16, 32, 64, u8::MAX] {
-        linkage_runtime::__private::limit_registers(bytes);
-        compare_with_the_point_function();
-    }
+    at_each_width(compare_with_the_point_function);
 }
 
 fn compare_with_the_point_function() {
@@ -266,151 +284,174 @@ fn what_the_ground_feels_is_what_comes_from_outside() {
 
 #[test]
 fn the_first_position_without_an_answer_is_named() {
-    // First and last of a block, and of all.
-    for index in [0, 17, 63, 64, 137, COUNT - 1] {
-        let (mut angles, gas) = (angles(), gas());
-        angles[index] = f64::NAN;
-        let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
-        let error = cycle(&inputs(&angles, &gas), &mut rows).expect_err("no angle");
-        assert_eq!(error, SweepError::Position { index, error: Error::NotFinite { what: "theta" } });
-        for row in &rows {
-            assert!(row[..index].iter().all(|x| x.is_finite()) && row[index..].iter().all(|x| x.is_nan()));
+    at_each_width(|| {
+        // First and last of a block, and of all.
+        for index in [0, 17, 63, 64, 137, COUNT - 1] {
+            let (mut angles, gas) = (angles(), gas());
+            angles[index] = f64::NAN;
+            let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
+            let error = cycle(&inputs(&angles, &gas), &mut rows).expect_err("no angle");
+            assert_eq!(error, SweepError::Position { index, error: Error::NotFinite { what: "theta" } });
+            for row in &rows {
+                assert!(row[..index].iter().all(|x| x.is_finite()) && row[index..].iter().all(|x| x.is_nan()));
+            }
         }
-    }
+    });
 }
 
 #[test]
 fn a_load_that_is_not_finite_is_refused_as_by_the_point_function() {
-    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        for (index, component) in [(0, 0), (17, 1), (64, 0), (COUNT - 1, 1)] {
-            let (angles, mut gas) = (angles(), gas());
-            gas[index][component] = bad;
-            let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
-            let error = cycle(&inputs(&angles, &gas), &mut rows).expect_err("no load");
-            let (motion, loads) = at(index);
-            let refused = engine::all_at(angles[index], &motion, &engine::Loads { gas: gas[index], ..loads });
-            assert_eq!(error, SweepError::Position { index, error: refused.expect_err("no load") });
-            assert!(rows.iter().all(|row| row[index..].iter().all(|x| x.is_nan())));
+    at_each_width(|| {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for (index, component) in [(0, 0), (17, 1), (64, 0), (COUNT - 1, 1)] {
+                let (angles, mut gas) = (angles(), gas());
+                gas[index][component] = bad;
+                let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
+                let error = cycle(&inputs(&angles, &gas), &mut rows).expect_err("no load");
+                let (motion, loads) = at(index);
+                let refused = engine::all_at(angles[index], &motion, &engine::Loads { gas: gas[index], ..loads });
+                assert_eq!(error, SweepError::Position { index, error: refused.expect_err("no load") });
+                assert!(rows.iter().all(|row| row[index..].iter().all(|x| x.is_nan())));
+            }
+            // One for all positions, and a speed.
+            let (angles, gas) = (angles(), gas());
+            let rate = engine::CycleInputs { theta_rate: Series::Constant(bad), ..inputs(&angles, &gas) };
+            let spring =
+                engine::CycleInputs { K: Series::Constant(engine::LoadsK { rate: bad }), ..inputs(&angles, &gas) };
+            for inputs in [rate, spring] {
+                let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
+                let error = cycle(&inputs, &mut rows).expect_err("not finite");
+                assert!(
+                    matches!(error, SweepError::Position { index: 0, error: Error::NotFinite { .. } }),
+                    "{error:?}"
+                );
+            }
         }
-        // One for all positions, and a speed.
-        let (angles, gas) = (angles(), gas());
-        let rate = engine::CycleInputs { theta_rate: Series::Constant(bad), ..inputs(&angles, &gas) };
-        let spring = engine::CycleInputs { K: Series::Constant(engine::LoadsK { rate: bad }), ..inputs(&angles, &gas) };
-        for inputs in [rate, spring] {
-            let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
-            let error = cycle(&inputs, &mut rows).expect_err("not finite");
-            assert!(matches!(error, SweepError::Position { index: 0, error: Error::NotFinite { .. } }), "{error:?}");
-        }
-    }
+    });
 }
 
 #[test]
 fn enormous_loads_are_refused_only_where_results_are_not_finite() {
-    assert!(rocker::SOURCE.contains("math::each_moderate([M])"));
-    let angles: Vec<f64> = (0..130).map(|index| 0.1 + 0.02 * f64::from(index)).collect();
-    let solve = |loads: &[f64]| {
-        let mut rows: [Vec<f64>; 4] = core::array::from_fn(|_| vec![f64::NAN; angles.len()]);
-        let [a, b, c, d] = &mut rows;
-        let results = rocker::Cycle { A0_x: a, A0_y: b, B0_x: c, B0_y: d };
-        let inputs = rocker::CycleInputs { theta: Series::Each(&angles), M: Series::Each(loads) };
-        rocker::cycle(&inputs, results).map(|()| rows)
-    };
-    for index in [0, 5, 63, 64, 129] {
-        for couple in [f64::NAN, f64::INFINITY, -f64::INFINITY, f64::MAX, -1e308, 1e200, -1e100, 2.4e77] {
-            let mut loads = vec![350.0; angles.len()];
-            loads[index] = couple;
-            match (solve(&loads), rocker::pins_at(angles[index], &rocker::Loads { M: couple })) {
-                (Ok(rows), Ok(one)) => {
-                    let one = [one.A0.x, one.A0.y, one.B0.x, one.B0.y];
-                    assert!(one.iter().all(|x| x.is_finite()));
-                    assert_eq!(rows.each_ref().map(|row| row[index].to_bits()), one.map(f64::to_bits));
+    at_each_width(|| {
+        assert!(rocker::SOURCE.contains("math::each_moderate([M])"));
+        let angles: Vec<f64> = (0..130).map(|index| 0.1 + 0.02 * f64::from(index)).collect();
+        let solve = |loads: &[f64]| {
+            let mut rows: [Vec<f64>; 4] = core::array::from_fn(|_| vec![f64::NAN; angles.len()]);
+            let [a, b, c, d] = &mut rows;
+            let results = rocker::Cycle { A0_x: a, A0_y: b, B0_x: c, B0_y: d };
+            let inputs = rocker::CycleInputs { theta: Series::Each(&angles), M: Series::Each(loads) };
+            rocker::cycle(&inputs, results).map(|()| rows)
+        };
+        for index in [0, 5, 63, 64, 129] {
+            for couple in [f64::NAN, f64::INFINITY, -f64::INFINITY, f64::MAX, -1e308, 1e200, -1e100, 2.4e77] {
+                let mut loads = vec![350.0; angles.len()];
+                loads[index] = couple;
+                match (solve(&loads), rocker::pins_at(angles[index], &rocker::Loads { M: couple })) {
+                    (Ok(rows), Ok(one)) => {
+                        let one = [one.A0.x, one.A0.y, one.B0.x, one.B0.y];
+                        assert!(one.iter().all(|x| x.is_finite()));
+                        assert_eq!(rows.each_ref().map(|row| row[index].to_bits()), one.map(f64::to_bits));
+                    }
+                    (Err(error), Err(one)) => assert_eq!(error, SweepError::Position { index, error: one }),
+                    others => panic!("{couple} at {index}: {others:?}"),
                 }
-                (Err(error), Err(one)) => assert_eq!(error, SweepError::Position { index, error: one }),
-                others => panic!("{couple} at {index}: {others:?}"),
             }
         }
-    }
-    // Next to the fold forces are larger than the couple over the lengths, and that of the largest couple larger than any number.
-    let one = |theta: f64, couple: f64| rocker::pins_at(theta, &rocker::Loads { M: couple }).is_ok();
-    assert_eq!(
-        [one(1.0, 1e300), one(TAU / 2.0 - 1e-4, 1e300), one(TAU / 2.0 - 1e-4, f64::MAX), one(1.0, f64::NAN)],
-        [true, true, false, false]
-    );
+        // Next to the fold forces are larger than the couple over the lengths, and that of the largest couple larger than any number.
+        let one = |theta: f64, couple: f64| rocker::pins_at(theta, &rocker::Loads { M: couple }).is_ok();
+        assert_eq!(
+            [one(1.0, 1e300), one(TAU / 2.0 - 1e-4, 1e300), one(TAU / 2.0 - 1e-4, f64::MAX), one(1.0, f64::NAN)],
+            [true, true, false, false]
+        );
+    });
 }
 
 #[test]
 fn angles_beyond_the_short_reduction_have_the_bits_of_the_point_function() {
-    // Among others: what needs a branch is solved by itself.
-    let mut angles = angles();
-    for (index, angle) in [(3, 1e6), (63, -7e8), (64, 1e17), (130, -1e300)] {
-        angles[index] = angle;
-    }
-    let gas = gas();
-    let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
-    cycle(&inputs(&angles, &gas), &mut rows).expect("regular everywhere");
-    for (index, theta) in angles.iter().enumerate() {
-        let (motion, loads) = at(index);
-        let one = engine::all_at(*theta, &motion, &loads).expect("regular");
-        assert_eq!(rows[0][index].to_bits(), one.effort_theta.to_bits());
-        assert_eq!(rows[11][index].to_bits(), one.ground_about_rod_C.force.y.to_bits());
-    }
+    at_each_width(|| {
+        // Among others: what needs a branch is solved by itself.
+        let mut angles = angles();
+        for (index, angle) in [(3, 1e6), (63, -7e8), (64, 1e17), (130, -1e300)] {
+            angles[index] = angle;
+        }
+        let gas = gas();
+        let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
+        cycle(&inputs(&angles, &gas), &mut rows).expect("regular everywhere");
+        for (index, theta) in angles.iter().enumerate() {
+            let (motion, loads) = at(index);
+            let one = engine::all_at(*theta, &motion, &loads).expect("regular");
+            assert_eq!(rows[0][index].to_bits(), one.effort_theta.to_bits());
+            assert_eq!(rows[11][index].to_bits(), one.ground_about_rod_C.force.y.to_bits());
+        }
+    });
 }
 
 #[test]
 fn lengths_are_checked_before_anything_is_computed() {
-    let (angles, gas) = (angles(), gas());
-    let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
-    let short = engine::CycleInputs { gas: (&gas[1..]).into(), ..inputs(&angles, &gas) };
-    let expected = SweepError::Length { what: "gas", found: COUNT - 1, expected: COUNT };
-    assert_eq!(cycle(&short, &mut rows), Err(expected));
-    rows[5].pop();
-    let expected = SweepError::Length { what: "S_normal", found: COUNT - 1, expected: COUNT };
-    assert_eq!(cycle(&inputs(&angles, &gas), &mut rows), Err(expected));
-    assert!(rows.iter().all(|row| row.iter().all(|x| x.is_nan())));
-    let mut none: [Vec<f64>; 14] = core::array::from_fn(|_| Vec::new());
-    assert_eq!(cycle(&inputs(&[], &[]), &mut none), Ok(()));
+    at_each_width(|| {
+        let (angles, gas) = (angles(), gas());
+        let mut rows: [Vec<f64>; 14] = core::array::from_fn(|_| vec![f64::NAN; COUNT]);
+        let short = engine::CycleInputs { gas: (&gas[1..]).into(), ..inputs(&angles, &gas) };
+        let expected = SweepError::Length { what: "gas", found: COUNT - 1, expected: COUNT };
+        assert_eq!(cycle(&short, &mut rows), Err(expected));
+        rows[5].pop();
+        let expected = SweepError::Length { what: "S_normal", found: COUNT - 1, expected: COUNT };
+        assert_eq!(cycle(&inputs(&angles, &gas), &mut rows), Err(expected));
+        assert!(rows.iter().all(|row| row.iter().all(|x| x.is_nan())));
+        let mut none: [Vec<f64>; 14] = core::array::from_fn(|_| Vec::new());
+        assert_eq!(cycle(&inputs(&[], &[]), &mut none), Ok(()));
+    });
 }
 
 #[test]
 fn parameters_single_precision_and_scenes_without_loads() {
-    let linkage = press::Linkage::new(&press::Params { length: 150.0 }).expect("a press");
-    let angles: [f32; 20] = core::array::from_fn(|step| 0.1 + 0.3 * step as f32);
-    let [mut t, mut x, mut y] = [[0.0f32; 20]; 3];
-    let inputs = press::StrokeInputs { theta: Series::Each(&angles), F: Series::Constant(Vector2::new(-50.0, 0.0)) };
-    press::stroke(&linkage, &inputs, press::Stroke { effort_theta: &mut t, A_x: &mut x, A_y: &mut y })
-        .expect("regular");
-    let loads = press::Loads { F: Vector2::new(-50.0, 0.0) };
-    for (index, theta) in angles.into_iter().enumerate() {
-        let one = press::held_at(&linkage, theta, &loads).expect("regular");
-        assert_eq!(
-            [t[index], x[index], y[index]].map(f32::to_bits),
-            [one.effort_theta, one.A.x, one.A.y].map(f32::to_bits)
-        );
-    }
+    at_each_width(|| {
+        let linkage = press::Linkage::new(&press::Params { length: 150.0 }).expect("a press");
+        let angles: [f32; COUNT] = core::array::from_fn(|step| 0.1 + 0.03 * step as f32);
+        let [mut t, mut x, mut y] = [[0.0f32; COUNT]; 3];
+        let inputs =
+            press::StrokeInputs { theta: Series::Each(&angles), F: Series::Constant(Vector2::new(-50.0, 0.0)) };
+        press::stroke(&linkage, &inputs, press::Stroke { effort_theta: &mut t, A_x: &mut x, A_y: &mut y })
+            .expect("regular");
+        let loads = press::Loads { F: Vector2::new(-50.0, 0.0) };
+        for (index, theta) in angles.into_iter().enumerate() {
+            let one = press::held_at(&linkage, theta, &loads).expect("regular");
+            assert_eq!(
+                [t[index], x[index], y[index]].map(f32::to_bits),
+                [one.effort_theta, one.A.x, one.A.y].map(f32::to_bits)
+            );
+        }
+    });
 }
 
 #[test]
 fn what_is_placed_by_iteration_goes_on_from_the_position_before() {
-    let angles: [f64; 120] = core::array::from_fn(|step| 0.5 + 0.1 * step as f64);
-    let [mut t, mut x, mut y, mut power] = [[0.0; 120]; 4];
-    let results = triad::Turned { effort_theta: &mut t, E_x: &mut x, E_y: &mut y, power: &mut power };
-    let force = Vector2::new(3.0, -20.0);
-    let inputs = triad::TurnedInputs {
-        theta: Series::Each(&angles),
-        theta_rate: Series::Constant(-2.0),
-        F: Series::Constant(force),
-    };
-    triad::turned(&inputs, results).expect("regular");
-    let mut pose = triad::Pose::at(angles[0]).expect("near the start");
-    let (motion, loads) = (triad::Motion { theta_rate: -2.0 }, triad::Loads { F: force });
-    for (index, theta) in angles.into_iter().enumerate() {
-        if index > 0 {
-            pose = pose.moved_to(theta).expect("near");
+    at_each_width(|| {
+        let angles: [f64; 120] = core::array::from_fn(|step| 0.5 + 0.1 * step as f64);
+        let [mut t, mut x, mut y, mut power] = [[0.0; 120]; 4];
+        let results = triad::Turned { effort_theta: &mut t, E_x: &mut x, E_y: &mut y, power: &mut power };
+        let force = Vector2::new(3.0, -20.0);
+        let inputs = triad::TurnedInputs {
+            theta: Series::Each(&angles),
+            theta_rate: Series::Constant(-2.0),
+            F: Series::Constant(force),
+        };
+        triad::turned(&inputs, results).expect("regular");
+        let mut pose = triad::Pose::at(angles[0]).expect("near the start");
+        let (motion, loads) = (triad::Motion { theta_rate: -2.0 }, triad::Loads { F: force });
+        for (index, theta) in angles.into_iter().enumerate() {
+            if index > 0 {
+                pose = pose.moved_to(theta).expect("near");
+            }
+            let one = pose.held(&motion, &loads).expect("regular");
+            let expected = [one.effort_theta, one.E.x, one.E.y, -2.0 * one.effort_theta];
+            assert_eq!(
+                [t, x, y, power].map(|row| row[index].to_bits()),
+                expected.map(f64::to_bits),
+                "position {index}"
+            );
         }
-        let one = pose.held(&motion, &loads).expect("regular");
-        let expected = [one.effort_theta, one.E.x, one.E.y, -2.0 * one.effort_theta];
-        assert_eq!([t, x, y, power].map(|row| row[index].to_bits()), expected.map(f64::to_bits), "position {index}");
-    }
+    });
 }
 
 linkage! {
@@ -425,29 +466,33 @@ linkage! {
 
 #[test]
 fn a_side_is_chosen_for_the_whole_sweep() {
-    let theta = [0.5, 1.0, 1.5];
-    for side in [linkage_runtime::Side::Left, linkage_runtime::Side::Right] {
-        let closures = sided::Closures { B: side };
-        let mut efforts = [0.0; 3];
-        let inputs = sided::CycleInputs { theta: Series::Each(&theta) };
-        sided::cycle(closures, &inputs, sided::Cycle { effort_theta: &mut efforts }).expect("regular");
-        for (theta, effort) in theta.into_iter().zip(efforts) {
-            assert_eq!(effort, sided::hold_at(theta, closures).expect("regular").effort_theta);
+    at_each_width(|| {
+        let theta = [0.5, 1.0, 1.5];
+        for side in [linkage_runtime::Side::Left, linkage_runtime::Side::Right] {
+            let closures = sided::Closures { B: side };
+            let mut efforts = [0.0; 3];
+            let inputs = sided::CycleInputs { theta: Series::Each(&theta) };
+            sided::cycle(closures, &inputs, sided::Cycle { effort_theta: &mut efforts }).expect("regular");
+            for (theta, effort) in theta.into_iter().zip(efforts) {
+                assert_eq!(effort, sided::hold_at(theta, closures).expect("regular").effort_theta);
+            }
         }
-    }
+    });
 }
 
 #[test]
 fn fused_operations_are_rounded_once_in_vectors_too() {
-    let angles = angles();
-    let [mut t, mut x, mut y] = [[0.0; COUNT]; 3];
-    let inputs = pump::StrokeInputs { theta: Series::Each(&angles) };
-    pump::stroke(&inputs, pump::Stroke { effort_theta: &mut t, A_x: &mut x, A_y: &mut y }).expect("regular");
-    for (index, theta) in angles.into_iter().enumerate() {
-        let one = pump::held_at(theta).expect("regular");
-        let expected = [one.effort_theta, one.A.x, one.A.y];
-        assert_eq!([t[index], x[index], y[index]].map(f64::to_bits), expected.map(f64::to_bits));
-    }
+    at_each_width(|| {
+        let angles = angles();
+        let [mut t, mut x, mut y] = [[0.0; COUNT]; 3];
+        let inputs = pump::StrokeInputs { theta: Series::Each(&angles) };
+        pump::stroke(&inputs, pump::Stroke { effort_theta: &mut t, A_x: &mut x, A_y: &mut y }).expect("regular");
+        for (index, theta) in angles.into_iter().enumerate() {
+            let one = pump::held_at(theta).expect("regular");
+            let expected = [one.effort_theta, one.A.x, one.A.y];
+            assert_eq!([t[index], x[index], y[index]].map(f64::to_bits), expected.map(f64::to_bits));
+        }
+    });
 }
 
 linkage! {
@@ -463,17 +508,19 @@ linkage! {
 
 #[test]
 fn what_is_the_same_at_every_position_may_be_a_result() {
-    let linkage = places::Linkage::new(&places::Params::default()).expect("lengths");
-    let theta = angles();
-    let mut numbers = [[0.0; COUNT]; 4];
-    let [x0, y0, x, y] = &mut numbers;
-    let inputs = places::PathInputs { theta: Series::Each(&theta) };
-    places::path(&linkage, &inputs, places::Path { B0_x: x0, B0_y: y0, B_x: x, B_y: y }).expect("regular");
-    for (index, theta) in theta.iter().enumerate() {
-        let one = places::ends_at(&linkage, *theta).expect("regular");
-        let expected = [one.B0.x, one.B0.y, one.B.x, one.B.y];
-        assert_eq!(numbers.map(|row| row[index].to_bits()), expected.map(f64::to_bits), "position {index}");
-    }
+    at_each_width(|| {
+        let linkage = places::Linkage::new(&places::Params::default()).expect("lengths");
+        let theta = angles();
+        let mut numbers = [[0.0; COUNT]; 4];
+        let [x0, y0, x, y] = &mut numbers;
+        let inputs = places::PathInputs { theta: Series::Each(&theta) };
+        places::path(&linkage, &inputs, places::Path { B0_x: x0, B0_y: y0, B_x: x, B_y: y }).expect("regular");
+        for (index, theta) in theta.iter().enumerate() {
+            let one = places::ends_at(&linkage, *theta).expect("regular");
+            let expected = [one.B0.x, one.B0.y, one.B.x, one.B.y];
+            assert_eq!(numbers.map(|row| row[index].to_bits()), expected.map(f64::to_bits), "position {index}");
+        }
+    });
 }
 
 linkage! {
@@ -490,20 +537,22 @@ linkage! {
 
 #[test]
 fn names_that_meet_are_kept_apart() {
-    let [first, second, third] = [1.0, -2.0, 0.5].map(|rate| angles().map(|angle| rate * angle));
-    let mut efforts = [[0.0; COUNT]; 3];
-    let [a, b, c] = &mut efforts;
-    let inputs = namesakes::PathInputs {
-        a_quarters: Series::Each(&first),
-        a_rest: Series::Each(&second),
-        a_tail: Series::Each(&third),
-    };
-    let results = namesakes::Path { effort_a_quarters: a, effort_a_rest: b, effort_a_tail: c };
-    let linkage = namesakes::Linkage::new(&namesakes::Params::default()).expect("lengths");
-    namesakes::path(&linkage, &inputs, results).expect("regular");
-    for index in 0..COUNT {
-        let one = namesakes::held_at(&linkage, first[index], second[index], third[index]).expect("regular");
-        let expected = [one.effort_a_quarters, one.effort_a_rest, one.effort_a_tail];
-        assert_eq!(efforts.map(|row| row[index].to_bits()), expected.map(f64::to_bits), "position {index}");
-    }
+    at_each_width(|| {
+        let [first, second, third] = [1.0, -2.0, 0.5].map(|rate| angles().map(|angle| rate * angle));
+        let mut efforts = [[0.0; COUNT]; 3];
+        let [a, b, c] = &mut efforts;
+        let inputs = namesakes::PathInputs {
+            a_quarters: Series::Each(&first),
+            a_rest: Series::Each(&second),
+            a_tail: Series::Each(&third),
+        };
+        let results = namesakes::Path { effort_a_quarters: a, effort_a_rest: b, effort_a_tail: c };
+        let linkage = namesakes::Linkage::new(&namesakes::Params::default()).expect("lengths");
+        namesakes::path(&linkage, &inputs, results).expect("regular");
+        for index in 0..COUNT {
+            let one = namesakes::held_at(&linkage, first[index], second[index], third[index]).expect("regular");
+            let expected = [one.effort_a_quarters, one.effort_a_rest, one.effort_a_tail];
+            assert_eq!(efforts.map(|row| row[index].to_bits()), expected.map(f64::to_bits), "position {index}");
+        }
+    });
 }
