@@ -1126,7 +1126,8 @@ fn run(kind: &Kind, members: usize, random_poses: usize, bounded: usize, fused: 
         let size = Size { members: 1, poses: random_poses, bounded, fused };
         let cells = size.filled(&kind_name, || {
             let member = kind.drawn(&mut random);
-            let drives = member.drives(&mut random, 40);
+            // Of very many poses each linkage has more: compiling it takes as long as measuring a hundred.
+            let drives = member.drives(&mut random, if random_poses > 100_000 { 200 } else { 40 });
             vec![member.poses(drives)]
         });
         add("random, many", REGULAR, cells);
