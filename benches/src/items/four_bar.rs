@@ -47,6 +47,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
             title: "four-bar: all forces and the torque, from the driver's angle",
             competitors: vec![
                 turn.competitor("expert", double::statics_at_expert),
+                turn.competitor("expert, law of cosines", double::statics_at_by_cosine),
                 turn.competitor("careful expert", double::statics_at_careful),
                 turn.competitor("generated", double::statics_at_generated),
                 turn.competitor("generated, fused", fused::statics_at_generated),
@@ -58,6 +59,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
             title: "four-bar: the torque only, from the driver's angle",
             competitors: vec![
                 turn.competitor("expert", double::torque_at_expert),
+                turn.competitor("expert, law of cosines", double::torque_at_by_cosine),
                 turn.competitor("careful expert", double::torque_at_careful),
                 turn.competitor("generated", double::torque_at_generated),
                 turn.competitor("generated, fused", fused::torque_at_generated),
@@ -68,6 +70,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
             title: "four-bar: forces and torque by each of two loads, from the driver's angle",
             competitors: vec![
                 parts.competitor("expert", double::parts_at_expert),
+                parts.competitor("expert, law of cosines", double::parts_at_by_cosine),
                 parts.competitor("careful expert", double::parts_at_careful),
                 parts.competitor("generated", double::parts_at_generated),
                 parts.competitor("generated, fused", fused::parts_at_generated),
@@ -179,6 +182,11 @@ macro_rules! competitors {
                 true
             }
 
+            pub(crate) fn statics_at_by_cosine(case: &At, out: &mut All) -> bool {
+                expert::pose_by_cosine(case.start).statics(&case.loads, out);
+                true
+            }
+
             pub(crate) fn statics_at_careful(case: &At, out: &mut All) -> bool {
                 let Some(pose) = expert::careful_pose(case.start) else { return false };
                 pose.statics(&case.loads, out);
@@ -190,6 +198,11 @@ macro_rules! competitors {
                 true
             }
 
+            pub(crate) fn torque_at_by_cosine(case: &At, out: &mut $scalar) -> bool {
+                *out = expert::pose_by_cosine(case.start).torque_of(&case.loads);
+                true
+            }
+
             pub(crate) fn torque_at_careful(case: &At, out: &mut $scalar) -> bool {
                 let Some(pose) = expert::careful_pose(case.start) else { return false };
                 *out = pose.torque_of(&case.loads);
@@ -198,6 +211,11 @@ macro_rules! competitors {
 
             pub(crate) fn parts_at_expert(case: &At, out: &mut [All; 2]) -> bool {
                 expert::pose(case.start).parts(&case.loads, out);
+                true
+            }
+
+            pub(crate) fn parts_at_by_cosine(case: &At, out: &mut [All; 2]) -> bool {
+                expert::pose_by_cosine(case.start).parts(&case.loads, out);
                 true
             }
 

@@ -34,6 +34,7 @@ fn of_four_bar(extent: Extent) -> Vec<Item> {
             title: "four-bar in f32: all forces and the torque, from the driver's angle",
             competitors: vec![
                 turn.posed("expert", given, single::statics_at_expert),
+                turn.posed("expert, law of cosines", given, single::statics_at_by_cosine),
                 turn.posed("careful expert", given, single::statics_at_careful),
                 turn.posed("generated", given, single::statics_at_generated),
             ],
@@ -43,6 +44,7 @@ fn of_four_bar(extent: Extent) -> Vec<Item> {
             title: "four-bar in f32: the torque only, from the driver's angle",
             competitors: vec![
                 turn.posed("expert", given, single::torque_at_expert),
+                turn.posed("expert, law of cosines", given, single::torque_at_by_cosine),
                 turn.posed("careful expert", given, single::torque_at_careful),
                 turn.posed("generated", given, single::torque_at_generated),
             ],
@@ -52,6 +54,7 @@ fn of_four_bar(extent: Extent) -> Vec<Item> {
             title: "four-bar in f32: forces and torque by each of two loads, from the driver's angle",
             competitors: vec![
                 parts.posed("expert", given, single::parts_at_expert),
+                parts.posed("expert, law of cosines", given, single::parts_at_by_cosine),
                 parts.posed("careful expert", given, single::parts_at_careful),
                 parts.posed("generated", given, single::parts_at_generated),
             ],

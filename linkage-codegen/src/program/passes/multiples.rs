@@ -63,17 +63,6 @@ impl<'p> Search<'p> {
         Self { program, graph, scalar, ways, readers, uses, constants, changed, found }
     }
 
-    /// What the sizes must satisfy if dividends stay as they are that are exact by now.
-    fn keep_dividends(&mut self) {
-        let mut sizes = sizes_by_exact(self.program, self.graph, &self.constants);
-        for (value, constant) in &self.changed {
-            if let Some(rest) = self.program.op(*value).and_then(|op| factor_beside(op, constant)) {
-                sizes.equate(vec![(*value, 1), (rest, -1)]);
-            }
-        }
-        self.ways[0] = sizes;
-    }
-
     /// Leaves out a product with a constant, if values can be found in sizes that allow it.
     fn spare(&mut self, product: ValueId) {
         if !self.costs_a_product(product) {
@@ -127,8 +116,6 @@ impl<'p> Search<'p> {
 
     /// Values are found in these sizes. From now on what is a product no more has the size of its factor.
     fn take(&mut self, scale: &Scale, changed: Vec<(ValueId, Constant)>) {
-        let is_quotient = |(value, _): &(ValueId, Constant)| matches!(self.program.op(*value), Some(Op::Div(..)));
-        let dividends_change = changed.iter().any(is_quotient);
         for (value, constant) in changed {
             if let Some(rest) = self.program.op(value).and_then(|op| factor_beside(op, &constant)) {
                 self.ways.iter_mut().for_each(|sizes| sizes.equate(vec![(value, 1), (rest, -1)]));
@@ -136,15 +123,19 @@ impl<'p> Search<'p> {
                     self.spared(value, rest);
                 }
             }
+            // A dividend that is exact by now stays as it is from now on; it was not before, or it would not have changed.
+            if let Some(Op::Div(dividend, divisor)) = self.program.op(value)
+                && self.program.constant(self.graph, *dividend).is_some()
+                && is_exact(&constant.number, self.scalar)
+            {
+                self.ways[0].equate(vec![(value, 1), (*divisor, 1)]);
+            }
             self.constants[value.index()] = Some(constant.clone());
             self.changed.insert(value, constant);
         }
         for (value, exponent) in &scale.powers {
             let factor = self.found.factors.entry(*value).or_insert_with(Number::one);
             *factor = factor.mul(&power(&scale.factor, *exponent));
-        }
-        if dividends_change {
-            self.keep_dividends();
         }
     }
 
