@@ -1,16 +1,16 @@
-//! Emitted and compiled code against the interpreter: the same bits on every example, from every function.
+//! Emitted and compiled code against the interpreter: the same bits on every example, from every function, or errors of the same kind; of some
+//! with NaN, infinity and the largest numbers in each argument, too.
 
 mod support;
 
 use std::fmt::Debug;
 
 use linkage_codegen::Linkage;
-use linkage_codegen::program::Fault;
 use linkage_runtime::{Error, Side, Vector2, polar};
 use support::examples::declaration;
 use support::measures::values_from_kept;
 use support::numbers::Double;
-use support::{Arguments, direct, pose};
+use support::{Arguments, Told, checked_pose, checked_prepared, direct, pose, told, told_as_printed};
 
 #[path = "../../examples/four_bar.rs"]
 #[allow(dead_code, unused_imports, missing_docs, reason = "only its declaration is used here")]
@@ -119,11 +119,9 @@ declared! { BOUNDED:
     scene carried: equilibrium(I) -> (T, error_bound);
 }
 
-/// All numbers of a result, in the order of its fields.
-fn numbers<T: Debug>(result: &Result<T, Error>) -> Option<Vec<u64>> {
-    let text = format!("{:?}", result.as_ref().ok()?);
-    let parts = text.split(|c: char| "[]{}(),: ".contains(c));
-    Some(parts.filter_map(|part| part.parse::<f64>().ok()).map(f64::to_bits).collect())
+/// What an emitted function gave.
+fn given<T: Debug>(result: &Result<T, Error>) -> Told {
+    told_as_printed::<Double>(&format!("{result:?}"))
 }
 
 /// The same by the interpreter, from the drives and from a pose.
@@ -142,10 +140,6 @@ impl Interpreted {
         Self { linkage: linkage.unwrap_or_else(|refusal| panic!("{:?}", refusal.errors)) }
     }
 
-    fn bits(values: Result<Vec<Double>, Fault>) -> Option<Vec<u64>> {
-        values.ok().map(|values| values.into_iter().map(|value| value.0.to_bits()).collect())
-    }
-
     fn check<A: Debug, B: Debug>(
         &self,
         scene: &str,
@@ -155,11 +149,11 @@ impl Interpreted {
     ) {
         let index = self.linkage.model.scenes.iter().position(|s| s.name.text == scene).expect("a scene of this name");
         let functions = &self.linkage.functions.scenes[index];
-        let expected = Self::bits(direct(&self.linkage, &functions.direct, arguments));
-        assert_eq!(numbers(straight), expected, "{scene}_at at {arguments:?}");
-        let kept = pose::<Double>(&self.linkage, arguments);
+        let expected = told(direct::<Double>(&self.linkage, &functions.direct, arguments));
+        assert_eq!(given(straight), expected, "{scene}_at at {arguments:?}");
+        let kept = checked_pose::<Double>(&self.linkage, arguments);
         let expected = kept.and_then(|kept| values_from_kept(&self.linkage, scene, &kept, arguments).map(|all| all.1));
-        assert_eq!(numbers(from_pose), Self::bits(expected), "{scene} at {arguments:?}");
+        assert_eq!(given(from_pose), told(expected), "{scene} at {arguments:?}");
     }
 }
 
@@ -339,7 +333,7 @@ fn stephenson_moved() {
         emitted = emitted.moved_to(theta).expect("a pose");
         before = theta;
         let expected = values_from_kept(&linkage, "place", &kept, &at(theta)).map(|all| all.1);
-        assert_eq!(numbers(&emitted.place()), Interpreted::bits(expected), "at {theta}");
+        assert_eq!(given(&emitted.place()), told(expected), "at {theta}");
     }
 }
 
@@ -347,10 +341,12 @@ fn stephenson_moved() {
 fn fused_arithmetic() {
     let interpreted = Interpreted::of_text(FUSED);
     let force: Vector2<f64> = polar(50.0, 1.0);
-    let loads = fused::Loads { F: force };
-    for theta in angles() {
-        let arguments =
-            Arguments { drives: vec![theta], loads: vec![[force.x, force.y], [0.0; 2]], ..Arguments::default() };
+    let regular = angles().map(|theta| [theta, force.x, force.y]);
+    for [theta, x, y] in
+        regular.chain([0.6, 2.5].into_iter().flat_map(|theta| each_replaced([theta, force.x, force.y])))
+    {
+        let loads = fused::Loads { F: Vector2::new(x, y) };
+        let arguments = Arguments { drives: vec![theta], loads: vec![[x, y], [0.0; 2]], ..Arguments::default() };
         let pose = fused::Pose::at(theta);
         interpreted.check("held", &arguments, &fused::held_at(theta, &loads), &pose.and_then(|pose| pose.held(&loads)));
         interpreted.check(
@@ -365,94 +361,114 @@ fn fused_arithmetic() {
     assert_eq!(interpreted.linkage.functions.scenes[0].direct.counts().fused, 22);
 }
 
+/// In place of a number.
+const BAD: [f64; 4] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX];
+
+/// These numbers, with each in turn replaced by each of [`BAD`].
+fn each_replaced<const N: usize>(good: [f64; N]) -> impl Iterator<Item = [f64; N]> {
+    (0..N).flat_map(|index| BAD.map(|bad| (index, bad))).map(move |(index, bad)| {
+        let mut replaced = good;
+        replaced[index] = bad;
+        replaced
+    })
+}
+
 #[test]
 fn in_motion() {
     let interpreted = Interpreted::of_text(CRUSHER);
-    let damping = 0.75;
-    let (rod_mass, theta_rate, theta_acceleration) = (0.62, 31.4, -250.0);
-    let linkage = crusher::Linkage::new(&crusher::Params { rod_mass }).expect("a mass");
-    // The other drive's motion is declared.
+    let at = |theta: f64| [theta, 12.0 + theta.clamp(-4.0, 4.0), 0.75, 0.62, 31.4, -250.0];
+    for theta in angles() {
+        crusher_at(&interpreted, at(theta));
+    }
+    for theta in [0.4, -1.3, 2.0] {
+        assert!(pose::<Double>(&interpreted.linkage, &crusher_arguments(at(theta))).is_ok(), "{theta}");
+        each_replaced(at(theta)).for_each(|numbers| crusher_at(&interpreted, numbers));
+    }
+}
+
+fn crusher_arguments([theta, x, damping, rod_mass, theta_rate, theta_acceleration]: [f64; 6]) -> Arguments {
+    let mut loads = vec![[0.0; 2]; 5];
+    loads[3] = [0.0, damping];
+    Arguments {
+        drives: vec![theta, x],
+        loads,
+        params: vec![rod_mass],
+        // The other drive's motion is declared.
+        motion: vec![[theta_rate, theta_acceleration], [f64::NAN; 2]],
+        ..Arguments::default()
+    }
+}
+
+fn crusher_at(interpreted: &Interpreted, numbers: [f64; 6]) {
+    let arguments = crusher_arguments(numbers);
+    let [theta, x, damping, rod_mass, theta_rate, theta_acceleration] = numbers;
+    let linkage = match crusher::Linkage::new(&crusher::Params { rod_mass }) {
+        Ok(linkage) => linkage,
+        Err(error) => {
+            let expected = checked_prepared::<Double>(&interpreted.linkage, &arguments).map(|_| Vec::new());
+            assert_eq!(given(&Err::<(), _>(error)), told::<Double>(expected));
+            return;
+        }
+    };
     let motion = crusher::Motion { theta_rate, theta_acceleration };
     let loads = crusher::Loads { K: crusher::LoadsK { damping } };
-    for theta in angles() {
-        let x = 12.0 + theta.clamp(-4.0, 4.0);
-        let mut given = vec![[0.0; 2]; 5];
-        given[3] = [0.0, damping];
-        let arguments = Arguments {
-            drives: vec![theta, x],
-            loads: given,
-            params: vec![rod_mass],
-            motion: vec![[theta_rate, theta_acceleration], [f64::NAN; 2]],
-            ..Arguments::default()
-        };
-        let pose = crusher::Pose::at(&linkage, theta, x);
-        interpreted.check(
-            "held",
-            &arguments,
-            &crusher::held_at(&linkage, theta, x, &motion, &loads),
-            &pose.and_then(|pose| pose.held(&motion, &loads)),
-        );
-        interpreted.check(
-            "parts",
-            &arguments,
-            &crusher::parts_at(&linkage, theta, x, &motion, &loads),
-            &pose.and_then(|pose| pose.parts(&motion, &loads)),
-        );
-        interpreted.check(
-            "work",
-            &arguments,
-            &crusher::work_at(&linkage, theta, x, &motion),
-            &pose.and_then(|pose| pose.work(&motion)),
-        );
-        interpreted.check(
-            "speeds",
-            &arguments,
-            &crusher::speeds_at(&linkage, theta, x, &motion),
-            &pose.and_then(|pose| pose.speeds(&motion)),
-        );
-        interpreted.check(
-            "accelerations",
-            &arguments,
-            &crusher::accelerations_at(&linkage, theta, x, &motion),
-            &pose.and_then(|pose| pose.accelerations(&motion)),
-        );
-        interpreted.check(
-            "slopes",
-            &arguments,
-            &crusher::slopes_at(&linkage, theta, x, &motion, &loads),
-            &pose.and_then(|pose| pose.slopes(&motion, &loads)),
-        );
-        interpreted.check(
-            "curves",
-            &arguments,
-            &crusher::curves_at(&linkage, theta, x, &motion),
-            &pose.and_then(|pose| pose.curves(&motion)),
-        );
-        interpreted.check(
-            "more",
-            &arguments,
-            &crusher::more_at(&linkage, theta, x, &motion),
-            &pose.and_then(|pose| pose.more(&motion)),
-        );
-        interpreted.check(
-            "control",
-            &arguments,
-            &crusher::control_at(&linkage, theta, x, &motion, &loads),
-            &pose.and_then(|pose| pose.control(&motion, &loads)),
-        );
-        interpreted.check(
-            "gains",
-            &arguments,
-            &crusher::gains_at(&linkage, theta, x),
-            &pose.and_then(|pose| pose.gains()),
-        );
-        interpreted.check(
-            "light",
-            &arguments,
-            &crusher::light_at(&linkage, theta, x),
-            &pose.and_then(|pose| pose.light()),
-        );
-    }
+    let pose = crusher::Pose::at(&linkage, theta, x);
+    interpreted.check(
+        "held",
+        &arguments,
+        &crusher::held_at(&linkage, theta, x, &motion, &loads),
+        &pose.and_then(|pose| pose.held(&motion, &loads)),
+    );
+    interpreted.check(
+        "parts",
+        &arguments,
+        &crusher::parts_at(&linkage, theta, x, &motion, &loads),
+        &pose.and_then(|pose| pose.parts(&motion, &loads)),
+    );
+    interpreted.check(
+        "work",
+        &arguments,
+        &crusher::work_at(&linkage, theta, x, &motion),
+        &pose.and_then(|pose| pose.work(&motion)),
+    );
+    interpreted.check(
+        "speeds",
+        &arguments,
+        &crusher::speeds_at(&linkage, theta, x, &motion),
+        &pose.and_then(|pose| pose.speeds(&motion)),
+    );
+    interpreted.check(
+        "accelerations",
+        &arguments,
+        &crusher::accelerations_at(&linkage, theta, x, &motion),
+        &pose.and_then(|pose| pose.accelerations(&motion)),
+    );
+    interpreted.check(
+        "slopes",
+        &arguments,
+        &crusher::slopes_at(&linkage, theta, x, &motion, &loads),
+        &pose.and_then(|pose| pose.slopes(&motion, &loads)),
+    );
+    interpreted.check(
+        "curves",
+        &arguments,
+        &crusher::curves_at(&linkage, theta, x, &motion),
+        &pose.and_then(|pose| pose.curves(&motion)),
+    );
+    interpreted.check(
+        "more",
+        &arguments,
+        &crusher::more_at(&linkage, theta, x, &motion),
+        &pose.and_then(|pose| pose.more(&motion)),
+    );
+    interpreted.check(
+        "control",
+        &arguments,
+        &crusher::control_at(&linkage, theta, x, &motion, &loads),
+        &pose.and_then(|pose| pose.control(&motion, &loads)),
+    );
+    interpreted.check("gains", &arguments, &crusher::gains_at(&linkage, theta, x), &pose.and_then(|pose| pose.gains()));
+    interpreted.check("light", &arguments, &crusher::light_at(&linkage, theta, x), &pose.and_then(|pose| pose.light()));
 }
 
 /// Results of a group that is placed by iteration, with their bounds.
@@ -487,6 +503,29 @@ fn with_bounds() {
         );
     }
     assert!(found > 100, "{found}");
+    for [q, x, y, q_rate, q_acceleration] in each_replaced([0.4, force.x, force.y, 31.4, -250.0]) {
+        let arguments = Arguments {
+            drives: vec![q],
+            loads: vec![[x, y], [0.0; 2]],
+            motion: vec![[q_rate, q_acceleration]],
+            ..Arguments::default()
+        };
+        let (loads, motion) = (bounded::Loads { F: Vector2::new(x, y) }, bounded::Motion { q_rate, q_acceleration });
+        let pose = bounded::Pose::at(q);
+        interpreted.check("held", &arguments, &bounded::held_at(q, &loads), &pose.and_then(|pose| pose.held(&loads)));
+        interpreted.check(
+            "speeds",
+            &arguments,
+            &bounded::speeds_at(q, &motion),
+            &pose.and_then(|pose| pose.speeds(&motion)),
+        );
+        interpreted.check(
+            "carried",
+            &arguments,
+            &bounded::carried_at(q, &motion),
+            &pose.and_then(|pose| pose.carried(&motion)),
+        );
+    }
 }
 
 /// Inverse scenes, with what is prepared for them.
@@ -496,20 +535,22 @@ fn inverse() {
     let exchanged = &interpreted.linkage.inverses[0];
     let program = &exchanged.functions.scenes[0].direct;
     let linkage = rocker::Linkage::new(&rocker::Params { reach: 80.0 }).expect("a length");
-    let motion = rocker::CrankOfMotion { S_travel_rate: 230.0, S_travel_acceleration: -1700.0 };
     let mut found = 0;
-    for travel in (0..=400).map(|step| 100.0 + 0.5 * f64::from(step)) {
+    let regular = (0..=400).map(|step| [100.0 + 0.5 * f64::from(step), 230.0, -1700.0]);
+    let replaced = [160.0, 200.0, 240.0].into_iter().flat_map(|travel| each_replaced([travel, 230.0, -1700.0]));
+    for [travel, rate, acceleration] in regular.chain(replaced) {
+        let motion = rocker::CrankOfMotion { S_travel_rate: rate, S_travel_acceleration: acceleration };
         for side in [Side::Left, Side::Right] {
             let arguments = Arguments {
                 drives: vec![travel],
                 params: vec![80.0],
-                motion: vec![[230.0, -1700.0]],
+                motion: vec![[rate, acceleration]],
                 sides: vec![1.0, 1.0, f64::from(side.sign()), 1.0],
                 ..Arguments::default()
             };
             let own = rocker::crank_of_at(&linkage, travel, rocker::Closures { A: side }, &motion);
-            let expected = Interpreted::bits(direct::<Double>(exchanged, program, &arguments));
-            assert_eq!(numbers(&own), expected, "{side:?} at {travel}");
+            let expected = told(direct::<Double>(exchanged, program, &arguments));
+            assert_eq!(given(&own), expected, "{side:?} at {travel}");
             found += usize::from(own.is_ok());
         }
     }

@@ -1,4 +1,5 @@
-//! Random linkages emitted, compiled and run: the same bits as from the interpreter, from every function.
+//! Random linkages emitted, compiled and run: the same bits as from the interpreter, from every function, or an error of the same kind. So
+//! where all that is given is regular, and where one number of it is NaN, infinite, or the largest there is.
 //!
 //! They are written into a crate of their own, which prints what each scene gives; only that needs a run of cargo within the test.
 
@@ -9,17 +10,21 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use linkage_codegen::Linkage;
-use linkage_codegen::graph::Order;
+use linkage_codegen::graph::Symbol;
 use linkage_codegen::model::LoadKind;
+use linkage_codegen::model::ids::{DriveId, LoadId, ParamId};
 use linkage_codegen::program::{Fault, Program};
 use support::linkages::{Kind, sample};
 use support::measures::values_from_kept;
 use support::numbers::{Double, Single};
-use support::{Arguments, Number, direct, index_of, pose};
+use support::{Arguments, Number, Told, checked_pose, checked_prepared, direct, index_of, told, told_as_printed};
 
 const SCENES: [&str; 8] = ["all", "parts", "work", "whole", "speeds", "accelerations", "gains", "control"];
 /// Of linkages that have mass.
 const CONTROL: &str = "scene control: motion -> (M, h, rounding, M_kinetic);";
+
+/// What one number is in place of what it was.
+const IN_PLACE: [&str; 4] = ["NAN", "INFINITY", "NEG_INFINITY", "MAX"];
 
 struct Case {
     name: String,
@@ -27,6 +32,43 @@ struct Case {
     declaration: String,
     arguments: Arguments,
     linkage: Linkage,
+}
+
+impl Case {
+    /// The numbers that are given: parameters, drives, loads, motion.
+    fn given(&self) -> Vec<Symbol> {
+        let model = &self.linkage.model;
+        let mut all: Vec<Symbol> =
+            (0..model.params.len()).map(|param| Symbol::Parameter(ParamId::new(param))).collect();
+        all.extend((0..model.drives.len()).map(|drive| Symbol::Drive(DriveId::new(drive))));
+        for (index, load) in model.loads.iter().enumerate().filter(|(_, load)| load.kind.is_given_at_run_time(model)) {
+            let parts: Vec<u8> = match load.kind {
+                LoadKind::Moment { .. } | LoadKind::Thrust { .. } => vec![0],
+                LoadKind::Force { .. } | LoadKind::Gravity { .. } => vec![0, 1],
+                LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
+                    let given: Vec<&str> = load.kind.given(model).collect();
+                    (0..4).filter(|part| given.contains(&load.kind.value_name(*part))).collect()
+                }
+                LoadKind::Inertia => Vec::new(),
+            };
+            all.extend(parts.into_iter().map(|part| Symbol::Load(LoadId::new(index), part)));
+        }
+        all.extend(linkage_codegen::emit::given_motion(model).into_iter().map(|(drive, order)| {
+            let index = model.drives.iter().position(|own| own.name.text == drive.name.text).expect("a drive");
+            Symbol::Driven(DriveId::new(index), order)
+        }));
+        all
+    }
+
+    /// Its arguments as they are, then with each number in turn replaced by each of [`IN_PLACE`].
+    fn all_arguments(&self) -> Vec<Arguments> {
+        let largest = if self.scalar == "f32" { f64::from(f32::MAX) } else { f64::MAX };
+        let replaced = self.given().into_iter().flat_map(|symbol| {
+            let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, largest];
+            bad.map(|bad| Arguments { instead: Some((symbol, bad)), ..self.arguments.clone() })
+        });
+        core::iter::once(self.arguments.clone()).chain(replaced).collect()
+    }
 }
 
 fn cases() -> Vec<Case> {
@@ -65,21 +107,24 @@ fn cases() -> Vec<Case> {
     (50_000..50_060).filter_map(of).collect()
 }
 
-/// A module with the linkage, and a function that prints what its scenes give.
+/// A module with the linkage, and a function that prints what its scenes give with each of its arguments.
 fn module(case: &Case) -> String {
     let Case { name, scalar, declaration, arguments, linkage } = case;
     let model = &linkage.model;
-    let number = |value: f64| format!("({value:?}f64 as {scalar})");
-    let given = model.loads.iter().zip(&arguments.loads).filter(|(load, _)| load.kind.is_given_at_run_time(model));
-    let loads = given.map(|(load, values)| {
+    let given = case.given();
+    let number = |symbol: Symbol| {
+        let place = given.iter().position(|other| *other == symbol).expect("what is given");
+        format!("(given[{place}] as {scalar})")
+    };
+    let loads = model.loads.iter().enumerate().filter(|(_, load)| load.kind.is_given_at_run_time(model));
+    let loads = loads.map(|(index, load)| {
+        let part = |part| number(Symbol::Load(LoadId::new(index), part));
         let value = match load.kind {
-            LoadKind::Moment { .. } | LoadKind::Thrust { .. } => number(values[0]),
-            LoadKind::Force { .. } | LoadKind::Gravity { .. } => {
-                format!("Vector2::new({}, {})", number(values[0]), number(values[1]))
-            }
+            LoadKind::Moment { .. } | LoadKind::Thrust { .. } => part(0),
+            LoadKind::Force { .. } | LoadKind::Gravity { .. } => format!("Vector2::new({}, {})", part(0), part(1)),
             LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
-                let place = |name| load.kind.values().iter().position(|(other, _)| *other == name).expect("a value");
-                let fields = load.kind.given(model).map(|name| format!("{name}: {}", number(values[place(name) % 2])));
+                let place = |name| (0..4).find(|part| load.kind.value_name(*part) == name).expect("a value");
+                let fields = load.kind.given(model).map(|name| format!("{name}: {}", part(place(name))));
                 format!("sample::{} {{ {} }}", load.type_name(), fields.collect::<Vec<_>>().join(", "))
             }
             LoadKind::Inertia => "()".to_owned(),
@@ -87,15 +132,32 @@ fn module(case: &Case) -> String {
         format!("{}: {value}", load.name)
     });
     let loads: Vec<String> = loads.collect();
-    let params: Vec<String> = model
-        .params
-        .iter()
-        .zip(&arguments.params)
-        .map(|(p, value)| format!("{}: {}", p.name, number(*value)))
-        .collect();
+    let params = model.params.iter().enumerate();
+    let params: Vec<String> =
+        params.map(|(index, p)| format!("{}: {}", p.name, number(Symbol::Parameter(ParamId::new(index))))).collect();
     let mut text =
         format!("mod {name} {{\nuse linkage_runtime::{{Error, Series, SweepError, Vector2, linkage}};\nlinkage! {{\n");
-    let _ = writeln!(text, "{declaration}}}\npub fn run() -> Result<(), Error> {{");
+    let good: Vec<String> = given.iter().map(|symbol| format!("{:?}f64", arguments.of(*symbol))).collect();
+    let in_place = IN_PLACE.map(|bad| format!("f64::from({scalar}::{bad})")).join(", ");
+    let _ = writeln!(
+        text,
+        "{declaration}}}
+         const GOOD: [f64; {count}] = [{}];
+         pub fn run() {{
+             with(0, GOOD);
+             for (place, (index, bad)) in (0..{count}).flat_map(|index| [{in_place}].map(|bad| (index, bad))).enumerate() {{
+                 let mut given = GOOD;
+                 given[index] = bad;
+                 with(1 + place, given);
+             }}
+         }}
+         fn with(number: usize, given: [f64; {count}]) {{
+             if let Err(error) = try_with(number, given) {{ println!(\"{name} {{number}} fails new {{:?}}\", Err::<(), _>(error)); }}
+         }}
+         fn try_with(number: usize, given: [f64; {count}]) -> Result<(), Error> {{",
+        good.join(", "),
+        count = given.len(),
+    );
     let mut first = String::new();
     if !params.is_empty() {
         let _ = writeln!(text, "let linkage = sample::Linkage::new(&sample::Params {{ {} }})?;", params.join(", "));
@@ -105,18 +167,17 @@ fn module(case: &Case) -> String {
         let _ = writeln!(text, "let loads = sample::Loads {{ {} }};", loads.join(", "));
     }
     let motion = linkage_codegen::emit::given_motion(model).into_iter().map(|(drive, order)| {
-        let name = drive.motion_name(order);
         let index = model.drives.iter().position(|own| own.name.text == drive.name.text).expect("a drive");
-        let [rate, acceleration] = arguments.motion[index];
-        format!("{name}: {}", number(if order == Order::Rate { rate } else { acceleration }))
+        format!("{}: {}", drive.motion_name(order), number(Symbol::Driven(DriveId::new(index), order)))
     });
     let motion: Vec<String> = motion.collect();
     let _ = writeln!(text, "let motion = sample::Motion {{ {} }};", motion.join(", "));
-    let mut drives: Vec<String> = arguments.drives.iter().map(|value| number(*value)).collect();
+    let drive = |index| number(Symbol::Drive(DriveId::new(index)));
+    let mut drives: Vec<String> = (0..model.drives.len()).map(drive).collect();
     drives.extend(closures(case));
     let drives = drives.join(", ");
-    let names = model.drives.iter().map(|drive| &drive.name.text);
-    let angles = names.zip(&arguments.drives).map(|(name, value)| format!("{name}: {}", number(*value)));
+    let names = model.drives.iter().enumerate();
+    let angles = names.map(|(index, own)| format!("{}: {}", own.name.text, drive(index)));
     let given: Vec<String> = angles.chain(motion.iter().cloned()).chain(loads.iter().cloned()).collect();
     let _ = writeln!(text, "let pose = sample::Pose::at({first}{drives});");
     for scene in scenes(linkage) {
@@ -129,12 +190,12 @@ fn module(case: &Case) -> String {
         let straight = if straight.is_empty() { straight } else { format!(", {straight}") };
         let _ = writeln!(
             text,
-            "println!(\"{name} {scene} straight {{:?}}\", sample::{scene}_at({first}{drives}{straight}));"
+            "println!(\"{name} {{number}} {scene} straight {{:?}}\", sample::{scene}_at({first}{drives}{straight}));"
         );
         let from_pose = given(&functions.from_pose);
         let _ = writeln!(
             text,
-            "println!(\"{name} {scene} pose {{:?}}\", pose.and_then(|pose| pose.{scene}({from_pose})));"
+            "println!(\"{name} {{number}} {scene} pose {{:?}}\", pose.and_then(|pose| pose.{scene}({from_pose})));"
         );
     }
     let sides = closures(case).map_or(String::new(), |sides| format!("{sides}, "));
@@ -149,7 +210,7 @@ fn module(case: &Case) -> String {
 /// How many positions are swept: several blocks, and one that is not full.
 const POSITIONS: usize = 150;
 
-/// The sweep of a scene, in which nothing changes: all positions have the numbers of the last, which are printed.
+/// The sweep of a scene, in which nothing changes: all positions have the numbers of the last, which are printed, or the first has none.
 fn sweep(case: &str, scene: &str, scalar: &str, emitted: &str, first: &str, given: &[String]) -> String {
     let ty: String = scene[..1].to_uppercase() + &scene[1..] + "Path";
     let fields = |ty: &str| -> Vec<String> {
@@ -172,7 +233,7 @@ fn sweep(case: &str, scene: &str, scalar: &str, emitted: &str, first: &str, give
          let [{taken}] = &mut room;
          let swept = sample::{scene}_path({first}&sample::{ty}Inputs {{ {} }}, sample::{ty} {{ {} }});
          assert!(swept.is_err() || room.iter().all(|row| row.iter().all(|x| x.to_bits() == row[{POSITIONS} - 1].to_bits())));
-         println!(\"{case} {scene} sweep {{:?}}\", swept.map(|()| room.map(|row| row[{POSITIONS} - 1])).map_err(|error| match error {{
+         println!(\"{case} {{number}} {scene} sweep {{:?}}\", swept.map(|()| room.map(|row| row[{POSITIONS} - 1])).map_err(|error| match error {{
              SweepError::Position {{ index: 0, error }} => error,
              other => panic!(\"{{other:?}}\"),
          }}));\n",
@@ -214,7 +275,7 @@ fn write_crate(cases: &[Case]) -> PathBuf {
         let mut main: String = cases.iter().map(module).collect();
         main.push_str("fn main() {\n");
         for Case { name, .. } in cases {
-            let _ = writeln!(main, "if let Err(error) = {name}::run() {{ println!(\"{name} fails {{error:?}}\"); }}");
+            let _ = writeln!(main, "{name}::run();");
         }
         main.push_str("}\n");
         std::fs::write(at.join("src/bin").join(name).with_extension("rs"), main).expect("a source");
@@ -244,22 +305,20 @@ fn run(at: &Path) -> String {
     printed.concat()
 }
 
-/// All numbers of a printed result, in the order of its fields; `None` for an error.
-fn bits<T: Number>(printed: &str) -> Option<Vec<u64>> {
-    let inner = printed.strip_prefix("Ok(")?;
-    let parts = inner.split(|c: char| "[]{}(),: ".contains(c));
-    Some(parts.filter_map(|part| part.parse::<f64>().ok()).map(|x| T::exactly(x).to_f64().to_bits()).collect())
-}
-
-fn interpreted<T: Number>(case: &Case, scene: &str, form: &str) -> Option<Vec<u64>> {
-    let Case { linkage, arguments, .. } = case;
-    let values: Result<Vec<T>, Fault> = if form == "pose" {
-        pose(linkage, arguments)
-            .and_then(|kept| values_from_kept(linkage, scene, &kept, arguments).map(|(_, values)| values))
-    } else {
-        direct(linkage, &linkage.functions.scenes[index_of(linkage, scene)].direct, arguments)
+/// What the interpreter finds.
+fn interpreted<T: Number>(linkage: &Linkage, arguments: &Arguments, scene: &str, form: &str) -> Told {
+    let values = || -> Result<Vec<T>, Fault> {
+        checked_prepared::<T>(linkage, arguments)?;
+        if form == "new" {
+            return Ok(Vec::new());
+        }
+        if form != "pose" {
+            return direct(linkage, &linkage.functions.scenes[index_of(linkage, scene)].direct, arguments);
+        }
+        let kept = checked_pose(linkage, arguments)?;
+        values_from_kept(linkage, scene, &kept, arguments).map(|(_, values)| values)
     };
-    Some(values.ok()?.iter().map(|value| value.to_f64().to_bits()).collect())
+    told(values())
 }
 
 #[test]
@@ -269,33 +328,48 @@ fn random_linkages_compile_to_what_the_interpreter_computes() {
     assert!(cases.len() > 40, "{} linkages", cases.len());
     let printed = run(&write_crate(&cases));
     let (mut results, mut controlled, mut failures) = (0, 0, 0);
+    // With one number in place of another: how many results, and errors.
+    let mut replaced = (0, 0);
     for case in &cases {
         let lines = printed.lines().filter_map(|line| line.strip_prefix(case.name.as_str())?.strip_prefix(' '));
-        let (mut seen, all) = (0, 3 * scenes(&case.linkage).count());
+        let arguments = case.all_arguments();
+        let mut seen = vec![0; arguments.len()];
+        let all = 3 * scenes(&case.linkage).count();
         for line in lines {
-            let Some((scene, rest)) = line.split_once(' ') else { panic!("{line}") };
-            if scene == "fails" {
-                assert!(pose::<Double>(&case.linkage, &case.arguments).is_err(), "{line}\n{}", case.declaration);
-                seen = all;
-                failures += 1;
-                continue;
-            }
-            let (form, printed) = rest.split_once(' ').expect("a result");
+            let mut words = line.splitn(4, ' ');
+            let mut word = || words.next().unwrap_or_else(|| panic!("{line}"));
+            let (number, scene, form, printed) = (word().parse::<usize>().expect("a number"), word(), word(), word());
             let (own, expected) = if case.scalar == "f32" {
-                (bits::<Single>(printed), interpreted::<Single>(case, scene, form))
+                let expected = interpreted::<Single>(&case.linkage, &arguments[number], scene, form);
+                (told_as_printed::<Single>(printed), expected)
             } else {
-                (bits::<Double>(printed), interpreted::<Double>(case, scene, form))
+                let expected = interpreted::<Double>(&case.linkage, &arguments[number], scene, form);
+                (told_as_printed::<Double>(printed), expected)
             };
-            assert_eq!(own, expected, "{scene} {form}: {printed}\n{}", case.declaration);
-            seen += 1;
-            controlled += usize::from(scene == "control" && own.is_some());
-            results += usize::from(own.is_some());
+            let context =
+                || format!("{scene} {form}: {printed}, {:?}\n{}", arguments[number].instead, case.declaration);
+            assert_eq!(own, expected, "{}", context());
+            let is_finite = |found: &Vec<u64>| found.iter().all(|bits| f64::from_bits(*bits).is_finite());
+            assert!(own.as_ref().is_ok_and(is_finite) || own.is_err(), "{}", context());
+            seen[number] += if form == "new" { all } else { 1 };
+            if number > 0 {
+                replaced.0 += usize::from(own.is_ok());
+                replaced.1 += usize::from(own.is_err());
+            } else {
+                failures += usize::from(form == "new");
+                controlled += usize::from(scene == "control" && own.is_ok());
+                results += usize::from(own.is_ok());
+            }
         }
-        assert_eq!(seen, all, "{}", case.declaration);
+        assert!(seen.iter().all(|seen| *seen == all), "{seen:?}, {all}\n{}", case.declaration);
     }
     println!(
-        "{} linkages, {results} equal results, {controlled} of them equations of motion, {failures} with parameters out of range",
-        cases.len()
+        "{} linkages, {results} equal results, {controlled} of them equations of motion, {failures} with parameters out of range; \
+         with one number replaced {} equal results, {} equal errors",
+        cases.len(),
+        replaced.0,
+        replaced.1
     );
     assert!(results > 300 && controlled > 40, "{results} results, {controlled} equations of motion");
+    assert!(replaced.0 > 1000 && replaced.1 > 1000, "{replaced:?}");
 }

@@ -16,7 +16,7 @@ use linkage_codegen::model::ids::DriveId;
 use linkage_codegen::program::{Fault, Input, Program, Step};
 use support::declarations::{coordinates, given, linkages, poses};
 use support::numbers::{Double, Single};
-use support::{Arguments, Number, direct, from_pose, moved, pose, prepared};
+use support::{Arguments, Number, checked_pose, direct, from_pose, moved, pose, prepared};
 
 type Call<'a, T> = Box<dyn Fn(&Arguments) -> Result<Vec<T>, Fault> + 'a>;
 
@@ -64,13 +64,6 @@ fn inputs(linkage: &Linkage) -> Vec<Symbol> {
         }
     }
     all
-}
-
-/// `Pose::at`, which also checks the drives that nothing of a pose depends on.
-fn checked_pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<HashMap<NodeId, T>, Fault> {
-    let read: Vec<Input> = linkage.functions.pose.inputs().map(|(_, input)| input).collect();
-    let mut unread = drives(linkage).filter(|drive| !read.contains(&Input::Symbol(*drive)));
-    if unread.all(|drive| arguments.of(drive).is_finite()) { pose(linkage, arguments) } else { Err(Fault::NotFinite) }
 }
 
 /// The functions of a linkage; of one that is driven for an inverse scene that scene alone is emitted.

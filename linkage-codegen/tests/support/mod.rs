@@ -17,6 +17,7 @@ use std::collections::HashMap;
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::graph::{NodeId, Order, Sought, Symbol};
+use linkage_codegen::model::ids::{DriveId, ParamId};
 use linkage_codegen::program::{Fault, Input, Program, Run};
 
 /// A declaration's linkage; its errors make the test fail.
@@ -95,10 +96,24 @@ pub fn prepared<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<H
     Ok(linkage.functions.prepared.iter().copied().zip(values).collect())
 }
 
+/// `Linkage::new`, which first asks for all parameters, those that nothing depends on as well.
+pub fn checked_prepared<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<HashMap<NodeId, T>, Fault> {
+    let mut all = (0..linkage.model.params.len()).map(|param| Symbol::Parameter(ParamId::new(param)));
+    if all.all(|param| arguments.of(param).is_finite()) { prepared(linkage, arguments) } else { Err(Fault::NotFinite) }
+}
+
 /// What a pose keeps.
 pub fn pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<HashMap<NodeId, T>, Fault> {
     let values = direct(linkage, &linkage.functions.pose, arguments)?;
     Ok(linkage.plan.pose.iter().map(|kept| kept.node).zip(values).collect())
+}
+
+/// `Pose::at`, which also asks for the drives that nothing of a pose depends on.
+pub fn checked_pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<HashMap<NodeId, T>, Fault> {
+    let read: Vec<Input> = linkage.functions.pose.inputs().map(|(_, input)| input).collect();
+    let drives = (0..linkage.model.drives.len()).map(|drive| Symbol::Drive(DriveId::new(drive)));
+    let mut unread = drives.filter(|drive| !read.contains(&Input::Symbol(*drive)));
+    if unread.all(|drive| arguments.of(drive).is_finite()) { pose(linkage, arguments) } else { Err(Fault::NotFinite) }
 }
 
 /// A pose near another one: `moved_to`.
@@ -165,4 +180,29 @@ pub fn scene<T: Number>(linkage: &Linkage, name: &str, arguments: &Arguments) ->
     let program = &linkage.functions.scenes[index_of(linkage, name)].direct;
     let values = direct(linkage, program, arguments)?;
     Ok(program.outputs.iter().map(|(path, _)| path.clone()).zip(values).collect())
+}
+
+/// What a function gave: its numbers bit for bit, or the kind of its error.
+pub type Told = Result<Vec<u64>, String>;
+
+/// Of what the interpreter finds.
+pub fn told<T: Number>(found: Result<Vec<T>, Fault>) -> Told {
+    match found {
+        Ok(values) => Ok(values.iter().map(|value| value.to_f64().to_bits()).collect()),
+        Err(Fault::NotFinite) => Err("NotFinite".to_owned()),
+        Err(Fault::Failed(failure)) => Err(first_word(&format!("{failure:?}"))),
+    }
+}
+
+/// Of what emitted code gives, as it is printed: all numbers in the order of its fields.
+pub fn told_as_printed<T: Number>(printed: &str) -> Told {
+    let Some(inner) = printed.strip_prefix("Ok(") else {
+        return Err(first_word(printed.strip_prefix("Err(").expect("a result")));
+    };
+    let parts = inner.split(|c: char| "[]{}(),: ".contains(c));
+    Ok(parts.filter_map(|part| part.parse::<f64>().ok()).map(|x| T::exactly(x).to_f64().to_bits()).collect())
+}
+
+fn first_word(error: &str) -> String {
+    error.chars().take_while(|c| c.is_alphanumeric()).collect()
 }
