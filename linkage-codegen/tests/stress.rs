@@ -1426,15 +1426,15 @@ fn ends_of<T: Scalar>(kind: &Kind, member: &Member, doubles: &Linkage, found: &[
     }
 }
 
-/// Where a pivot is zero or there is no pose: no function gives forces. Only of a cascade may no load reach the group that has none, in exact
-/// arithmetic neither: then forces from the pose keep to their bars, while that group's directions are those that are nearest to closing. Those
-/// straight from the drives have a pose of their own, of later groups too, by as much as rounding makes of it there.
+/// Where a pivot is zero or there is no pose: no function gives forces. Only of a cascade some may: no load may reach the group that has none,
+/// and then forces from the pose keep to their bars, while that group's directions are those that are nearest to closing; and functions straight
+/// from the drives, which round earlier groups otherwise, may have a pivot of an epsilon where the pose's is zero, or the last pose where
+/// `Pose::at` is beyond it. A pose of theirs to hold those to is not kept, and the one that is may be off by the root of an epsilon there.
 fn at_a_dead_centre<T: Scalar>(kind: &Kind, linkage: &Linkage, arguments: &Arguments, longest: f64) {
     let context = || format!("{} in {} at {:?}", kind.name, T::NAME, arguments.drives);
-    for name in ["all", "work"] {
-        let found = scene::<T>(linkage, name, arguments).is_ok();
-        let exact = kind.is_cascade() && scene::<Extended>(linkage, name, arguments).is_ok();
-        assert!(exact || !found, "{name} of {}", context());
+    if !kind.is_cascade() {
+        let answered = ["all", "work"].into_iter().find(|name| scene::<T>(linkage, name, arguments).is_ok());
+        assert!(answered.is_none(), "{answered:?} of {}", context());
     }
     if let Ok(measures) = measure::<T>(linkage, arguments, longest, T::EPSILON) {
         let forces = Measures { unit: 0.0, closure: 0.0, torque: 0.0, ..measures };
