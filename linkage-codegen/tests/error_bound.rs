@@ -312,3 +312,23 @@ fn where_nothing_is_known() {
     }
     assert!(known >= 6 && unknown > 0, "{known} known, {unknown} not");
 }
+
+/// An in-line slider-crank at its angle of zero: every number of its pose is exact, and a bound says so too.
+#[test]
+fn where_nothing_is_off() {
+    let linkage = with_bounds(
+        "pub mod sample; ground { A0: (0, 0), C: (0, 0) } link crank { A0 -> A: 0.5m } link coupler { A -> B: 1.5m, P: (0.5m, 0.25m) }
+         link piston { B: (0, 0) } revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> piston;
+         prismatic C: ground -> piston.B along 0deg; drive theta: A0; unknown T: torque(ground -> crank); assemble B: ahead(A);
+         load F: force(coupler.P);",
+    );
+    let linkage = linkage.expect("it closes");
+    let bounds = |theta: f64| -> Vec<f64> {
+        let arguments = Arguments { drives: vec![theta], loads: vec![[10.0, -20.0]], ..Arguments::default() };
+        check::<Double>(&linkage, &arguments, "at an angle of zero");
+        let found = scene::<Double>(&linkage, "bounded", &arguments).expect("a regular pose");
+        found.iter().filter(|(path, _)| path.starts_with("error_bound.")).map(|(_, bound)| bound.0).collect()
+    };
+    assert!(bounds(0.0).into_iter().all(|bound| bound < 1e-13), "{:?}", bounds(0.0));
+    assert!(bounds(1e-12).into_iter().all(|bound| bound < 1e-13), "{:?}", bounds(1e-12));
+}

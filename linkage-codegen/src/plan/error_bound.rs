@@ -322,8 +322,9 @@ fn beyond_first_order<'g>(closed: &ClosedLoop<'g>, totals: [Expr<'g>; 2]) -> Exp
     let both = if first.is_direction() == second.is_direction() { graph.zero() } else { 2 * (totals[0] * totals[1]) };
     let change = 2 * (curved(0) + curved(1) + both);
     let size = closed.determinant.abs();
-    let small = graph.one().where_above(size * totals[0], change * sizes[1]);
-    change / small.where_above(size * totals[1], change * sizes[0])
+    // One or zero; one, too, where nothing is off at all.
+    let is_told = |index: usize| graph.one() - graph.one().where_above(change * sizes[1 - index], size * totals[index]);
+    change / (is_told(0) * is_told(1))
 }
 
 impl<'g> Found<'g> {
