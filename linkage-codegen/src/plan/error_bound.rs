@@ -322,9 +322,9 @@ fn beyond_first_order<'g>(closed: &ClosedLoop<'g>, totals: [Expr<'g>; 2]) -> Exp
     let both = if first.is_direction() == second.is_direction() { graph.zero() } else { 2 * (totals[0] * totals[1]) };
     let change = 2 * (curved(0) + curved(1) + both);
     let size = closed.determinant.abs();
-    // One or zero; one, too, where nothing is off at all.
-    let is_told = |index: usize| graph.one() - graph.one().where_above(change * sizes[1 - index], size * totals[index]);
-    change / (is_told(0) * is_told(1))
+    // Not where both are compared the other way: if nothing is off at all, none is more than the other.
+    let is_more = |index: usize| graph.one().where_above(change * sizes[1 - index], size * totals[index]);
+    change / graph.one().where_above(graph.constant(&Number::ratio(1, 2)), is_more(0) + is_more(1))
 }
 
 impl<'g> Found<'g> {
