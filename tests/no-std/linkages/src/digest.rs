@@ -61,6 +61,19 @@ impl Digest {
         }
     }
 
+    /// Puts the columns of a sweep. Without an iterator: in unoptimised builds a panic is within their reach.
+    pub fn columns<T: Output + Copy, const POSITIONS: usize>(&mut self, columns: &[[T; POSITIONS]]) {
+        let mut which = 0;
+        while let Some(column) = columns.get(which) {
+            let mut position = 0;
+            while let Some(number) = column.get(position) {
+                self.put(*number);
+                position = position.wrapping_add(1);
+            }
+            which = which.wrapping_add(1);
+        }
+    }
+
     /// Puts an error.
     pub fn refusal(&mut self, error: Error) {
         self.refusals = self.refusals.wrapping_add(1);
@@ -183,6 +196,12 @@ macro_rules! accessors {
     ($digest:ident, $pose:ident: $($name:ident),*) => { $($digest.put($pose.$name());)* };
 }
 pub(crate) use accessors;
+
+/// Puts the results of scenes from a pose.
+macro_rules! scenes {
+    ($digest:ident, $pose:ident: $($scene:ident($($given:expr),*)),*) => { $($digest.result($pose.$scene($($given),*));)* };
+}
+pub(crate) use scenes;
 
 /// `inputs` and `math` of a scalar, and the macro that makes the `digest` of a linkage.
 macro_rules! scalar {

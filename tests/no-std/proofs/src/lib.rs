@@ -21,11 +21,11 @@ use std::process::{Command, Output};
 
 use no_std_linkages::{Digest, double, each_linkage, example, single};
 
-/// The digest of every linkage, computed here.
+/// All digests, computed here.
 #[must_use]
 pub fn native() -> Vec<(&'static str, Digest)> {
     macro_rules! digests {
-        ($($name:ident = $($module:ident)::*,)*) => { vec![$((stringify!($name), $($module)::*::digest())),*] };
+        ($($name:ident = $($digest:ident)::*,)*) => { vec![$((stringify!($name), $($digest)::*())),*] };
     }
     each_linkage!(digests)
 }

@@ -1,44 +1,53 @@
-//! Everything that is emitted for the linkages is called in their `solve`, of the examples every scene, and every `solve` by the programs,
-//! so that the other proofs are about all of it.
+//! Everything that is emitted for the linkages is called in their sources: what is straight from the drives, poses, what a pose says of
+//! itself, every scene from it. Of the project's examples too. And all of it by the programs, so that the other proofs are about all of it.
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::PathBuf;
 
 use no_std_proofs::workspace;
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-/// The sources of all linkages: the folder, which is the name of a program too, and the file.
-fn linkages() -> Vec<(&'static str, PathBuf)> {
+/// The sources of all linkages: the folder and the name.
+fn linkages() -> Vec<(&'static str, String)> {
     let mut all = Vec::new();
-    for folder in ["double", "single"] {
+    for folder in ["double", "single", "example"] {
         for entry in fs::read_dir(workspace().join("linkages/src").join(folder)).expect("a folder") {
             let path = entry.expect("a file").path();
-            if !path.ends_with("mod.rs") {
-                all.push((folder, path));
+            let name = path.file_stem().expect("a name").display().to_string();
+            if name != "mod" {
+                all.push((folder, name));
             }
         }
     }
-    assert!(all.len() >= 7, "only {} linkages were found", all.len());
+    assert!(all.len() >= 19, "only {} linkages were found", all.len());
     all
 }
 
-/// The declaration in a file, and the names that stand elsewhere in it, but for the fields of results.
-fn split(file: TokenStream, declaration: &mut TokenStream, names: &mut BTreeSet<String>) {
-    let mut macro_name = String::new();
+/// A file, by its path from the workspace.
+fn read(path: &str) -> String {
+    let path = workspace().join(path);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The declaration in a file, and what is called elsewhere in it: names before parentheses, and accessors of poses.
+fn split(file: TokenStream, declaration: &mut TokenStream, called: &mut BTreeSet<String>) {
+    let mut name = String::new();
     for tree in file {
         match tree {
-            TokenTree::Group(group) => match macro_name.as_str() {
+            TokenTree::Group(group) => match name.as_str() {
                 "linkage!" => *declaration = group.stream(),
                 "outputs!" => {}
-                _ => split(group.stream(), declaration, names),
+                "accessors!" => called.extend(group.stream().into_iter().map(|name| name.to_string())),
+                _ => {
+                    if group.delimiter() == Delimiter::Parenthesis {
+                        called.insert(name.clone());
+                    }
+                    split(group.stream(), declaration, called);
+                }
             },
-            TokenTree::Ident(ident) => {
-                macro_name = ident.to_string();
-                names.insert(ident.to_string());
-            }
-            TokenTree::Punct(mark) => macro_name.push(mark.as_char()),
-            TokenTree::Literal(_) => macro_name.clear(),
+            TokenTree::Ident(ident) => name = ident.to_string(),
+            TokenTree::Punct(mark) => name.push(mark.as_char()),
+            TokenTree::Literal(_) => name.clear(),
         }
     }
 }
@@ -62,65 +71,67 @@ fn functions(code: TokenStream, into: &mut BTreeSet<String>) {
     }
 }
 
+/// The source of an example, without what needs an operating system: as `linkages/build.rs` takes it.
+fn example(name: &str) -> String {
+    let source = read(&format!("../../examples/{name}.rs"));
+    let hosted = |line: &&str| line.trim() == "emit source;" || line.trim_end().ends_with(" verify;");
+    source.lines().filter(|line| !hosted(line)).collect::<Vec<_>>().join("\n")
+}
+
+/// What a linkage has and its source does not call.
+fn missing(declaration: &str, source: &str) -> BTreeSet<String> {
+    let (mut declared, mut called, mut emitted) = (TokenStream::new(), BTreeSet::new(), BTreeSet::new());
+    split(declaration.parse().expect("tokens"), &mut declared, &mut BTreeSet::new());
+    split(source.parse().expect("tokens"), &mut TokenStream::new(), &mut called);
+    functions(linkage_codegen::expand(declared), &mut emitted);
+    assert!(emitted.contains("at"), "there is no linkage");
+    emitted.difference(&called).cloned().collect()
+}
+
 #[test]
 fn every_emitted_function_is_called() {
-    for (_, path) in linkages() {
-        let text = fs::read_to_string(&path).expect("a source");
-        let (mut declaration, mut names, mut emitted) = (TokenStream::new(), BTreeSet::new(), BTreeSet::new());
-        split(text.parse().expect("tokens"), &mut declaration, &mut names);
-        functions(linkage_codegen::expand(declaration), &mut emitted);
-        assert!(emitted.contains("at"), "{} declares no linkage", path.display());
-        let missing: Vec<&String> = emitted.difference(&names).collect();
-        assert!(missing.is_empty(), "{} does not call {missing:?}", path.display());
+    for (folder, name) in linkages() {
+        let source = read(&format!("linkages/src/{folder}/{name}.rs"));
+        let declaration = if folder == "example" { example(&name) } else { source.clone() };
+        let missing = missing(&declaration, &source);
+        assert!(missing.is_empty(), "{folder}::{name} does not call {missing:?}");
     }
 }
 
-/// The names of the functions of a module's scenes, which stand in the module itself: straight from the drives, and sweeps.
-fn scenes(code: TokenStream, into: &mut BTreeSet<String>) {
-    let trees: Vec<TokenTree> = code.into_iter().collect();
-    let is = |tree: &TokenTree, word: &str| matches!(tree, TokenTree::Ident(ident) if ident == word);
-    for window in trees.windows(3) {
-        match window {
-            [module, _, TokenTree::Group(body)] if is(module, "mod") => scenes(body.stream(), into),
-            [public, function, TokenTree::Ident(name)] if is(public, "pub") && is(function, "fn") => {
-                into.insert(name.to_string());
-            }
-            _ => {}
-        }
-    }
-}
-
-/// Of every example, every scene but those that need an operating system.
+/// Of a linkage placed by iteration: a scene straight from the drive and from a pose, an accessor, a pose that moves.
 #[test]
-fn every_scene_of_the_examples_is_called() {
-    let read = |path: PathBuf| fs::read_to_string(path).expect("a source").parse::<TokenStream>().expect("tokens");
-    let list = fs::read_to_string(workspace().join("linkages/src/lib.rs")).expect("a source");
-    let mut examples = 0;
-    for entry in fs::read_dir(workspace().join("../../examples")).expect("the examples") {
-        let path = entry.expect("a file").path();
-        let name = path.file_stem().expect("a name").display().to_string();
-        let (mut declaration, mut calls, mut called, mut of_scenes) = Default::default();
-        split(read(path), &mut declaration, &mut called);
-        scenes(linkage_codegen::expand(declaration), &mut of_scenes);
-        called.clear();
-        split(read(workspace().join(format!("linkages/src/example/{name}.rs"))), &mut calls, &mut called);
-        let missing: Vec<&String> = of_scenes.difference(&called).collect();
-        assert!(missing.iter().all(|scene| *scene == "check_at"), "{name}: {missing:?} are not called");
-        assert!(!of_scenes.is_empty(), "{name} has no scene");
-        assert!(list.contains(&format!(" = example::{name},")), "`each_linkage` leaves out {name}");
-        examples += 1;
+fn control_what_is_not_called_is_found() {
+    let source = read("linkages/src/example/stephenson.rs");
+    for (name, call) in [
+        ("statics_at", "::statics_at("),
+        ("statics", " statics("),
+        ("rod_direction", " rod_direction,"),
+        ("moved_to", ".moved_to("),
+    ] {
+        assert!(source.contains(call), "{call} is not in the source");
+        let missing = missing(&example("stephenson"), &source.replace(call, &call.replace(name, "another")));
+        assert_eq!(missing, BTreeSet::from([name.to_owned()]));
     }
-    assert!(examples >= 8, "only {examples} examples were found");
 }
 
 #[test]
 fn every_linkage_is_called() {
-    let read = |path: String| fs::read_to_string(workspace().join(path)).expect("a source");
-    let list = read("linkages/src/lib.rs".to_owned());
-    for (program, path) in linkages() {
-        let module = format!("{program}::{}", path.file_stem().expect("a name").display());
-        assert!(list.contains(&format!(" = {module},")), "`each_linkage` leaves out {module}");
-        let program = read(format!("firmware/src/bin/{program}.rs"));
-        assert!(program.contains(&format!("{module}::solve(")), "the firmware leaves out {module}");
+    let list = read("linkages/src/lib.rs");
+    let mut examples = BTreeSet::new();
+    for (folder, name) in linkages() {
+        let module = format!("{folder}::{name}");
+        let digest = |function: &str| list.contains(&format!(" = {module}::{function},"));
+        assert!(digest("digest"), "`each_linkage` leaves out {module}");
+        if folder == "example" {
+            assert!(digest("digest_posed"), "`each_linkage` leaves out the poses of {module}");
+            examples.insert(name);
+        } else {
+            let program = read(&format!("firmware/src/bin/{folder}.rs"));
+            assert!(program.contains(&format!("{module}::solve(")), "the firmware leaves out {module}");
+        }
+    }
+    for entry in fs::read_dir(workspace().join("../../examples")).expect("the examples") {
+        let name = entry.expect("a file").path().file_stem().expect("a name").display().to_string();
+        assert!(examples.contains(&name), "the example {name} is left out");
     }
 }

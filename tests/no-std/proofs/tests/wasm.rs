@@ -44,8 +44,8 @@ fn control_most_poses_have_answers() {
     for (name, digest) in native() {
         let (answers, refusals) = (digest.answers, digest.refusals);
         println!("{name}: {answers} answers, {refusals} refusals");
-        // Of the examples only poses that they have are asked for.
-        let refused = name.starts_with("example") || refusals > 50;
+        // The examples are asked for poses that they have, but for a dead centre and the press's crank below its ram's lowest place.
+        let refused = if name.starts_with("example") { answers > 50 * refusals } else { refusals > 50 };
         assert!(name.ends_with("math") || answers > refusals && refused, "{name}: {digest:?}");
     }
 }

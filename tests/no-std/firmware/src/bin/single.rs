@@ -14,4 +14,5 @@ pub extern "C" fn _start(input: &single::Inputs, digest: &mut Digest) {
     single::iterated::solve(input, digest);
     single::press::solve(input, digest);
     single::slider_crank::solve(input, digest);
+    single::swept::solve(input, digest);
 }

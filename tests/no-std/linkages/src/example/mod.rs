@@ -1,6 +1,7 @@
 //! The project's examples: their declarations are read from their sources when this is built.
 //!
-//! Every scene of each is solved over its cycle; what stands beside it, the accessors of poses, is in the other linkages.
+//! Everything of each is called over its cycle. What is straight from the drive and what is asked of poses have digests of their own: they are
+//! other code, whose last bits differ.
 
 pub mod control_loop;
 pub mod engine;
@@ -29,37 +30,39 @@ fn load(pose: u16, number: u16, size: f64) -> Vector2<f64> {
     Vector2::new(size * wave(31), size * wave(53))
 }
 
-/// The declaration of an example, and the digest over its cycle.
+/// What is put at all poses of the cycle.
+fn over_cycle(solve: impl Fn(u16, &mut Digest)) -> Digest {
+    let mut digest = Digest::new();
+    let mut pose = 0;
+    while pose < POSES {
+        solve(pose, &mut digest);
+        pose = pose.wrapping_add(1);
+    }
+    digest
+}
+
+/// The declaration of an example, and the digests over its cycle.
 macro_rules! example {
     ($file:literal) => {
         use linkage_runtime::linkage;
 
         include!(concat!(env!("OUT_DIR"), "/", $file));
 
-        /// Every scene at all poses of the cycle.
+        /// Every scene at all poses of the cycle, straight from the drive.
         #[must_use]
-        pub fn digest() -> $crate::Digest {
-            let mut digest = $crate::Digest::new();
-            let mut pose = 0;
-            while pose < super::POSES {
-                solve(pose, &mut digest);
-                pose = pose.wrapping_add(1);
-            }
-            digest
+        pub fn digest() -> Digest {
+            super::over_cycle(solve)
+        }
+
+        /// All poses of the cycle, and every scene from them.
+        #[must_use]
+        pub fn digest_posed() -> Digest {
+            super::over_cycle(|number, digest| {
+                if let Err(error) = posed(number, digest) {
+                    digest.refusal(error);
+                }
+            })
         }
     };
 }
 use example;
-
-/// Puts the columns of a sweep. Without an iterator: in unoptimised builds a panic is within their reach.
-fn put<const POSITIONS: usize>(digest: &mut Digest, columns: &[[f64; POSITIONS]]) {
-    let mut which = 0;
-    while let Some(column) = columns.get(which) {
-        let mut position = 0;
-        while let Some(number) = column.get(position) {
-            digest.put(*number);
-            position = position.wrapping_add(1);
-        }
-        which = which.wrapping_add(1);
-    }
-}
