@@ -6,7 +6,7 @@
 //! | `symbols` | a linkage in `f32` does no arithmetic in `f64` |
 //! | `wasm` | the same bits under WebAssembly, which needs nothing from its host |
 //! | `board` | the same bits on a Cortex-M4F and a Cortex-M3, emulated |
-//! | `pinned` | the bits are those that they were, the examples' too, at every level of x86-64 |
+//! | `pinned` | the bits are those that they were, the examples' too, at every level of x86-64, and with `std`, sweeps by all registers |
 //! | `size` | one scene takes little of the flash |
 //! | `complete` | the functions of which all this is proved are all that are emitted |
 //!
@@ -58,6 +58,8 @@ pub struct Build<'a> {
     pub targets: &'a [&'a str],
     /// The profile.
     pub profile: &'a str,
+    /// Flags of the compiler for the targets, or nothing.
+    pub flags: &'a str,
     /// Further arguments.
     pub arguments: &'a [&'a str],
 }
@@ -85,6 +87,9 @@ impl Build<'_> {
         cargo.args(self.arguments).arg("--target-dir").arg(target_folder());
         for target in self.targets {
             cargo.args(["--target", target]);
+        }
+        if !self.flags.is_empty() {
+            cargo.env("RUSTFLAGS", self.flags);
         }
         let output = cargo.output().expect("cargo runs");
         if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stderr).into_owned()) }

@@ -6,7 +6,7 @@ use no_std_proofs::{Build, assert_same, printed};
 
 fn same_bits(target: &str, cpu: &str, machine: &str) {
     for profile in ["dev", "release"] {
-        let build = Build { package: "no-std-board", targets: &[target], profile, arguments: &[] };
+        let build = Build { package: "no-std-board", targets: &[target], profile, flags: "", arguments: &[] };
         build.expect();
         let mut qemu = Command::new("timeout");
         qemu.args(["300", "qemu-system-arm", "-cpu", cpu, "-machine", machine, "-nographic"]);

@@ -12,7 +12,7 @@ const TARGETS: &[&str] = &["thumbv7em-none-eabihf", "thumbv6m-none-eabi", "riscv
 const PROGRAMS: &[&str] = &["--bin", "double", "--bin", "single", "--bin", "torque"];
 
 fn firmware<'a>(profile: &'a str, arguments: &'a [&'a str]) -> Build<'a> {
-    Build { package: "no-std-firmware", targets: TARGETS, profile, arguments }
+    Build { package: "no-std-firmware", targets: TARGETS, profile, flags: "", arguments }
 }
 
 /// Unoptimised, with overflow checks and debug assertions.

@@ -11,8 +11,13 @@ const LIMITS: &[(&str, u64)] =
 #[test]
 fn a_torque_is_small() {
     for (target, limit) in LIMITS {
-        let build =
-            Build { package: "no-std-firmware", targets: &[target], profile: "small", arguments: &["--bin", "torque"] };
+        let build = Build {
+            package: "no-std-firmware",
+            targets: &[target],
+            profile: "small",
+            flags: "",
+            arguments: &["--bin", "torque"],
+        };
         build.expect();
         let file = std::fs::read(build.folder(target).join("torque")).expect("the program");
         let file = object::File::parse(&*file).expect("an ELF file");

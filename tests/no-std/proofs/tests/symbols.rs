@@ -47,7 +47,8 @@ fn is_double(symbol: &str) -> bool {
 fn doubles(program: &str) -> Vec<(String, Vec<String>)> {
     let mut all = Vec::new();
     for profile in ["dev", "release"] {
-        let build = Build { package: "no-std-firmware", targets: TARGETS, profile, arguments: &["--bin", program] };
+        let build =
+            Build { package: "no-std-firmware", targets: TARGETS, profile, flags: "", arguments: &["--bin", program] };
         build.expect();
         for target in TARGETS {
             let file = std::fs::read(build.folder(target).join(program)).expect("the program");

@@ -14,7 +14,7 @@ fn node(module: &Path) -> Command {
 }
 
 fn same_bits(profile: &str) {
-    let build = Build { package: "no-std-wasm", targets: &[TARGET], profile, arguments: &[] };
+    let build = Build { package: "no-std-wasm", targets: &[TARGET], profile, flags: "", arguments: &[] };
     build.expect();
     let module = build.folder(TARGET).join("no_std_wasm.wasm");
     assert_same(&printed(&mut node(&module), "install Node, version 18 or later"), "WebAssembly");
@@ -52,8 +52,13 @@ fn control_most_poses_have_answers() {
 
 #[test]
 fn control_a_panic_is_an_import() {
-    let build =
-        Build { package: "no-std-wasm", targets: &[TARGET], profile: "release", arguments: &["--example", "panics"] };
+    let build = Build {
+        package: "no-std-wasm",
+        targets: &[TARGET],
+        profile: "release",
+        flags: "",
+        arguments: &["--example", "panics"],
+    };
     build.expect();
     let output = node(&build.folder(TARGET).join("examples/panics.wasm")).output().expect("Node runs");
     let message = String::from_utf8_lossy(&output.stderr);
