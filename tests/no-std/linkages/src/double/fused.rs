@@ -74,7 +74,8 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
         Err(error) => return digest.refusal(error),
     };
     digest.result(pose.held(&loads));
-    accessors!(digest, pose: theta, O, A, B, S, crank_direction, crank_O, crank_A, rod_direction, rod_A, rod_B, rod_C, piston_direction, piston_B, sin_mu_B);
+    accessors!(digest, pose: theta, O, A, B, S, crank_direction, crank_O, crank_A, rod_direction, rod_A, rod_B,
+        rod_C, piston_direction, piston_B, sin_mu_B, travel_S);
 }
 
 digest!();

@@ -78,7 +78,7 @@ fn posed(number: u16, digest: &mut Digest) -> Result<(), Error> {
     let (theta, loads) = given(number);
     let pose = engine::Pose::at(theta)?;
     accessors!(digest, pose: theta, O, A, B, S, crank_direction, crank_O, crank_A, rod_direction, rod_A, rod_B,
-        piston_direction, piston_B, sin_mu_B);
+        piston_direction, piston_B, sin_mu_B, travel_S);
     scenes!(digest, pose: forces(&loads), shakes());
     Ok(())
 }

@@ -36,7 +36,7 @@ fn posed(number: u16, digest: &mut Digest) -> Result<(), Error> {
     let pose = press::Pose::at(theta)?;
     accessors!(digest, pose: theta, O, A, B2, C, B, D, S, crank_direction, crank_O, crank_A, rod_direction, rod_A,
         rod_B, upper_direction, upper_C, upper_B, lower_direction, lower_B, lower_D, ram_direction, ram_D, sin_mu_B2,
-        sin_mu_D);
+        sin_mu_D, travel_S);
     scenes!(digest, pose: held(&loads), over(&loads), place());
     Ok(())
 }

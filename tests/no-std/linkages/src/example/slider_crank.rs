@@ -33,7 +33,7 @@ fn posed(number: u16, digest: &mut Digest) -> Result<(), Error> {
     let (theta, loads) = given(number);
     let pose = engine::Pose::at(theta)?;
     accessors!(digest, pose: theta, O, A, B, G, crank_direction, crank_O, crank_A, rod_direction, rod_A, rod_B,
-        piston_direction, piston_B, piston_G, piston_crown, sin_mu_B);
+        piston_direction, piston_B, piston_G, piston_crown, sin_mu_B, travel_G);
     scenes!(digest, pose: hold(&loads), weights(), torque(&loads));
     let weights = pose.weights()?;
     digest.result(weights.total());

@@ -99,7 +99,7 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     digest.result(pose.place());
     accessors!(digest, pose: theta, A0, A, B, B0, B5, E, D, crank_direction, crank_A0, crank_A, coupler_direction,
         coupler_A, coupler_B, coupler_C, rocker_direction, rocker_B0, rocker_B, rod_direction, rod_B, rod_E,
-        ram_direction, ram_E, ram_D, ram_G, sin_mu_B, sin_mu_E);
+        ram_direction, ram_E, ram_D, ram_G, sin_mu_B, sin_mu_E, travel_D);
 }
 
 digest!();

@@ -88,7 +88,7 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
         digest.result(control.acceleration(200.0 * q));
     }
     accessors!(digest, pose: theta, A0, A, B, C, crank_direction, crank_A0, crank_A, rod_direction, rod_A, rod_B,
-        rod_G, piston_direction, piston_B, piston_C, piston_D, sin_mu_B);
+        rod_G, piston_direction, piston_B, piston_C, piston_D, sin_mu_B, travel_C);
 }
 
 digest!();
