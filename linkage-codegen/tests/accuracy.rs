@@ -298,6 +298,29 @@ fn a_hundred_thousand_scotch_yokes() {
     assert!(check(scotch_yokes(12, (2600, 40)), "Scotch yokes") > 100_000);
 }
 
+/// The same linkages with the lengths of their links given at run time.
+fn with_parameters(families: impl Iterator<Item = Family>) -> impl Iterator<Item = Family> {
+    families.map(|family| {
+        let text = support::families::with_parameters(&family.text);
+        assert!(text.matches("param ").count() > 1, "{text}");
+        Family { text, ..family }
+    })
+}
+
+#[test]
+fn lengths_at_run_time() {
+    assert!(check(with_parameters(random_four_bars(31, 60, 20)), "four-bars with parameters") > 600);
+    assert!(check(with_parameters(random_slider_cranks(32, 40, 20)), "slider-cranks with parameters") > 400);
+    assert!(check(with_parameters(fused(random_four_bars(33, 60, 20))), "fused four-bars with parameters") > 600);
+}
+
+#[test]
+#[ignore = "long"]
+fn a_hundred_thousand_poses_with_lengths_at_run_time() {
+    assert!(check(with_parameters(random_four_bars(34, 5_000, 40)), "four-bars with parameters") > 100_000);
+    assert!(check(with_parameters(random_slider_cranks(35, 3_000, 40)), "slider-cranks with parameters") > 100_000);
+}
+
 /// The same linkages with products that are added without being rounded.
 fn fused(families: impl Iterator<Item = Family>) -> impl Iterator<Item = Family> {
     families.map(|family| {

@@ -1,5 +1,8 @@
 //! Families of poses and the bars that they are held to.
 
+use linkage_codegen::Linkage;
+use linkage_codegen::model::Param;
+
 use super::linkages::{Class, Layout, Random, Sample, sample_with_forces};
 use super::measures::{Measures, measure};
 use super::numbers::{Double, Single};
@@ -198,13 +201,41 @@ pub fn worst<T: Number>(family: &Family, scalar: &str, epsilon: f64) -> (Measure
     let mut worst = Measures::default();
     let mut count = 0;
     for drive in &family.drives {
-        let arguments = Arguments { drives: vec![*drive], loads: family.loads.clone(), ..Arguments::default() };
+        let (drives, loads) = (vec![*drive], family.loads.clone());
+        let arguments = Arguments { drives, loads, params: defaults(&linkage), ..Arguments::default() };
         if let Ok(measures) = measure::<T>(&linkage, &arguments, family.longest, epsilon) {
             worst = worst.worst(measures);
             count += 1;
         }
     }
     (worst, count)
+}
+
+/// The defaults of a linkage's parameters.
+fn defaults(linkage: &Linkage) -> Vec<f64> {
+    let model = &linkage.model;
+    let default = |param: &Param| model.graph.constant_value(param.default.expect("a default"));
+    model.params.iter().map(|param| default(param).expect("a number").to_f64()).collect()
+}
+
+/// The same linkage with the lengths of its links as parameters: what stands behind `A -> B:` is a default.
+pub fn with_parameters(text: &str) -> String {
+    let (mut params, mut parts) = (String::new(), text.split(" -> "));
+    let mut changed = parts.next().expect("a part").to_owned();
+    for (index, part) in parts.enumerate() {
+        changed += " -> ";
+        let is_number = |c: char| c.is_ascii_digit() || ".e-".contains(c);
+        let named = part.split_once(": ").filter(|(name, _)| name.chars().all(char::is_alphanumeric));
+        let length = named.map(|(name, rest)| (name, rest.split_at(rest.find(|c| !is_number(c)).unwrap_or(0))));
+        match length {
+            Some((name, (length, rest))) if rest.starts_with('m') => {
+                params += &format!(" param length_{index}: length = {length}m;");
+                changed += &format!("{name}: length_{index}{}", &rest[1..]);
+            }
+            _ => changed += part,
+        }
+    }
+    changed.replacen(';', &format!(";{params}"), 1)
 }
 
 /// Holds all families to the bars, in both scalars; how many poses they had.

@@ -258,7 +258,7 @@ fn runner_on(pose: &Coordinates<'_, Extended>, joint: JointId, link: LinkId) -> 
     let (linkage, model) = (pose.linkage, &pose.linkage.model);
     let data = model.joint(joint);
     let (carrier, axis) = data.kind.line()?;
-    let local = constant(model.local(data.end_on(link)?));
+    let local = given(pose, model.local(data.end_on(link)?));
     let near = local[0].to_f64().hypot(local[1].to_f64());
     if link != carrier {
         return Some((local, near));
@@ -269,14 +269,14 @@ fn runner_on(pose: &Coordinates<'_, Extended>, joint: JointId, link: LinkId) -> 
     let drive = || model.drive_of(joint, false).map(|drive| Extended::exactly(pose.arguments.drives[drive.index()]));
     let travel = found.or_else(drive)?;
     let ahead = if data.from.link == carrier { travel } else { travel.neg() };
-    let [x, y] = constant(axis.vector(&model.graph));
+    let [x, y] = given(pose, axis.vector(&model.graph));
     let reach = near + ahead.to_f64().abs();
     Some(([local[0].add(&x.mul(&ahead)), local[1].add(&y.mul(&ahead))], reach))
 }
 
-/// A vector of constants.
-fn constant(vector: Vector<'_>) -> [Extended; 2] {
-    [vector.x, vector.y].map(|part| Extended::from_number(&part.value().expect("constant")))
+/// A vector of constants and parameters.
+fn given(pose: &Coordinates<'_, Extended>, vector: Vector<'_>) -> [Extended; 2] {
+    [vector.x, vector.y].map(|part| pose.value(part.id()))
 }
 
 fn over(value: f64, size: f64) -> f64 {
@@ -455,7 +455,7 @@ fn work_terms(pose: &Coordinates<'_, Extended>, velocities: &DVector<f64>) -> f6
         let LoadKind::Force { at, .. } = model.loads[index].kind else { return 0.0 };
         let [c, s] = [Coordinate::Cos, Coordinate::Sin].map(|which| pose.of(at.link, which).to_f64());
         let first = 3 * (at.link.index() - 1);
-        let local = |end| constant(model.local(end)).map(|part| part.to_f64());
+        let local = |end| given(pose, model.local(end)).map(|part| part.to_f64());
         let [x, y] = local(at);
         let by_way_of = |end| {
             let [px, py] = local(end);
