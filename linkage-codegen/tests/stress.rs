@@ -1427,13 +1427,14 @@ fn ends_of<T: Scalar>(kind: &Kind, member: &Member, doubles: &Linkage, found: &[
     }
 }
 
-/// Where a pivot is zero or there is no pose: no function gives forces. Only of a cascade some may: no load may reach the group that has none,
-/// and then forces from the pose keep to their bars, while that group's directions are those that are nearest to closing; and functions straight
-/// from the drives, which round earlier groups otherwise, may have a pivot of an epsilon where the pose's is zero, or the last pose where
-/// `Pose::at` is beyond it. A pose of theirs to hold those to is not kept, and the one that is may be off by the root of an epsilon there.
+/// Where a pivot is zero or there is no pose: no function gives forces. Only of blocks and cascades some may: no load may reach the group that
+/// has none, and then forces from the pose keep to their bars, while that group's directions are those that are nearest to closing; and functions
+/// straight from the drives, which round what is placed before otherwise, may have a pivot of an epsilon where the pose's is zero, or the last
+/// pose where `Pose::at` is beyond it. A pose of theirs to hold those to is not kept, and the one that is may be off by the root of an epsilon
+/// there.
 fn at_a_dead_centre<T: Scalar>(kind: &Kind, linkage: &Linkage, arguments: &Arguments, longest: f64) {
     let context = || format!("{} in {} at {:?}", kind.name, T::NAME, arguments.drives);
-    if !kind.is_cascade() {
+    if !kind.is_by_places() {
         let answered = ["all", "work"].into_iter().find(|name| scene::<T>(linkage, name, arguments).is_ok());
         assert!(answered.is_none(), "{answered:?} of {}", context());
     }

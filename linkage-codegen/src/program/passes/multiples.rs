@@ -173,7 +173,7 @@ fn sizes_by_exact(program: &Program, graph: &Graph, constants: &[Option<Constant
 fn is_moderate(number: &Number, scalar: Scalar) -> bool {
     let limit = match scalar {
         Scalar::F64 => 1e270,
-        Scalar::F32 => 1e30,
+        Scalar::F32 => 1e36,
     };
     number.is_zero() || (1.0 / limit..limit).contains(&number.nearest(scalar).abs())
 }
