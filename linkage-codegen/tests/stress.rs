@@ -66,7 +66,7 @@ trait Scalar: Number {
     const EPSILON: f64;
     /// The largest number.
     const MAX: f64;
-    /// A power of two by which units may differ: fourth powers of such lengths are normal numbers.
+    /// A power of two by which units may differ: constants have up to sixth powers of such lengths, which are numbers of the scalar.
     const UNITS: i32;
     fn next_up(&self) -> Self;
     fn next_down(&self) -> Self;
@@ -90,7 +90,7 @@ impl Scalar for Single {
     const NAME: &'static str = "f32";
     const EPSILON: f64 = f32::EPSILON as f64;
     const MAX: f64 = f32::MAX as f64;
-    const UNITS: i32 = 20;
+    const UNITS: i32 = 16;
 
     fn next_up(&self) -> Self {
         Self(self.0.next_up())
