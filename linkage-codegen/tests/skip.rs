@@ -476,7 +476,7 @@ fn nothing_is_kept_that_nothing_reads() {
     for (name, linkage) in linkages() {
         let functions = &linkage.functions;
         let programs = programs(&linkage);
-        let own = programs.iter().filter(|(_, _, graph)| core::ptr::eq(*graph, &linkage.model.graph));
+        let own = programs.iter().filter(|(_, _, graph)| core::ptr::eq(*graph, &raw const linkage.model.graph));
         let read: BTreeSet<NodeId> = own
             .flat_map(|(_, program, _)| program.inputs())
             .filter_map(|(_, input)| match input {
