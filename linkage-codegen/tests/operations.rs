@@ -581,7 +581,7 @@ impl Chapter {
     }
 
     /// The page has no other rows, and leaves out no scene but one that only compares the others' methods.
-    fn is_held(self, scenes: &[&str]) {
+    fn complete(self, scenes: &[&str]) {
         assert!(self.rows.is_empty(), "no scene has {:?}", self.rows);
         let own = self.linkage.model.scenes.iter().filter(|scene| scene.method != Method::Verify);
         assert_eq!(own.map(|scene| scene.name.text.as_str()).collect::<Vec<_>>(), scenes);
@@ -628,7 +628,7 @@ fn four_bar() {
     chapter.hold("bearing", |theta, _| bearing_at(theta), |kept, _| bearing(kept));
     chapter.hold("terms", terms_at, terms);
     chapter.hold("places", |theta, _| places_at(theta), |kept, _| places(kept));
-    chapter.is_held(&["statics", "parts", "torque", "bearing", "terms", "places"]);
+    chapter.complete(&["statics", "parts", "torque", "bearing", "terms", "places"]);
 }
 
 #[test]
@@ -644,5 +644,5 @@ fn slider_crank() {
     chapter.hold("hold", hold_at, hold);
     chapter.hold("weights", |theta, _| weights_at(theta), |kept, _| weights(kept));
     chapter.hold("torque", slider_crank_torque_at, slider_crank_torque);
-    chapter.is_held(&["hold", "weights", "torque"]);
+    chapter.complete(&["hold", "weights", "torque"]);
 }
