@@ -38,14 +38,7 @@ macro_rules! four_bar {
             let sum = d2 - 4400.0;
             let root = (40000.0 * d2 - sum * sum).sqrt();
             let half = 0.5 / d2;
-            let (along, across) = (sum * half, root * half);
-            let (x3, y3) = (along * dx - across * dy, along * dy + across * dx);
-            Pose {
-                crank: Vector2::new(ax, ay),
-                coupler: Vector2::new(x3, y3),
-                rocker: Vector2::new(x3 - dx, y3 - dy),
-                determinant: 0.5 * root,
-            }
+            Pose::closed(Vector2::new(ax, ay), [dx, dy], [sum * half, root * half], root)
         }
 
         /// The pose of this one loop: |d|² and what the root is taken of by the law of cosines, straight from cos θ.
@@ -59,14 +52,7 @@ macro_rules! four_bar {
             // (r₁ + r₂)² − |d|² times |d|² − (r₁ − r₂)².
             let root = ((22400.0 + twice) * (25600.0 - twice)).sqrt();
             let half = 0.5 / d2;
-            let (along, across) = ((21600.0 - twice) * half, root * half);
-            let (x3, y3) = (along * dx - across * dy, along * dy + across * dx);
-            Pose {
-                crank: Vector2::new(ax, ay),
-                coupler: Vector2::new(x3, y3),
-                rocker: Vector2::new(x3 - dx, y3 - dy),
-                determinant: 0.5 * root,
-            }
+            Pose::closed(Vector2::new(ax, ay), [dx, dy], [(21600.0 - twice) * half, root * half], root)
         }
 
         /// The pose by half the angle; none at the dead centre, or if the angle is not finite.
@@ -84,17 +70,24 @@ macro_rules! four_bar {
             let spread = 44800.0 * sin2;
             let root = 211.660_104_885_167_25 * cos.abs() * (3200.0 + spread).sqrt();
             let half = 0.5 / (3600.0 + spread);
-            let (along, across) = ((spread - 800.0) * half, root * half);
-            let (x3, y3) = (along * dx - across * dy, along * dy + across * dx);
-            Some(Pose {
-                crank: Vector2::new(80.0 * (cos - sin) * (cos + sin), 160.0 * sin_cos),
-                coupler: Vector2::new(x3, y3),
-                rocker: Vector2::new(x3 - dx, y3 - dy),
-                determinant: 0.5 * root,
-            })
+            let crank = Vector2::new(80.0 * (cos - sin) * (cos + sin), 160.0 * sin_cos);
+            Some(Pose::closed(crank, [dx, dy], [(spread - 800.0) * half, root * half], root))
         }
 
         impl Pose {
+            /// The pose by d, from A to B0, the coupler's parts along it and across it over its length, and twice A B × B0 B.
+            #[inline]
+            fn closed(
+                crank: Vector2<$scalar>,
+                [dx, dy]: [$scalar; 2],
+                [along, across]: [$scalar; 2],
+                root: $scalar,
+            ) -> Self {
+                let (x, y) = (along * dx - across * dy, along * dy + across * dx);
+                let (coupler, rocker) = (Vector2::new(x, y), Vector2::new(x - dx, y - dy));
+                Self { crank, coupler, rocker, determinant: 0.5 * root }
+            }
+
             /// A pose that is found otherwise: A0 A, A B and B0 B.
             #[inline]
             pub(crate) fn of(crank: Vector2<$scalar>, coupler: Vector2<$scalar>, rocker: Vector2<$scalar>) -> Self {

@@ -189,18 +189,35 @@ fn m4(pose: &Pose, factor: f64) -> N {
 
 const T12: &str = "T12";
 
+/// All that equilibrium gives, with the forces in A and B.
+fn held(torque: N, a: Vector, b: Vector) -> Found {
+    let [x, y] = f14();
+    let mut found = vec![(T12, torque)];
+    force(&mut found, &[["A.x", "A.y"], ["A0.x", "A0.y"]], a);
+    force(&mut found, &[["B.x", "B.y"]], b);
+    force(&mut found, &[["B0.x", "B0.y"]], [-x - b[0], -y - b[1]]);
+    found
+}
+
+/// What each load contributes, with the forces in A and B by F13, the force in both by F14, and their torques.
+fn held_by_each(torques: [N; 2], [a, b]: [Vector; 2], by_f14: Vector) -> Found {
+    let mut found = vec![("F13.T12", torques[0]), ("F14.T12", torques[1])];
+    force(&mut found, &[["F13.A.x", "F13.A.y"], ["F13.A0.x", "F13.A0.y"]], a);
+    force(&mut found, &[["F13.B.x", "F13.B.y"]], b);
+    force(&mut found, &[["F13.B0.x", "F13.B0.y"]], [-b[0], -b[1]]);
+    let [x, y] = f14();
+    force(&mut found, &[["F14.A.x", "F14.A.y"], ["F14.A0.x", "F14.A0.y"], ["F14.B.x", "F14.B.y"]], by_f14);
+    force(&mut found, &[["F14.B0.x", "F14.B0.y"]], [-x - by_f14[0], -y - by_f14[1]]);
+    found
+}
+
 fn statics_at(theta: f64, f13: Vector) -> Found {
     let pose = four_bar_pose(theta, MM);
     let inverse = ALONG / area(MM) / pose.kappa;
     let (m3, m4) = moments(&pose, f13);
     let b = add(times(m3 * inverse, pose.rocker), times(m4 * inverse, pose.coupler));
     let a = sub(b, f13);
-    let [x, y] = f14();
-    let mut found = vec![(T12, cross(pose.crank, a))];
-    force(&mut found, &[["A.x", "A.y"], ["A0.x", "A0.y"]], a);
-    force(&mut found, &[["B.x", "B.y"]], b);
-    force(&mut found, &[["B0.x", "B0.y"]], [-x - b[0], -y - b[1]]);
-    found
+    held(cross(pose.crank, a), a, b)
 }
 
 fn parts_at(theta: f64, f13: Vector) -> Found {
@@ -209,16 +226,8 @@ fn parts_at(theta: f64, f13: Vector) -> Found {
     let (m3, m4) = moments(&pose, f13);
     let b = times(m3 * inverse, pose.rocker);
     let a = sub(b, f13);
-    let mut found = vec![("F13.T12", cross(pose.crank, a))];
-    force(&mut found, &[["F13.A.x", "F13.A.y"], ["F13.A0.x", "F13.A0.y"]], a);
-    force(&mut found, &[["F13.B.x", "F13.B.y"]], b);
-    force(&mut found, &[["F13.B0.x", "F13.B0.y"]], [-b[0], -b[1]]);
-    let b = times(m4 * inverse, pose.coupler);
-    let [x, y] = f14();
-    found.push(("F14.T12", cross(pose.crank, b)));
-    force(&mut found, &[["F14.A.x", "F14.A.y"], ["F14.A0.x", "F14.A0.y"], ["F14.B.x", "F14.B.y"]], b);
-    force(&mut found, &[["F14.B0.x", "F14.B0.y"]], [-x - b[0], -y - b[1]]);
-    found
+    let by_f14 = times(m4 * inverse, pose.coupler);
+    held_by_each([cross(pose.crank, a), cross(pose.crank, by_f14)], [a, b], by_f14)
 }
 
 /// A0A × AB over b, mm; A0A × B0B over b is more than that by the y of A.
@@ -324,26 +333,14 @@ fn statics(kept: Kept<'_>, f13: Vector) -> Found {
     let [by_f13, by_f14] = links.forces(f13);
     let b = add(by_f13, by_f14);
     let a = sub(b, f13);
-    let [x, y] = f14();
-    let mut found = vec![(T12, links.torque(a))];
-    force(&mut found, &[["A.x", "A.y"], ["A0.x", "A0.y"]], a);
-    force(&mut found, &[["B.x", "B.y"]], b);
-    force(&mut found, &[["B0.x", "B0.y"]], [-x - b[0], -y - b[1]]);
-    found
+    held(links.torque(a), a, b)
 }
 
 fn parts(kept: Kept<'_>, f13: Vector) -> Found {
     let links = Links::of(kept);
     let [b, by_f14] = links.forces(f13);
     let a = sub(b, f13);
-    let mut found = vec![("F13.T12", links.torque(a)), ("F14.T12", links.torque(by_f14))];
-    force(&mut found, &[["F13.A.x", "F13.A.y"], ["F13.A0.x", "F13.A0.y"]], a);
-    force(&mut found, &[["F13.B.x", "F13.B.y"]], b);
-    force(&mut found, &[["F13.B0.x", "F13.B0.y"]], [-b[0], -b[1]]);
-    let [x, y] = f14();
-    force(&mut found, &[["F14.A.x", "F14.A.y"], ["F14.A0.x", "F14.A0.y"], ["F14.B.x", "F14.B.y"]], by_f14);
-    force(&mut found, &[["F14.B0.x", "F14.B0.y"]], [-x - by_f14[0], -y - by_f14[1]]);
-    found
+    held_by_each([links.torque(a), links.torque(by_f14)], [a, b], by_f14)
 }
 
 /// By the force in A.
@@ -406,10 +403,9 @@ fn slider_crank_pose(theta: f64) -> (N, N, N, N) {
     (sin, cos, g, ((142.0 / 42.0) * (142.0 / 42.0) - g * g).sqrt())
 }
 
-fn hold_at(theta: f64, gas: Vector) -> Found {
-    let (sin, cos, g, h) = slider_crank_pose(theta);
+/// All that equilibrium gives, with cos θ and sin θ and the rod's force across the slide.
+fn engine_held([cos, sin]: Vector, across: N, gas: Vector) -> Found {
     let [of_crank, of_rod, of_piston] = WEIGHTS;
-    let across = g * (gas[1] - (of_piston + OF_ROD * of_rod)) / h;
     let b = of_piston - gas[1];
     let at_a = b + of_rod;
     let normal = gas[0] + across;
@@ -423,6 +419,12 @@ fn hold_at(theta: f64, gas: Vector) -> Found {
     force(&mut found, &[["A.x", "A.y"]], [across, at_a]);
     force(&mut found, &[["O.x", "O.y"]], [across, at_a + of_crank]);
     found
+}
+
+fn hold_at(theta: f64, gas: Vector) -> Found {
+    let (sin, cos, g, h) = slider_crank_pose(theta);
+    let [_, of_rod, of_piston] = WEIGHTS;
+    engine_held([cos, sin], g * (gas[1] - (of_piston + OF_ROD * of_rod)) / h, gas)
 }
 
 fn weights_at(theta: f64) -> Found {
@@ -450,22 +452,7 @@ fn across_slide(kept: Kept<'_>, gas: Vector) -> N {
 }
 
 fn hold(kept: Kept<'_>, gas: Vector) -> Found {
-    let [of_crank, of_rod, of_piston] = WEIGHTS;
-    let across = across_slide(kept, gas);
-    let b = of_piston - gas[1];
-    let at_a = b + of_rod;
-    let normal = gas[0] + across;
-    let lift = kept("crank_cos") * (at_a + OF_CRANK * of_crank);
-    let mut found = vec![
-        ("T", 42.0 * (lift - kept("crank_sin") * across)),
-        ("G.normal", normal),
-        ("G.couple", 30.0 * gas[0]),
-        ("G.force.x", -normal),
-    ];
-    force(&mut found, &[["B.x", "B.y"]], [across, b]);
-    force(&mut found, &[["A.x", "A.y"]], [across, at_a]);
-    force(&mut found, &[["O.x", "O.y"]], [across, at_a + of_crank]);
-    found
+    engine_held([kept("crank_cos"), kept("crank_sin")], across_slide(kept, gas), gas)
 }
 
 fn weights(kept: Kept<'_>) -> Found {
