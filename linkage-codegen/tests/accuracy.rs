@@ -207,6 +207,26 @@ fn a_couple_that_is_small_beside_one_links_moments() {
     assert!(check(families, "a couple that is small beside one link's moments") > 20);
 }
 
+/// A coupler of two welded links with a load on each, at regular poses and next to a dead centre whose loads it can bear: what the weld
+/// passes on must not have what rounding leaves of the coupler's direction, times all loads.
+#[test]
+fn loads_on_both_of_two_welded_links() {
+    let text = format!(
+        "pub mod sample; ground {{ A0: (0, 0), B0: 0.8399186730384827m @ 17.62735888549749deg }} link crank {{ A0 -> A: 1.2485665082931519m }}
+         link near {{ A: (0, 0), W: (0.5m, 0.4930090010166168m), C: (0.6039071679115295m, 0.8200094103813171m) }}
+         link tip {{ W: (0, 0), B: (1.009055495262146m, 0), D: (0.8200094103813171m, 0.6039071679115295m) }}
+         link rocker {{ B0 -> B: 0.30413731932640076m }} revolute A0: ground -> crank; revolute A: crank -> near;
+         weld W: near -> tip, angle 24.333217853883184deg; revolute B: tip -> rocker; revolute B0: ground -> rocker;
+         drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0);
+         load F: force(near.C); load H: force(tip.D); {SCENES}"
+    );
+    let drives = [-1.092_362_066_322_277].into_iter().chain((0..40).map(|step| -1.1 - 0.002 * f64::from(step)));
+    let loads =
+        vec![[24.319_082_615_261_35, -30.636_504_961_403_112], [-18.936_640_763_220_055, 37.949_740_083_825_354]];
+    let family = Family { text, longest: 1.248_566_508_293_151_9, drives: drives.collect(), loads };
+    assert!(check(std::iter::once(family), "loads on both of two welded links") > 35);
+}
+
 /// A parallelogram that a leg at one of its pins drives, next to its fold: two legs hold each other with 10⁷ times the loads, the third carries
 /// no more than it did.
 #[test]

@@ -667,7 +667,7 @@ fn checked(step: &Step) -> usize {
 }
 
 /// Where a direction is no result, and its link's vector serves, nothing is spent on its size: sums and products less, and never one more. A
-/// pose keeps its directions.
+/// pose keeps its directions, and legs of several links have theirs brought to unit size for what these pass on.
 #[test]
 fn directions_that_are_no_results_keep_the_lengths_of_their_links() {
     let mut spared = [0, 0];
@@ -692,5 +692,5 @@ fn directions_that_are_no_results_keep_the_lengths_of_their_links() {
         let [before, after] = before_and_after("lengths", pose, graph).map(|program| spends(&program));
         assert_eq!(before, after, "{text}");
     }
-    assert!(spared[0] > 100 && spared[1] > 300, "{spared:?}");
+    assert!(spared[0] > 70 && spared[1] > 300, "{spared:?}");
 }

@@ -373,6 +373,24 @@ impl<'a> Dyad<'a> {
         lean.turned_by(placement.carried(leg.link(), axis))
     }
 
+    /// Whether a leg of constant length has several links.
+    pub(super) fn is_composed(&self, leg: &Leg) -> bool {
+        !leg.is_single() && leg.is_constant(self.model)
+    }
+
+    /// The direction of a leg, of several links brought to unit size by its difference from it. What such links pass on to each other is
+    /// resolved along the leg and turned back: what is left of the size would come in twice, and count against all loads.
+    pub(super) fn refined(&self, leg: &Leg, direction: Vector<'a>) -> Vector<'a> {
+        if !self.is_composed(leg) {
+            return direction;
+        }
+        let (link, graph) = (self.link_name(leg), &self.model.graph);
+        let nearly =
+            direction.named_direction(&format!("nearly_{link}"), &format!("direction of {link} but for its size"));
+        let missing = graph.constant(&Number::ratio(1, 2)) * (graph.one() - nearly.squared());
+        nearly + nearly.scaled(missing.named(format!("missing_{link}"), format!("(1 − u·u)/2, u = nearly_{link}")))
+    }
+
     /// Places the links of a leg whose direction from the outer joint to the inner one is known. Gives that direction as it is kept.
     pub(super) fn orient(
         &self,

@@ -157,7 +157,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let meeting = meet((r, dyad.slack(rod_leg)), &way, line, ahead, [inner, outer], dyad.group_name());
     let Meeting { q, h, cosine, sine, pivot } = meeting;
     let name = dyad.link_name(rod_leg);
-    let direction = by_parts(Vector::new(cosine, sine), e, &name);
+    let direction = dyad.refined(rod_leg, by_parts(Vector::new(cosine, sine), e, &name));
     let direction = direction.named_direction(&name, &format!("direction of {name} from {outer} to {inner}"));
     let u = dyad.orient(assembly, rod_leg, direction)?;
     dyad.take_moments_over_length(&mut assembly.placement, rod_leg);
