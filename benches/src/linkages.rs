@@ -40,6 +40,7 @@ macro_rules! four_bar {
 four_bar!(four_bar, f64, plain;);
 four_bar!(four_bar_single, f32, plain;);
 four_bar!(four_bar_fused, f64, fused;);
+four_bar!(four_bar_fused_single, f32, fused;);
 
 /// The same with sweeps. By itself, so that each of the functions above is called in one place, of which it becomes part, as in most programs.
 pub(crate) mod swept {
@@ -99,6 +100,7 @@ macro_rules! six_bar {
 six_bar!(six_bar, f64, plain);
 six_bar!(six_bar_single, f32, plain);
 six_bar!(six_bar_fused, f64, fused);
+six_bar!(six_bar_fused_single, f32, fused);
 
 /// The slider-crank, in a scalar.
 macro_rules! slider_crank {
@@ -134,6 +136,7 @@ macro_rules! slider_crank {
 slider_crank!(slider_crank, f64, plain);
 slider_crank!(slider_crank_single, f32, plain);
 slider_crank!(slider_crank_fused, f64, fused);
+slider_crank!(slider_crank_fused_single, f32, fused);
 
 #[cfg(test)]
 mod tests {

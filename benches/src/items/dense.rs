@@ -6,44 +6,49 @@ use std::mem::MaybeUninit;
 
 use faer::dyn_stack::MemStack;
 use faer::linalg::lu::partial_pivoting::{factor, solve};
+use faer::traits::ComplexField;
 use faer::{MatMut, Par, Spec};
-use nalgebra::{DMatrix, SMatrix};
+use nalgebra::{Const, DMatrix, DimMin, RealField, SMatrix};
+
+/// Numbers that both libraries eliminate with.
+pub(crate) trait Real: RealField + ComplexField + Copy {}
+impl<T: RealField + ComplexField + Copy> Real for T {}
 
 /// Where a joint is, seen from the point of moments of the first and the second link that it joins; the first may be the
 /// ground.
-pub(super) struct Pin {
-    pub(super) first: Option<(usize, [f64; 2])>,
-    pub(super) second: (usize, [f64; 2]),
+pub(super) struct Pin<T> {
+    pub(super) first: Option<(usize, [T; 2])>,
+    pub(super) second: (usize, [T; 2]),
 }
 
 /// The matrix of a linkage whose joints are pins, with the torque on link 0 as the last unknown.
 #[inline]
-pub(super) fn matrix<const N: usize>(pins: &[Pin]) -> SMatrix<f64, N, N> {
-    let mut matrix = SMatrix::zeros();
+pub(super) fn matrix<T: Real, const N: usize>(pins: &[Pin<T>]) -> SMatrix<T, N, N> {
+    let (mut matrix, one) = (SMatrix::zeros(), nalgebra::one::<T>());
     for (k, Pin { first, second: (link, [x, y]) }) in pins.iter().enumerate() {
-        matrix[(3 * link, 2 * k)] = 1.0;
-        matrix[(3 * link + 1, 2 * k + 1)] = 1.0;
-        matrix[(3 * link + 2, 2 * k)] = -y;
+        matrix[(3 * link, 2 * k)] = one;
+        matrix[(3 * link + 1, 2 * k + 1)] = one;
+        matrix[(3 * link + 2, 2 * k)] = -*y;
         matrix[(3 * link + 2, 2 * k + 1)] = *x;
         if let Some((link, [x, y])) = first {
-            matrix[(3 * link, 2 * k)] = -1.0;
-            matrix[(3 * link + 1, 2 * k + 1)] = -1.0;
+            matrix[(3 * link, 2 * k)] = -one;
+            matrix[(3 * link + 1, 2 * k + 1)] = -one;
             matrix[(3 * link + 2, 2 * k)] = *y;
-            matrix[(3 * link + 2, 2 * k + 1)] = -x;
+            matrix[(3 * link + 2, 2 * k + 1)] = -*x;
         }
     }
-    matrix[(2, N - 1)] = 1.0;
+    matrix[(2, N - 1)] = one;
     matrix
 }
 
 /// What a force at a place, seen from the point of moments, puts on the right of its link's equations.
 #[inline]
-pub(super) fn load<const N: usize, const M: usize>(
-    right: &mut SMatrix<f64, N, M>,
+pub(super) fn load<T: Real, const N: usize, const M: usize>(
+    right: &mut SMatrix<T, N, M>,
     column: usize,
     link: usize,
-    [x, y]: [f64; 2],
-    [fx, fy]: [f64; 2],
+    [x, y]: [T; 2],
+    [fx, fy]: [T; 2],
 ) {
     right[(3 * link, column)] -= fx;
     right[(3 * link + 1, column)] -= fy;
@@ -52,34 +57,34 @@ pub(super) fn load<const N: usize, const M: usize>(
 
 /// LU with exchange of rows, sizes known at compile time.
 #[inline]
-pub(crate) fn partial<const N: usize, const M: usize>(
-    matrix: SMatrix<f64, N, N>,
-    right: &SMatrix<f64, N, M>,
-) -> Option<SMatrix<f64, N, M>>
+pub(crate) fn partial<T: Real, const N: usize, const M: usize>(
+    matrix: SMatrix<T, N, N>,
+    right: &SMatrix<T, N, M>,
+) -> Option<SMatrix<T, N, M>>
 where
-    nalgebra::Const<N>: nalgebra::DimMin<nalgebra::Const<N>, Output = nalgebra::Const<N>>,
+    Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     matrix.lu().solve(right)
 }
 
 /// LU with exchange of rows and columns, sizes known at compile time.
 #[inline]
-pub(crate) fn full<const N: usize, const M: usize>(
-    matrix: SMatrix<f64, N, N>,
-    right: &SMatrix<f64, N, M>,
-) -> Option<SMatrix<f64, N, M>>
+pub(crate) fn full<T: Real, const N: usize, const M: usize>(
+    matrix: SMatrix<T, N, N>,
+    right: &SMatrix<T, N, M>,
+) -> Option<SMatrix<T, N, M>>
 where
-    nalgebra::Const<N>: nalgebra::DimMin<nalgebra::Const<N>, Output = nalgebra::Const<N>>,
+    Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     matrix.full_piv_lu().solve(right)
 }
 
 /// LU with exchange of rows, sizes known at run time.
 #[inline]
-pub(crate) fn dynamic<const N: usize, const M: usize>(
-    matrix: SMatrix<f64, N, N>,
-    right: &SMatrix<f64, N, M>,
-) -> Option<SMatrix<f64, N, M>> {
+pub(crate) fn dynamic<T: Real, const N: usize, const M: usize>(
+    matrix: SMatrix<T, N, N>,
+    right: &SMatrix<T, N, M>,
+) -> Option<SMatrix<T, N, M>> {
     let matrix = DMatrix::from_column_slice(N, N, matrix.as_slice());
     let right = DMatrix::from_column_slice(N, M, right.as_slice());
     matrix.lu().solve(&right).map(|solution| SMatrix::from_column_slice(solution.as_slice()))
@@ -87,10 +92,10 @@ pub(crate) fn dynamic<const N: usize, const M: usize>(
 
 /// LU with exchange of rows by faer, in place, on the stack and by one thread: what it offers to those who solve small systems often.
 #[inline]
-pub(crate) fn faer<const N: usize, const M: usize>(
-    mut matrix: SMatrix<f64, N, N>,
-    right: &SMatrix<f64, N, M>,
-) -> Option<SMatrix<f64, N, M>> {
+pub(crate) fn faer<T: Real, const N: usize, const M: usize>(
+    mut matrix: SMatrix<T, N, N>,
+    right: &SMatrix<T, N, M>,
+) -> Option<SMatrix<T, N, M>> {
     let mut solution = *right;
     let (mut rows, mut inverse) = ([0_usize; N], [0_usize; N]);
     let mut room = [const { MaybeUninit::<u128>::uninit() }; 256];
@@ -102,13 +107,13 @@ pub(crate) fn faer<const N: usize, const M: usize>(
     let factors = factors.as_ref();
     let unknowns = MatMut::from_column_major_slice_mut(solution.as_mut_slice(), N, M);
     solve::solve_in_place(factors, factors, exchanged, unknowns, Par::Seq, room);
-    solution.iter().all(|x| x.is_finite()).then_some(solution)
+    solution.iter().all(nalgebra::ComplexField::is_finite).then_some(solution)
 }
 
 /// The four ways to solve an item's equations as its competitors: `$add` makes one of a name and a function, `$solve` sets the equations up
 /// and has them solved by what it is given.
 macro_rules! eliminations {
-    ($add:expr, $size:literal, $solve:ident) => {
+    ($add:expr, $size:literal, $solve:path) => {
         [
             $add(concat!("LU ", $size), |case, out| $solve(case, out, dense::partial)),
             $add(concat!("LU ", $size, ", full pivoting"), |case, out| $solve(case, out, dense::full)),

@@ -1,9 +1,6 @@
 //! P1: the four-bar of METU Example 6.3.
 
-use linkage_runtime::Vector2;
-use nalgebra::{SMatrix, SVector};
-
-use super::dense::{self, Pin, eliminations};
+use super::dense::{self, eliminations};
 use super::{Case, Extent, Item, Reactions, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, Vector, equilibrium, in_frame, left, vector};
 use crate::expert::four_bar as expert;
@@ -14,16 +11,14 @@ use crate::linkages::four_bar_fused;
 loads!(four_bar, f64; F13: 50.0 N, F14: 100.0 N);
 loads!(four_bar_fused, f64; F13: 50.0 N, F14: 100.0 N);
 loads!(four_bar_single, f32; F13: 50.0 N, F14: 100.0 N);
+loads!(four_bar_fused_single, f32; F13: 50.0 N, F14: 100.0 N);
 
 same_loads!(four_bar, f64, four_bar_fused; F13, F14);
 same_loads!(four_bar, f32, four_bar_single; F13, F14);
+same_loads!(four_bar_single, f32, four_bar_fused_single; F13, F14);
 
 type All = Reactions<4>;
 type At = Case<f64, Loads>;
-type Posed = Case<Pose, Loads>;
-type Matrix = SMatrix<f64, 9, 9>;
-/// A right side for each set of loads.
-type Right<const M: usize> = SMatrix<f64, 9, M>;
 
 pub(super) fn items(extent: Extent) -> Vec<Item> {
     let turn = Turn::new(extent, 80.0, |theta, loads| vec![exact(theta, loads)]);
@@ -78,10 +73,10 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
         },
     ];
     let eliminations = [
-        eliminations!(|method, call| turn.prepared(method, pose, call), "9x9", statics_eliminated),
-        eliminations!(|method, call| turn.competitor(method, call), "9x9", statics_at_eliminated),
-        eliminations!(|method, call| turn.competitor(method, call), "9x9", torque_at_eliminated),
-        eliminations!(|method, call| parts.competitor(method, call), "9x9", parts_at_eliminated),
+        eliminations!(|method, call| turn.prepared(method, pose, call), "9x9", double::statics_eliminated),
+        eliminations!(|method, call| turn.competitor(method, call), "9x9", double::statics_at_eliminated),
+        eliminations!(|method, call| turn.competitor(method, call), "9x9", double::torque_at_eliminated),
+        eliminations!(|method, call| parts.competitor(method, call), "9x9", double::parts_at_eliminated),
     ];
     for (item, eliminations) in items.iter_mut().zip(eliminations) {
         item.competitors.extend(eliminations);
@@ -148,18 +143,111 @@ macro_rules! generated {
     };
 }
 
-/// What competes in every scalar: the experts, and what is generated in plain arithmetic.
+/// The equations of all free bodies, to be solved by a way of elimination, in a scalar.
+macro_rules! eliminated {
+    ($scalar:ident, $linkage:ident) => {
+        type Matrix = SMatrix<$scalar, 9, 9>;
+        /// A right side for each set of loads.
+        type Right<const M: usize> = SMatrix<$scalar, 9, M>;
+
+        /// The matrix at a pose, and where C is from A, and D from B0.
+        #[inline]
+        #[allow(clippy::excessive_precision, reason = "in single precision")]
+        fn matrix(pose: &Pose) -> (Matrix, [$scalar; 2], [$scalar; 2]) {
+            let along = |r: $scalar, u: Vector2<$scalar>| [r * u.x, r * u.y];
+            let (coupler, rocker) = (pose.coupler_direction(), pose.rocker_direction());
+            let a = along(80.0, pose.crank_direction());
+            let matrix = dense::matrix(&[
+                Pin { first: None, second: (0, [0.0, 0.0]) },
+                Pin { first: Some((0, a)), second: (1, [0.0, 0.0]) },
+                Pin { first: Some((1, along(100.0, coupler))), second: (2, along(120.0, rocker)) },
+                Pin { first: None, second: (2, [0.0, 0.0]) },
+            ]);
+            let ([x, y], [p, q]) = (along(42.5, coupler), along(55.621_488_653_217_47, coupler));
+            (matrix, [x - q, y + p], along(90.0, rocker))
+        }
+
+        /// The equations at a pose with both loads.
+        #[inline]
+        pub(crate) fn equations(pose: &Pose, loads: &Loads) -> (Matrix, Right<1>) {
+            let (matrix, c, d) = matrix(pose);
+            let mut right = Right::zeros();
+            dense::load(&mut right, 0, 1, c, loads.F13.into());
+            dense::load(&mut right, 0, 2, d, loads.F14.into());
+            (matrix, right)
+        }
+
+        #[inline]
+        pub(crate) fn put(solution: Option<Right<1>>, out: &mut All) -> bool {
+            let Some(x) = solution else { return false };
+            let force = |k: usize| Vector2::new(x[k], x[k + 1]);
+            *out = Reactions { torque: x[8], forces: [force(0), force(2), force(4), force(6)] };
+            true
+        }
+
+        pub(crate) fn statics_eliminated(
+            case: &Case<Pose, Loads>,
+            out: &mut All,
+            solve: impl Fn(Matrix, &Right<1>) -> Option<Right<1>>,
+        ) -> bool {
+            let (matrix, right) = equations(&case.start, &case.loads);
+            put(solve(matrix, &right), out)
+        }
+
+        pub(crate) fn statics_at_eliminated(
+            case: &At,
+            out: &mut All,
+            solve: impl Fn(Matrix, &Right<1>) -> Option<Right<1>>,
+        ) -> bool {
+            let Ok(start) = Pose::at(case.start) else { return false };
+            statics_eliminated(&Case { start, loads: case.loads }, out, solve)
+        }
+
+        pub(crate) fn torque_at_eliminated(
+            case: &At,
+            out: &mut $scalar,
+            solve: impl Fn(Matrix, &Right<1>) -> Option<Right<1>>,
+        ) -> bool {
+            let Ok(pose) = Pose::at(case.start) else { return false };
+            let (matrix, right) = equations(&pose, &case.loads);
+            let Some(x) = solve(matrix, &right) else { return false };
+            *out = x[8];
+            true
+        }
+
+        pub(crate) fn parts_at_eliminated(
+            case: &At,
+            out: &mut [All; 2],
+            solve: impl Fn(Matrix, &Right<2>) -> Option<Right<2>>,
+        ) -> bool {
+            let Ok(pose) = Pose::at(case.start) else { return false };
+            let (matrix, c, d) = matrix(&pose);
+            let mut right = Right::zeros();
+            dense::load(&mut right, 0, 1, c, case.loads.F13.into());
+            dense::load(&mut right, 1, 2, d, case.loads.F14.into());
+            let Some(x) = solve(matrix, &right) else { return false };
+            put(Some(x.column(0).into_owned()), &mut out[0]) && put(Some(x.column(1).into_owned()), &mut out[1])
+        }
+    };
+}
+
+/// What competes in every scalar: the experts, what is generated in plain arithmetic, and elimination.
 macro_rules! competitors {
     ($name:ident, $scalar:ident, $linkage:ident) => {
         pub(crate) mod $name {
+            use linkage_runtime::Vector2;
+            use nalgebra::SMatrix;
+
             use crate::expert::$linkage as expert;
+            use crate::items::dense::{self, Pin};
             use crate::items::{Case, Reactions, Start};
-            use crate::linkages::$linkage::Loads;
+            use crate::linkages::$linkage::{Loads, Pose};
 
             type All = Reactions<4, $scalar>;
             type At = Case<$scalar, Loads>;
 
             generated!($scalar, $linkage, $linkage);
+            eliminated!($scalar, $linkage);
 
             impl Start for expert::Pose {
                 fn depend(&mut self, _: f64) -> bool {
@@ -237,6 +325,13 @@ pub(crate) mod fused {
     generated!(f64, four_bar_fused, four_bar);
 }
 
+/// The same in single precision.
+pub(crate) mod fused_single {
+    use crate::items::{Case, Reactions, Start};
+
+    generated!(f32, four_bar_fused_single, four_bar_single);
+}
+
 fn statics_at_pose(case: &At, out: &mut All) -> bool {
     match Pose::at(case.start).and_then(|pose| pose.statics(&case.loads)) {
         Ok(all) => {
@@ -245,68 +340,6 @@ fn statics_at_pose(case: &At, out: &mut All) -> bool {
         }
         Err(_) => false,
     }
-}
-
-/// The equations at a pose, and where C is from A, and D from B0.
-#[inline]
-fn dense(pose: &Pose) -> (SMatrix<f64, 9, 9>, [f64; 2], [f64; 2]) {
-    let along = |r: f64, u: Vector2<f64>| [r * u.x, r * u.y];
-    let (coupler, rocker) = (pose.coupler_direction(), pose.rocker_direction());
-    let a = along(80.0, pose.crank_direction());
-    let matrix = dense::matrix(&[
-        Pin { first: None, second: (0, [0.0, 0.0]) },
-        Pin { first: Some((0, a)), second: (1, [0.0, 0.0]) },
-        Pin { first: Some((1, along(100.0, coupler))), second: (2, along(120.0, rocker)) },
-        Pin { first: None, second: (2, [0.0, 0.0]) },
-    ]);
-    let ([x, y], [p, q]) = (along(42.5, coupler), along(55.621_488_653_217_47, coupler));
-    (matrix, [x - q, y + p], along(90.0, rocker))
-}
-
-/// The equations at a pose with both loads.
-#[inline]
-pub(crate) fn equations(pose: &Pose, loads: &Loads) -> (SMatrix<f64, 9, 9>, SVector<f64, 9>) {
-    let (matrix, c, d) = dense(pose);
-    let mut right = SVector::zeros();
-    dense::load(&mut right, 0, 1, c, loads.F13.into());
-    dense::load(&mut right, 0, 2, d, loads.F14.into());
-    (matrix, right)
-}
-
-#[inline]
-pub(crate) fn put(solution: Option<SVector<f64, 9>>, out: &mut All) -> bool {
-    let Some(x) = solution else { return false };
-    let force = |k: usize| Vector2::new(x[k], x[k + 1]);
-    *out = Reactions { torque: x[8], forces: [force(0), force(2), force(4), force(6)] };
-    true
-}
-
-fn statics_eliminated(case: &Posed, out: &mut All, solve: impl Fn(Matrix, &Right<1>) -> Option<Right<1>>) -> bool {
-    let (matrix, right) = equations(&case.start, &case.loads);
-    put(solve(matrix, &right), out)
-}
-
-fn statics_at_eliminated(case: &At, out: &mut All, solve: impl Fn(Matrix, &Right<1>) -> Option<Right<1>>) -> bool {
-    let Ok(start) = Pose::at(case.start) else { return false };
-    statics_eliminated(&Case { start, loads: case.loads }, out, solve)
-}
-
-fn torque_at_eliminated(case: &At, out: &mut f64, solve: impl Fn(Matrix, &Right<1>) -> Option<Right<1>>) -> bool {
-    let Ok(pose) = Pose::at(case.start) else { return false };
-    let (matrix, right) = equations(&pose, &case.loads);
-    let Some(x) = solve(matrix, &right) else { return false };
-    *out = x[8];
-    true
-}
-
-fn parts_at_eliminated(case: &At, out: &mut [All; 2], solve: impl Fn(Matrix, &Right<2>) -> Option<Right<2>>) -> bool {
-    let Ok(pose) = Pose::at(case.start) else { return false };
-    let (matrix, c, d) = dense(&pose);
-    let mut right = Right::zeros();
-    dense::load(&mut right, 0, 1, c, case.loads.F13.into());
-    dense::load(&mut right, 1, 2, d, case.loads.F14.into());
-    let Some(x) = solve(matrix, &right) else { return false };
-    put(Some(x.column(0).into_owned()), &mut out[0]) && put(Some(x.column(1).into_owned()), &mut out[1])
 }
 
 /// The exact forces and torque.
@@ -343,6 +376,8 @@ fn solve(theta: &Big, forces: &[Option<Vector>; 2]) -> Exact {
 
 #[cfg(test)]
 mod tests {
+    use linkage_runtime::Vector2;
+
     use super::*;
     use crate::exact::difference;
 

@@ -1,8 +1,9 @@
-//! All items in single precision, but for what is eliminated and what is generated in fused arithmetic.
+//! All items in single precision.
 
+use super::dense::{self, eliminations};
 use super::{Case, Extent, Item, Turn, four_bar, six_bar, slider_crank};
 use crate::expert::four_bar_single as expert;
-use crate::linkages::four_bar_single;
+use crate::linkages::{four_bar_fused_single, four_bar_single};
 
 pub(super) fn items(extent: Extent) -> Vec<Item> {
     let extent = Extent { single: true, ..extent };
@@ -13,13 +14,14 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
 }
 
 fn of_four_bar(extent: Extent) -> Vec<Item> {
-    use four_bar::single;
+    use four_bar::{fused_single as fused, single};
 
     let turn = Turn::new(extent, 80.0, |theta, loads| vec![four_bar::exact(theta, loads)]);
     let parts = Turn::new(extent, 80.0, four_bar::exact_parts);
     let pose = |theta| four_bar_single::Pose::at(theta).expect("a pose");
+    let fused_pose = |theta| four_bar_fused_single::Pose::at(theta).expect("a pose");
     let careful_pose = |theta| expert::careful_pose(theta).expect("a pose");
-    vec![
+    let mut items = vec![
         Item {
             id: "P1a-f32",
             title: "four-bar in f32: all forces and the torque, from a pose",
@@ -27,6 +29,7 @@ fn of_four_bar(extent: Extent) -> Vec<Item> {
                 turn.posed("expert", prepared(expert::pose), single::statics_expert),
                 turn.posed("careful expert", prepared(careful_pose), single::statics_careful),
                 turn.posed("generated", prepared(pose), single::statics_generated),
+                turn.posed("generated, fused", prepared(fused_pose), fused::statics_generated),
             ],
         },
         Item {
@@ -37,6 +40,7 @@ fn of_four_bar(extent: Extent) -> Vec<Item> {
                 turn.posed("expert, law of cosines", given, single::statics_at_by_cosine),
                 turn.posed("careful expert", given, single::statics_at_careful),
                 turn.posed("generated", given, single::statics_at_generated),
+                turn.posed("generated, fused", given, fused::statics_at_generated),
             ],
         },
         Item {
@@ -47,6 +51,7 @@ fn of_four_bar(extent: Extent) -> Vec<Item> {
                 turn.posed("expert, law of cosines", given, single::torque_at_by_cosine),
                 turn.posed("careful expert", given, single::torque_at_careful),
                 turn.posed("generated", given, single::torque_at_generated),
+                turn.posed("generated, fused", given, fused::torque_at_generated),
             ],
         },
         Item {
@@ -57,32 +62,56 @@ fn of_four_bar(extent: Extent) -> Vec<Item> {
                 parts.posed("expert, law of cosines", given, single::parts_at_by_cosine),
                 parts.posed("careful expert", given, single::parts_at_careful),
                 parts.posed("generated", given, single::parts_at_generated),
+                parts.posed("generated, fused", given, fused::parts_at_generated),
             ],
         },
-    ]
+    ];
+    let eliminations = [
+        eliminations!(|method, call| turn.posed(method, prepared(pose), call), "9x9", single::statics_eliminated),
+        eliminations!(|method, call| turn.posed(method, given, call), "9x9", single::statics_at_eliminated),
+        eliminations!(|method, call| turn.posed(method, given, call), "9x9", single::torque_at_eliminated),
+        eliminations!(|method, call| parts.posed(method, given, call), "9x9", single::parts_at_eliminated),
+    ];
+    for (item, eliminations) in items.iter_mut().zip(eliminations) {
+        item.competitors.extend(eliminations);
+    }
+    items
 }
 
 fn of_six_bar(extent: Extent) -> Item {
     let turn = Turn::new(extent, 50.0, |theta, loads| vec![six_bar::exact(theta, loads)]);
+    let mut competitors = vec![
+        turn.posed("expert", given, six_bar::statics_at_expert_single),
+        turn.posed("generated", given, six_bar::statics_at_generated_single),
+        turn.posed("generated, fused", given, six_bar::statics_at_fused_single),
+    ];
+    let eliminations =
+        eliminations!(|method, call| turn.posed(method, given, call), "15x15", six_bar::single::statics_at_eliminated);
+    competitors.extend(eliminations);
     Item {
         id: "P2b-f32",
         title: "six-bar with weights in f32: all forces and the torque, from the driver's angle",
-        competitors: vec![
-            turn.posed("expert", given, six_bar::statics_at_expert_single),
-            turn.posed("generated", given, six_bar::statics_at_generated_single),
-        ],
+        competitors,
     }
 }
 
 fn of_slider_crank(extent: Extent) -> Item {
     let turn = Turn::new(extent, 45.0, |theta, loads| vec![slider_crank::exact(theta, loads)]);
+    let mut competitors = vec![
+        turn.posed("expert", given, slider_crank::statics_at_expert_single),
+        turn.posed("generated", given, slider_crank::statics_at_generated_single),
+        turn.posed("generated, fused", given, slider_crank::statics_at_fused_single),
+    ];
+    let eliminations = eliminations!(
+        |method, call| turn.posed(method, given, call),
+        "9x9",
+        slider_crank::single::statics_at_eliminated
+    );
+    competitors.extend(eliminations);
     Item {
         id: "P3b-f32",
         title: "slider-crank in f32: all forces and the torque, from the driver's angle",
-        competitors: vec![
-            turn.posed("expert", given, slider_crank::statics_at_expert_single),
-            turn.posed("generated", given, slider_crank::statics_at_generated_single),
-        ],
+        competitors,
     }
 }
 
