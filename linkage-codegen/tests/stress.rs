@@ -23,7 +23,7 @@
 //! | 1 pivots of 10⁻¹ to 10⁻⁷ | here: distances from where the motion ends or the determinant of all equations changes its sign; slides inclined by 10⁻¹ to 10⁻⁶ | all that have such poses: not planets |
 //! | 2 the same, loads compatible | here: without what the virtual displacement of the singular pose sees | as 1 |
 //! | 3 folds | here: dimensions with which pivots meet or links lie on each other, 1 to 10⁻⁷ from there; blocks and cascades with a loop in them that folds; digits of four-bars in `families.rs` | those that fold: pins and slides in closed loops of equal lengths |
-//! | 4 lengths that differ by 10² to 10⁸ | here, each set of lengths small; of cascades some joints next to others, of blocks to 10⁴; of three-pin dyads in `families.rs` too; triads under 9 | all; f32 as far as it tells lengths apart, 10⁴ |
+//! | 4 lengths that differ by 10² to 10⁸ | here, each set of lengths small; of cascades and blocks some joints next to others; of three-pin dyads in `families.rs` too; triads under 9 | all; f32 as far as it tells lengths apart, 10⁴ |
 //! | 5, 14 along the axes, collinear, in line | here: directions by quarter turns, drives too; joints of blocks and cascades on a lattice; `families.rs` | all |
 //! | 6 far from the origin, the point of a slide or a slot far along its line: the same bits; for moved points of lines errors of efforts, and in cascades of all, of the same size; all rules in `rules.rs` | here | all |
 //! | 7 loads 10⁸ apart, a single load | here | all |
@@ -732,10 +732,8 @@ fn lengths_apart(kind: &Kind, random: &mut Random) -> Vec<Poses> {
     let (dimensions, angle) = match &kind.drawn {
         Drawn::ByDimensions { dimensions, angle, .. } => (dimensions, angle),
         Drawn::ByPlaces(class) => {
-            // Of a block with links of 10⁻⁸ an iteration in doubles may find no pose: the loop's own rounding is 10⁻⁸ of them.
-            let powers: &[usize] = if kind.is_cascade() { &[3, 7] } else { &[3] };
-            let laid = powers.iter().map(|powers| {
-                let distance = 10f64.powi(-2 - i32::try_from(random.below(*powers)).expect("small"));
+            let laid = [3, 7].into_iter().map(|powers| {
+                let distance = 10f64.powi(-2 - i32::try_from(random.below(powers)).expect("small"));
                 let member = kind.laid(*class, Layout::Apart(distance), random);
                 let middle = member.range.0.midpoint(member.range.1);
                 let drives = (0..=5).flat_map(|k| [1.0, -1.0].map(|sign| middle + sign * 0.5 * 10f64.powi(-k)));

@@ -178,6 +178,13 @@ impl<'m, 'p> Balance<'m, 'p> {
         !forces.is_empty() && forces.iter().all(|acting| is_shorter(acting.at - to, acting.at - than))
     }
 
+    /// Whether all forces on a link are known to act farther from one of its places than another one is.
+    #[must_use]
+    pub fn all_act_beyond(&self, link: LinkId, from: Vector<'m>, than: Vector<'m>) -> bool {
+        let forces = &self.wrenches[link.index()].forces;
+        !forces.is_empty() && forces.iter().all(|acting| is_shorter(than - from, acting.at - from))
+    }
+
     /// A place on a link amid the forces that act there: this one, where another force will act, or that of a force from which the ways to
     /// all of them are shorter together. Forces that act near each other may cancel, and the moment of what is left of them has the rounding
     /// of each, times its arm. Where the places are not numbers, it counts how many forces act elsewhere.

@@ -270,7 +270,11 @@ fn runner_on(pose: &Coordinates<'_, Extended>, joint: JointId, link: LinkId) -> 
     let travel = found.or_else(drive)?;
     let ahead = if data.from.link == carrier { travel } else { travel.neg() };
     let [x, y] = given(pose, axis.vector(&model.graph));
-    let reach = near + ahead.to_f64().abs();
+    // A travel that is found as a run between other points has the rounding of that.
+    let name = format!("run_{}", data.name);
+    let run =
+        linkage.plan.pose.iter().find(|found| found.name == name).map_or(0.0, |run| pose.value(run.node).to_f64());
+    let reach = near + ahead.to_f64().abs().max(run.abs());
     Some(([local[0].add(&x.mul(&ahead)), local[1].add(&y.mul(&ahead))], reach))
 }
 

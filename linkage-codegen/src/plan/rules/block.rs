@@ -28,6 +28,9 @@ use crate::topology::{Group, Input};
 /// The rule.
 pub(crate) struct Block;
 
+/// Two pins of a link are close to each other if others are so many times as far away.
+const CLOSE: i64 = 8;
+
 /// A link with a single number left.
 #[derive(Clone, Copy, Debug)]
 struct Member {
@@ -288,18 +291,28 @@ impl<'p, 'm> Parts<'p, 'm> {
             (_, true) if !self.is_slide(member.far) => Some((member, member.far, self.rod(member).1)),
             _ => None,
         });
-        // Moments are taken about this pin: where the link's frame begins, if a member is there, since that is the point that the
-        // declaration counts from. Of several there the number of one on the ground is what the others leave: it does no work, and may be
-        // far larger than that of one that the drive moves.
+        // Moments are taken about this pin: one of two that are close to each other, whose motion would be the difference of what is much larger
+        // elsewhere; or else where the link's frame begins, if a member is there, since that is the point that the declaration counts from.
+        // Of several there the number of one on the ground is what the others leave: it does no work, and may be far larger than that of one
+        // that the drive moves.
+        let pins: Vec<Vector<'m>> = candidates.clone().map(|(_, pin, _)| self.place(pin, carrier)).collect();
+        let is_close = |pin: JointId| {
+            let at = self.place(pin, carrier);
+            let ways: Vec<Expr<'m>> =
+                pins.iter().filter(|other| **other != at).map(|other| (*other - at).squared()).collect();
+            let much_less = |way: &Expr<'m>, than: &Expr<'m>| (CLOSE * CLOSE * *way - *than).sign() == Some(-1);
+            ways.iter().any(|way| ways.iter().any(|than| much_less(way, than)))
+        };
         let rank = |(member, pin, _): &(&Member, JointId, Vector<'m>)| {
             let end = self.model.joint(*pin).end_on(carrier);
             let begins_here = end.is_some_and(|end| self.model.local(end).is_zero());
             let other_end = if *pin == member.near { member.far } else { member.near };
-            match (begins_here, self.other(other_end, member.link) == GROUND) {
+            let rank = match (begins_here, self.other(other_end, member.link) == GROUND) {
                 (true, true) => 0,
                 (true, false) => 1,
                 (false, _) => 2,
-            }
+            };
+            (!is_close(*pin), rank)
         };
         candidates.min_by_key(rank).map(|(_, pin, along)| (pin, along))
     }
@@ -688,14 +701,18 @@ fn known_ends<'m>(balance: &Balance<'m, '_>, parts: &Parts<'_, 'm>, member: &Mem
     let name = &parts.model.link(member.link).name;
     let across = across.named(balance.name(&format!("across_{name}")), format!("−ΣM/length of the loads on {name}"));
     let near = Framed { components: Vector::new(graph.zero(), across), axes };
-    // Where the far end is on a link of the group, too, its force comes from the moment about the near end.
+    // Where the far end is on a link of the group, too, what it holds across is a number of its own, which that link's equations have as it is:
+    // by the moment about the near end, or where the loads act farther away than that and both moments have roundings with long arms, what the
+    // near end leaves of the loads.
     let own = (member.within && !loads.components.is_zero()).then(|| {
-        let about = parts.place(member.near, member.link);
-        let across = balance.moment(member.link, about, graph.one() / length);
-        let far = parts.model.joint(member.far);
-        let name = balance.name(&format!("across_{name}_at_{}", far.name));
-        let across = across.named(name, format!("ΣM/length of the loads on {}", parts.model.link(member.link).name));
-        Framed { components: Vector::new(graph.zero(), across), axes }
+        let pin = parts.place(member.near, member.link);
+        let (at_far, equation) = if balance.all_act_beyond(member.link, pin, about) {
+            (-(across + loads.along(axes).y), format!("across {name}, −ΣF of what acts on it"))
+        } else {
+            (balance.moment(member.link, pin, graph.one() / length), format!("ΣM/length of the loads on {name}"))
+        };
+        let label = balance.name(&format!("across_{name}_at_{}", parts.model.joint(member.far).name));
+        Framed { components: Vector::new(graph.zero(), at_far.named(label, equation)), axes }
     });
     let far = own.unwrap_or_else(|| loads.plus(&near, ground).opposite());
     let acts = vec![parts.passed_on(member.near, member.link, near), parts.passed_on(member.far, member.link, far)];
