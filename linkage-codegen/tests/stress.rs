@@ -1052,8 +1052,8 @@ impl Cell {
         );
         let beyond = self.example.filter(|(share, _)| *share > 1.0).map(|(_, example)| example);
         let loose = (median > LOOSEST).then(|| format!("bounds are too far from errors: {median}"));
-        // Of fewer poses one.
-        let allowed = (self.answered + self.refused).div_ceil(one_in);
+        // Of few poses two: those of one linkage are refused together.
+        let allowed = ((self.answered + self.refused) / one_in).max(2);
         let refused = (self.refused > allowed)
             .then(|| format!("of {} regular poses {} are refused", self.answered + self.refused, self.refused));
         let unknown = (self.unknown > self.bounds / unknown_in)
