@@ -4,10 +4,11 @@ mod support;
 
 use linkage_codegen::Linkage;
 use support::families::{
-    Family, SCENES, boom, check, four_bar, length, loads, oscillating_block, planet, scotch_yoke, searched, shaper,
-    single, slider_crank, slotted_crank, slotted_yoke, tangent_mechanism,
+    BARS, Family, SCENES, boom, check, four_bar, length, loads, oscillating_block, planet, scotch_yoke, searched,
+    shaper, single, slider_crank, slotted_crank, slotted_yoke, tangent_mechanism,
 };
 use support::linkages::{Class, Random};
+use support::measures::{Measures, measure};
 use support::numbers::{Double, Single};
 use support::{Arguments, Number, compile, scene};
 
@@ -225,6 +226,46 @@ fn loads_on_both_of_two_welded_links() {
         vec![[24.319_082_615_261_35, -30.636_504_961_403_112], [-18.936_640_763_220_055, 37.949_740_083_825_354]];
     let family = Family { text, longest: 1.248_566_508_293_151_9, drives: drives.collect(), loads };
     assert!(check(std::iter::once(family), "loads on both of two welded links") > 35);
+}
+
+/// The two poses of booms that the page says are beyond a bar: they are, by as much as it says, and keep the other bars.
+#[test]
+fn booms_beyond_a_bar() {
+    let boom = |ground: &str, length: &str, [x, y]: [&str; 2], carrier: &str, loads: [&str; 2]| {
+        format!(
+            "ground {{ O: (0, 0), P: {ground} }} link boom {{ O -> Q: {length}, T: ({x}, {y}) }} link tube {{ P: (0, 0), D: ({y}, {x}) }}
+             link rod {{ Q: (0, 1.0m), S: (0, 0), E: ({x}, {y}) }} revolute O: ground -> boom; revolute P: ground -> tube;
+             revolute Q: rod -> boom; prismatic lift: tube.P -> rod.S along 0deg of {carrier}; drive extension: lift;
+             assemble Q: left(P -> O); load F: force({}); load H: force({}); {SCENES}",
+            loads[0], loads[1]
+        )
+    };
+    let at = |drive: f64, loads: [[f64; 2]; 2]| Arguments {
+        drives: vec![drive],
+        loads: loads.to_vec(),
+        ..Arguments::default()
+    };
+    let place = ["-0.1475161463022232m", "0.5233664512634277m"];
+    let text = boom("0.0004962522652931511m @ 356.8875783763737deg", "1.0m", place, "tube", ["boom.T", "rod.E"]);
+    let arguments = at(
+        3.792_831_687_767_717_4e-6,
+        [[23.580_092_026_642_717, -27.447_251_959_911_39], [31.886_136_656_318_314, 3.753_398_895_819_636]],
+    );
+    let linkage = compile(&format!("pub mod sample; {text}"));
+    let found = measure::<Double>(&linkage, &arguments, 1.0, f64::EPSILON).expect("a regular pose");
+    assert!(found.torque > BARS.torque && found.torque < 16.0, "{found:?}");
+    Measures { torque: 0.0, ..found }.assert_within(&BARS, "but for virtual work");
+
+    let place = ["-0.031915515661239624m", "0.06209813058376312m"];
+    let text = boom("1.0m @ 156.64503892784322deg", "6.568870389855874e-7m", place, "rod", ["tube.D", "rod.E"]);
+    let arguments = at(
+        2.682_083_622_972_637_3e-8,
+        [[40.933_152_224_055_83, 35.889_287_944_278_55], [-49.045_626_658_443_97, -16.137_964_635_694_36]],
+    );
+    let linkage = compile(&format!("pub mod sample; scalar f32; {text}"));
+    let found = measure::<Single>(&linkage, &arguments, 1.0, f64::from(f32::EPSILON)).expect("a regular pose");
+    assert!(found.free_body > BARS.free_body && found.free_body < 9.5, "{found:?}");
+    Measures { free_body: 0.0, ..found }.assert_within(&BARS, "but for a free body");
 }
 
 /// A parallelogram that a leg at one of its pins drives, next to its fold: two legs hold each other with 10⁷ times the loads, the third carries

@@ -433,10 +433,11 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
         let (link, length) = (dyad.link_name(leg), dyad.length_name(leg));
         let [own, other] = [lengths[index], lengths[1 - index]];
         let alike = lengths_are_alike(graph.scalar(), own, other);
-        if alike && dyad.is_composed(leg) {
-            return Pointing { unit: dyad.refined(leg, vectors[index].scaled(graph.one() / own)), rough: None };
-        }
-        let found = to_unit(vectors[index], [own, other], (&link, &length), index == 0);
+        let found = if alike && dyad.is_composed(leg) {
+            Pointing { unit: vectors[index].scaled(graph.one() / own), rough: None }
+        } else {
+            to_unit(vectors[index], [own, other], (&link, &length), index == 0)
+        };
         Pointing { unit: dyad.refined(leg, found.unit), ..found }
     })
 }
