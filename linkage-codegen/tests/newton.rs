@@ -368,3 +368,26 @@ fn what_rounding_leaves_of_a_direction_that_is_found_when_compiled_is_nothing() 
         assert_eq!(constants.filter(|number| tiny(*number)).count(), 0, "{scalar}");
     }
 }
+
+/// The same of the pose that a search starts from, which is closed when compiled: here a leg points along the axis.
+#[test]
+fn what_rounding_leaves_of_a_start_that_is_closed_when_compiled_is_nothing() {
+    for scalar in ["f32", "f64"] {
+        let linkage = compile(&format!(
+            "pub mod sample; scalar {scalar};
+             ground {{ O: (0.8855811953544617m, -1.8924840688705444m), F: (0.5m, -0.5m), G: (1m, -0.5m) }}
+             link crank {{ O -> A: 0.811387300491333m }} link b {{ A -> P: 1.3235175609588623m }}
+             link t {{ Q -> R: 1m, P: (-0.5m, 0.5m) }} link c {{ F -> Q: 1m }} link d {{ G -> R: 0.5m, V: (0.5m, 0.25m) }}
+             revolute O: ground -> crank; revolute A: crank -> b; revolute P: b -> t; revolute F: ground -> c; revolute Q: c -> t;
+             revolute G: ground -> d; revolute R: d -> t; drive q: O; start q: -2.5319089889526367rad;
+             start b: (0.2203821837902069m, -2.357090950012207m), angle 0.44367942214012146rad;
+             start t: (1.3072428703308105m, -1.0902193784713745m), angle 2.5102620124816895rad;
+             start c: (0.5m, -0.5m), angle -0.631330668926239rad; start d: (1m, -0.5m), angle 180deg;
+             load H: force(d.V); scene all: equilibrium;"
+        ));
+        let starts = linkage.model.graph.searches().into_iter().flat_map(|(_, search)| search.start);
+        let numbers = starts.filter_map(|node| linkage.model.graph.constant_value(node));
+        let tiny = |number: f64| number != 0.0 && number.abs() < 1e-30;
+        assert_eq!(numbers.filter(|number| tiny(number.to_f64())).count(), 0, "{scalar}");
+    }
+}

@@ -180,7 +180,11 @@ fn close_start(model: &Model, id: SearchId, failure: &dyn Fn(Expr<'_>) -> Failur
     let found = graph.search_from(id, &args);
     let names = search.sought.iter().flat_map(Sought::names);
     let open = found[0].named(format!("open_{}_start", search.name), "what stays open at the start");
+    // Known now, in many digits: what is left there of a zero is smaller than a scalar may hold.
+    let rounding = Number::ratio(1, 2).pow(160);
+    let vanishes = |value: &Expr<'_>| value.value().is_some_and(|value| value.abs().compare(&rounding).is_lt());
     let closed = found[1..].iter().zip(names).map(|(value, name)| {
+        let value = if vanishes(value) { graph.zero() } else { *value };
         let value = value.require_at_least(graph.zero(), open, failure(open));
         value.named(format!("{name}_start"), format!("{name} where the drives start"))
     });
