@@ -15,6 +15,9 @@ use crate::graph::{Expr, Graph, Op, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
 use crate::model::{End, JointKind, Model, arm_name};
 
+/// Two places of a link are close to each other if others are so many times as far away.
+pub(super) const CLOSE: i64 = 8;
+
 /// What acts on a link: forces and a couple.
 #[derive(Clone, Debug)]
 struct Wrench<'m> {
@@ -156,12 +159,24 @@ impl<'m, 'p> Balance<'m, 'p> {
     /// Lets the loads on a link act at one of its pins on the other link there, and leaves their moment about it. At a pin on the ground they
     /// have no power.
     pub fn carry_over(&mut self, pin: JointId, link: LinkId) {
-        let Some(far) = self.model().joint(pin).end_off(link) else { return };
+        self.carry_some_over(pin, link, |_| true);
+    }
+
+    /// The same of those whose places are asked for. Whether there are any.
+    pub fn carry_some_over(&mut self, pin: JointId, link: LinkId, which: impl Fn(Vector<'m>) -> bool) -> bool {
+        let Some(far) = self.model().joint(pin).end_off(link) else { return false };
         let about = self.placement.slide_point(pin, link);
+        let wrench = self.wrenches[link.index()].clone();
+        let (carried, stay): (Vec<_>, Vec<_>) = wrench.forces.into_iter().partition(|acting| which(acting.at));
+        if carried.is_empty() {
+            return false;
+        }
+        self.wrenches[link.index()] = Wrench { forces: carried, couple: wrench.couple };
         let (force, couple) = (self.total(link), self.moment_of_turned(link, about));
-        self.wrenches[link.index()] = Wrench { forces: Vec::new(), couple };
+        self.wrenches[link.index()] = Wrench { forces: stay, couple };
         let at = self.placement.slide_point(pin, far.link);
         self.act(far.link, Acting::one(at, force, true));
+        true
     }
 
     /// Whether a force on a link is known to act nearer to one of its places than another place is.
@@ -176,6 +191,19 @@ impl<'m, 'p> Balance<'m, 'p> {
     pub fn all_act_nearer(&self, link: LinkId, to: Vector<'m>, than: Vector<'m>) -> bool {
         let forces = &self.wrenches[link.index()].forces;
         !forces.is_empty() && forces.iter().all(|acting| is_shorter(acting.at - to, acting.at - than))
+    }
+
+    /// Whether all forces on a link are known to act close to one of its places, by the distance of another one.
+    #[must_use]
+    pub fn all_act_close_to(&self, link: LinkId, place: Vector<'m>, other: Vector<'m>) -> bool {
+        let forces = &self.wrenches[link.index()].forces;
+        !forces.is_empty() && forces.iter().all(|acting| is_close(acting.at, place, other))
+    }
+
+    /// Whether a force on a link is known to act there.
+    #[must_use]
+    pub fn acts_close_to(&self, link: LinkId, place: Vector<'m>, other: Vector<'m>) -> bool {
+        self.wrenches[link.index()].forces.iter().any(|acting| is_close(acting.at, place, other))
     }
 
     /// Whether all forces on a link are known to act farther from one of its places than another one is.
@@ -480,7 +508,13 @@ impl<'m, 'p> Balance<'m, 'p> {
     }
 }
 
+/// Whether a place is known to be close to another one, by the distance of a third one from that.
+pub(super) fn is_close<'m>(at: Vector<'m>, place: Vector<'m>, other: Vector<'m>) -> bool {
+    let graph = place.graph();
+    is_shorter((at - place).scaled(CLOSE * graph.one()), other - place)
+}
+
 /// Whether a vector is known to be shorter than another one.
-fn is_shorter(vector: Vector<'_>, than: Vector<'_>) -> bool {
+pub(super) fn is_shorter(vector: Vector<'_>, than: Vector<'_>) -> bool {
     (vector.squared() - than.squared()).sign() == Some(-1)
 }

@@ -12,7 +12,7 @@
 
 use std::collections::BTreeMap;
 
-use super::balance::Balance;
+use super::balance::{Balance, is_close, is_shorter};
 use super::framed::Framed;
 use super::heading;
 use super::pivots::Pivots;
@@ -68,6 +68,8 @@ pub struct Motion<'m, 'p> {
     /// Of accelerations: whether the drives accelerate, too.
     driven: bool,
     twists: Vec<Twist<'m>>,
+    /// The links whose groups are solved: their motion is found, not supposed.
+    solved: Vec<bool>,
     /// Of slides: how fast the second link slides along the first one.
     sliding: BTreeMap<JointId, Expr<'m>>,
     /// How dimensions change, if a parameter does.
@@ -89,6 +91,7 @@ impl<'m, 'p> Motion<'m, 'p> {
             purpose,
             driven: true,
             twists,
+            solved: vec![false; placement.model.links.len()],
             sliding: BTreeMap::new(),
             dimensions: None,
         }
@@ -251,6 +254,7 @@ impl<'m, 'p> Motion<'m, 'p> {
             if let (Err(error), true) = (rule.follow(&mut self, group), sink.is_clean()) {
                 sink.report(error);
             }
+            group.links.iter().for_each(|link| self.solved[link.index()] = true);
         }
         self
     }
@@ -344,9 +348,39 @@ impl<'m, 'p> Motion<'m, 'p> {
     }
 
     /// The velocity of a place along and across a link's direction: `v + ω r⊥`. Its acceleration is `a + α r⊥ − ω² r`.
+    ///
+    /// What turning adds to the velocity of a far place may take most of it away again, and leave its rounding. So it is added to that of
+    /// the nearest pin which moves in a simple way, as one of a link on the ground.
     #[must_use]
     pub fn of_place(&self, link: LinkId, at: Vector<'m>) -> Framed<'m> {
-        let twist = &self.twists[link.index()];
+        self.of_place_by(&self.nearest_twist(link, at), link, at)
+    }
+
+    fn nearest_twist(&self, link: LinkId, at: Vector<'m>) -> Twist<'m> {
+        let own = self.twists[link.index()];
+        if !self.solved[link.index()] || own.rate.is_zero() {
+            return own;
+        }
+        let model = self.model();
+        model.joint_ids().fold(own, |nearest, joint| {
+            let data = model.joint(joint);
+            let (true, Some(_), Some(far)) =
+                (matches!(data.kind, JointKind::Revolute), data.end_on(link), data.end_off(link))
+            else {
+                return nearest;
+            };
+            let [here, there] = [link, far.link].map(|link| self.placement.slide_point(joint, link));
+            let is_nearer = || is_shorter(here - at, nearest.at - at);
+            if !self.solved[far.link.index()] || !is_nearer() {
+                return nearest;
+            }
+            let velocity = self.of_place_by(&self.twists[far.link.index()], far.link, there);
+            if is_simple(&velocity) { Twist { rate: own.rate, at: here, velocity } } else { nearest }
+        })
+    }
+
+    /// The same, by way of a place whose velocity is known.
+    fn of_place_by(&self, twist: &Twist<'m>, link: LinkId, at: Vector<'m>) -> Framed<'m> {
         let arm = at - twist.at;
         let turning = arm.perp().scaled(twist.rate);
         let turning = match self.angular_velocity_squared(link) {
@@ -519,7 +553,7 @@ impl<'m, 'p> Motion<'m, 'p> {
         sum
     }
 
-    /// The loads where their power is found best: those near another pin of a link are carried to it.
+    /// The loads where their power is found best: those near another pin of a link are carried to it, all of them, or some that act next to it.
     #[must_use]
     pub fn at_nearest_pins<'l>(&self, loads: &Balance<'m, 'l>) -> Balance<'m, 'l> {
         let (mut carried, mut given) = (loads.clone(), Vec::new());
@@ -527,6 +561,16 @@ impl<'m, 'p> Motion<'m, 'p> {
             if let Some(pin) = self.pin_for_power(&carried, link, &given) {
                 carried.carry_over(pin, link);
                 given.push(link);
+                continue;
+            }
+            let own = self.twists[link.index()].at;
+            for pin in self.simple_pins(link, &given) {
+                let at = self.placement.slide_point(pin, link);
+                let known = !carried.is_free(self.other(pin, link));
+                let goes = |place| if known { is_close(place, at, own) } else { place == at && at != own };
+                if carried.carry_some_over(pin, link, goes) {
+                    given.push(link);
+                }
             }
         }
         carried
@@ -539,22 +583,28 @@ impl<'m, 'p> Motion<'m, 'p> {
     /// their moment about the pin. That link's motion has to be known for loads of its own; or the forces act at the pin itself, and no load
     /// asks how this link turns. A link that has given its loads away, one of `given`, gets none back.
     fn pin_for_power(&self, loads: &Balance<'m, '_>, link: LinkId, given: &[LinkId]) -> Option<JointId> {
+        let own = self.twists[link.index()].at;
+        let nearest = self.simple_pins(link, given).into_iter().fold((own, None), |nearest, joint| {
+            let at = self.placement.slide_point(joint, link);
+            let known = !loads.is_free(self.other(joint, link)) || loads.acts_only_at(link, at);
+            if known && loads.all_act_nearer(link, at, nearest.0) { (at, Some(joint)) } else { nearest }
+        });
+        nearest.1
+    }
+
+    /// The pins of a link that turns about no resting place which move in a simple way, but for those on links that get no loads.
+    fn simple_pins(&self, link: LinkId, given: &[LinkId]) -> Vec<JointId> {
         let (model, own) = (self.model(), self.twists[link.index()]);
         if own.rate.is_zero() || own.velocity.components.is_zero() {
-            return None;
+            return Vec::new();
         }
         let pins = model.joint_ids().filter(|joint| {
             let data = model.joint(*joint);
             let gets = data.end_off(link).is_some_and(|far| !given.contains(&far.link));
-            matches!(data.kind, JointKind::Revolute) && data.end_on(link).is_some() && gets
+            let is_pin = matches!(data.kind, JointKind::Revolute) && data.end_on(link).is_some();
+            is_pin && gets && is_simple(&self.passed_on(*joint, link))
         });
-        let nearest = pins.fold((own.at, None), |nearest, joint| {
-            let (at, there) = (self.placement.slide_point(joint, link), self.passed_on(joint, link).components);
-            let simple = there.x.is_zero() || there.y.is_zero() || there.x.stage().max(there.y.stage()) < Stage::Posed;
-            let known = !loads.is_free(self.other(joint, link)) || loads.acts_only_at(link, at);
-            if simple && known && loads.all_act_nearer(link, at, nearest.0) { (at, Some(joint)) } else { nearest }
-        });
-        nearest.1
+        pins.collect()
     }
 
     /// The power of all that acts on a link: `ΣF · v` and `ΣM ω`, with the moments about the place whose velocity is v.
@@ -633,4 +683,10 @@ impl<'m, 'p> Motion<'m, 'p> {
         };
         how.replace("{velocity}", word)
     }
+}
+
+/// Whether a velocity is one product at most: that of a pin of a link on the ground, of a slide's runner, of a place that a drive moves.
+fn is_simple(velocity: &Framed<'_>) -> bool {
+    let Vector { x, y } = velocity.components;
+    x.is_zero() || y.is_zero() || x.stage().max(y.stage()) < Stage::Posed
 }

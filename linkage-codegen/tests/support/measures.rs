@@ -9,7 +9,7 @@ use linkage_codegen::equations::loads::{self, Action};
 use linkage_codegen::graph::real::Real;
 use linkage_codegen::graph::{Coordinate, NodeId, Vector};
 use linkage_codegen::model::ids::{GROUND, JointId, LinkId};
-use linkage_codegen::model::{JointKind, LoadKind, UnknownKind};
+use linkage_codegen::model::{End, JointKind, LoadKind, UnknownKind};
 use linkage_codegen::program::Fault;
 use nalgebra::{DMatrix, DVector};
 
@@ -252,22 +252,22 @@ fn backward_error(linkage: &Linkage, general: &General<Extended>, solution: &[Ex
 }
 
 /// Where a slide or the pin in a slot acts on a link, in the link's frame: the runner's own place, and on the link that carries the line
-/// the place of the slide's point with the travel from there, as the pose has it;
-/// and the lengths of these ways.
-fn runner_on(pose: &Coordinates<'_, Extended>, joint: JointId, link: LinkId) -> Option<([Extended; 2], f64)> {
+/// the place of the slide's point with the travel from there, as the pose has it, if it does;
+/// and the lengths of these ways, or of that over the other links.
+fn runner_on(pose: &Coordinates<'_, Extended>, joint: JointId, link: LinkId) -> Option<(Option<[Extended; 2]>, f64)> {
     let (linkage, model) = (pose.linkage, &pose.linkage.model);
     let data = model.joint(joint);
     let (carrier, axis) = data.kind.line()?;
     let local = given(pose, model.local(data.end_on(link)?));
     let near = local[0].to_f64().hypot(local[1].to_f64());
     if link != carrier {
-        return Some((local, near));
+        return Some((Some(local), near));
     }
     let name = format!("travel_{}", data.name);
     let found = linkage.plan.pose.iter().find(|kept| kept.name == name).map(|found| pose.value(found.node));
     // The travel of a driven slide is an argument.
     let drive = || model.drive_of(joint, false).map(|drive| Extended::exactly(pose.arguments.drives[drive.index()]));
-    let travel = found.or_else(drive)?;
+    let Some(travel) = found.or_else(drive) else { return Some((None, way_to_runner(pose, joint, link))) };
     let ahead = if data.from.link == carrier { travel } else { travel.neg() };
     let [x, y] = given(pose, axis.vector(&model.graph));
     // A travel that is found as a run between other points has the rounding of that.
@@ -275,7 +275,41 @@ fn runner_on(pose: &Coordinates<'_, Extended>, joint: JointId, link: LinkId) -> 
     let run =
         linkage.plan.pose.iter().find(|found| found.name == name).map_or(0.0, |run| pose.value(run.node).to_f64());
     let reach = near + ahead.to_f64().abs().max(run.abs());
-    Some(([local[0].add(&x.mul(&ahead)), local[1].add(&y.mul(&ahead))], reach))
+    Some((Some([local[0].add(&x.mul(&ahead)), local[1].add(&y.mul(&ahead))]), reach))
+}
+
+/// The shortest way from a link's origin to the runner that a slide has on the other link, over links and joints but the slide itself: where
+/// the pose keeps no travel, the place has the rounding of that.
+fn way_to_runner(pose: &Coordinates<'_, Extended>, slide: JointId, link: LinkId) -> f64 {
+    let model = &pose.linkage.model;
+    let place = |end: End| {
+        let [c, s, x, y] = [Coordinate::Cos, Coordinate::Sin, Coordinate::X, Coordinate::Y]
+            .map(|which| if end.link == GROUND { 0.0 } else { pose.of(end.link, which).to_f64() });
+        let [along, across] = given(pose, model.local(end)).map(|part| part.to_f64());
+        if end.link == GROUND { [along, across] } else { [x + c * along - s * across, y + s * along + c * across] }
+    };
+    let apart = |[a, b]: [f64; 2], [c, d]: [f64; 2]| (a - c).hypot(b - d);
+    let origin = [Coordinate::X, Coordinate::Y].map(|which| pose.of(link, which).to_f64());
+    // The ends of all joints, each with its place and the shortest way there that is known so far.
+    let mut ends: Vec<(JointId, End, [f64; 2], f64)> = model
+        .joint_ids()
+        .flat_map(|joint| model.joint(joint).ends().map(|end| (joint, end)))
+        .map(|(joint, end)| {
+            (joint, end, place(end), if end.link == link { apart(origin, place(end)) } else { f64::INFINITY })
+        })
+        .collect();
+    for _ in 0..ends.len() {
+        for from in 0..ends.len() {
+            let (joint, end, at, way) = ends[from];
+            for (other, far, there, known) in &mut ends {
+                if far.link == end.link || (*other == joint && joint != slide) {
+                    *known = known.min(way + apart(at, *there));
+                }
+            }
+        }
+    }
+    let runner = ends.iter().find(|(joint, end, ..)| *joint == slide && end.link != link);
+    runner.map_or(f64::INFINITY, |(.., way)| *way)
 }
 
 /// A vector of constants and parameters.
@@ -345,10 +379,12 @@ fn free_body(
             _ => None,
         };
         let runner = slide.filter(|_| force > 0.0).and_then(|joint| runner_on(pose, joint, link));
-        let arm = if let Some(([x, y], reach)) = runner {
-            let along = cos.mul(&part[0]).add(&sin.mul(&part[1]));
-            let across = cos.mul(&part[1]).sub(&sin.mul(&part[0]));
-            part[2] = x.mul(&across).sub(&y.mul(&along));
+        let arm = if let Some((at, reach)) = runner {
+            if let Some([x, y]) = at {
+                let along = cos.mul(&part[0]).add(&sin.mul(&part[1]));
+                let across = cos.mul(&part[1]).sub(&sin.mul(&part[0]));
+                part[2] = x.mul(&across).sub(&y.mul(&along));
+            }
             reach
         } else {
             columns.clone().map(|c| coefficient(2, c).to_f64()).fold(0.0, f64::hypot)
@@ -380,17 +416,21 @@ fn free_body(
     FreeBody { link, force: x.hypot(y), forces, moment: moment.abs(), moments }
 }
 
-/// The largest residual of the free bodies: `|ΣF|/Σ|F|`, and `|ΣM|/Σ|r||F|`. What holds a couple has its rounding from the moments on either
-/// side: those of links that a weld joins count together.
+/// The largest residual of the free bodies: `|ΣF|/Σ|F|`, and `|ΣM|/Σ|r||F|`. What holds links together has the rounding of its couple from the
+/// moments on either side: those of links that a weld or a driven slide joins count together.
 fn free_bodies(linkage: &Linkage, bodies: &[FreeBody]) -> f64 {
     let model = &linkage.model;
-    let welded = |a: LinkId, b: LinkId| {
-        model.joint_ids().map(|joint| model.joint(joint)).any(|joint| {
-            matches!(joint.kind, JointKind::Weld { .. }) && joint.end_on(a).is_some() && joint.end_on(b).is_some()
-        })
+    let is_rigid = |joint: JointId| match model.joint(joint).kind {
+        JointKind::Weld { .. } => true,
+        JointKind::Prismatic { .. } => model.drive_of(joint, false).is_some(),
+        _ => false,
+    };
+    let held_together = |a: LinkId, b: LinkId| {
+        let mut rigid = model.joint_ids().filter(|joint| is_rigid(*joint)).map(|joint| model.joint(joint));
+        rigid.any(|joint| joint.end_on(a).is_some() && joint.end_on(b).is_some())
     };
     let residuals = bodies.iter().map(|body| {
-        let others = bodies.iter().filter(|other| other.link != body.link && welded(body.link, other.link));
+        let others = bodies.iter().filter(|other| other.link != body.link && held_together(body.link, other.link));
         let moments = others.fold(body.moments, |sum, other| sum + other.moments);
         over(body.force, body.forces).max(over(body.moment, moments))
     });

@@ -16,7 +16,7 @@ use crate::graph::{Expr, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model};
 use crate::plan::assembly::Assembly;
-use crate::plan::balance::Balance;
+use crate::plan::balance::{Balance, CLOSE};
 use crate::plan::efforts::{self, Unit};
 use crate::plan::framed::Framed;
 use crate::plan::linear::{CORE, Core, Equation, solve};
@@ -27,9 +27,6 @@ use crate::topology::{Group, Input};
 
 /// The rule.
 pub(crate) struct Block;
-
-/// Two pins of a link are close to each other if others are so many times as far away.
-const CLOSE: i64 = 8;
 
 /// A link with a single number left.
 #[derive(Clone, Copy, Debug)]
@@ -569,24 +566,59 @@ impl Rule for Block {
                     |(_, velocity)| *velocity,
                 )
             };
-            let velocity = end(member.near);
-            let at = parts.place(member.near, member.link);
-            let rate = if parts.is_slide(member.far) {
-                motion.rate(parts.other(member.far, member.link)) + motion.turned_by(member.far, member.link)
-            } else {
-                let (length, direction) = parts.rod(member);
-                let gap = motion.difference(&velocity, &end(member.far));
-                let arm = at - parts.place(member.far, member.link);
-                let axes = motion.placement.direction(member.link);
-                let gap = motion.difference(&gap, &Framed { components: motion.within(member.link, arm), axes });
-                motion.part(&gap, direction.perp()) / length
-            };
-            let name = &parts.model.link(member.link).name;
-            let rate = motion.named_rate(rate, &name.text, "");
-            motion.found(member.link, Twist { rate, at, velocity });
+            follow_member(motion, &parts, member, [end(member.near), end(member.far)]);
         }
         Ok(())
     }
+}
+
+/// The motion of a member from the velocities of the pins at its near end and at its far one.
+///
+/// Velocities within the group may be large, and leave their rounding in that of a slow link, which may be loaded where that tells. Where the
+/// far end is on a link that was found before, what that link does with a rod along it, with a slider across the slide, has none of that.
+fn follow_member<'m>(
+    motion: &mut Motion<'m, '_>,
+    parts: &Parts<'_, 'm>,
+    member: &Member,
+    [of_near, of_far]: [Framed<'m>; 2],
+) {
+    let (link, name) = (member.link, &parts.model.link(member.link).name);
+    let [near, far] = [member.near, member.far].map(|joint| parts.place(joint, link));
+    if parts.is_slide(member.far) {
+        let carried = motion.carried(member.far, link);
+        let rate = motion.named_rate(carried.rate, &name.text, "");
+        if member.within {
+            motion.found(link, Twist { rate, at: near, velocity: of_near });
+            return;
+        }
+        motion.found(link, Twist { rate, ..carried });
+        let (axes, guided) = (motion.placement.slide_direction(member.far), motion.of_place(link, near));
+        let [along, guided_along] = [of_near, guided].map(|velocity| motion.part(&velocity, axes));
+        let sliding = motion.named_sliding(along - guided_along, member.far, &name.text, "");
+        let along = if guided_along.is_zero() { sliding } else { along };
+        let components = Vector::new(along, motion.part(&guided, axes.perp()));
+        motion.found(link, Twist { rate, at: near, velocity: Framed { components, axes } });
+        motion.records(member.far, link, sliding);
+        return;
+    }
+    let (length, axes) = parts.rod(member);
+    // The far end's, and what a change of the rod adds to it.
+    let change = motion.within(link, near - far);
+    let far_and_change =
+        of_far.plus(&Framed { components: change, axes: motion.placement.direction(link) }, parts.ground());
+    let gap = motion.difference(&of_near, &far_and_change);
+    let rate = motion.named_rate(motion.part(&gap, axes.perp()) / length, &name.text, "");
+    let twist = if member.within {
+        Twist { rate, at: near, velocity: of_near }
+    } else if of_far.components.is_zero() {
+        Twist { rate, at: far, velocity: of_far }
+    } else {
+        motion.found(link, Twist { rate, at: far, velocity: of_far });
+        let along = motion.part(&far_and_change, axes) - motion.centripetal(link, length);
+        let components = Vector::new(along, motion.part(&of_near, axes.perp()));
+        Twist { rate, at: near, velocity: Framed { components, axes } }
+    };
+    motion.found(link, twist);
 }
 
 /// The number of a free body or a pin that the core gives, as a named quantity: the components in which its motion is resolved, and of a

@@ -424,6 +424,21 @@ impl<'a> Dyad<'a> {
         Ok(direction)
     }
 
+    /// States the angle from what the first link of a driven leg carries to another direction, by that from the leg itself, given as its cosine
+    /// and sine. Where the two fold and the leg lies across its first link, the product of the directions would be rounding alone.
+    pub(super) fn state_carried(
+        &self,
+        assembly: &mut Assembly<'a>,
+        leg: &Leg,
+        other: Vector<'a>,
+        from_leg: Vector<'a>,
+    ) {
+        let Arm { axis, lean, .. } = self.arm(leg);
+        let carried = assembly.placement.turned(leg.link(), axis);
+        let angle = from_leg.turned_by(lean);
+        assembly.pivots.state(carried, other, Some(angle.y), Some(angle.x));
+    }
+
     /// The other links of a leg as groups of their own, in the order in which they are placed from one of its links.
     fn joined(&self, leg: &Leg, first: LinkId, input: impl Fn(DriveId) -> Input) -> Vec<(&'static dyn Rule, Group)> {
         let group = |(joint, link): (JointId, LinkId)| {
@@ -461,7 +476,11 @@ impl<'a> Dyad<'a> {
                 return balance.graph().zero();
             }
             // About a place on the link, and with the arm of that place.
-            let at = self.place_on(leg, *link);
+            let at = if self.is_loaded_within(balance, leg, *link) {
+                self.place_within(leg, *link)
+            } else {
+                self.place_on(leg, *link)
+            };
             let direction = placement.direction(*link);
             let arm = placement.way(joint, at).resolved_along(direction).scaled(factor);
             let force = balance.total(*link).along(direction);
@@ -475,7 +494,8 @@ impl<'a> Dyad<'a> {
     /// What a joint within the leg passes on may be small beside the loads on either side of it, and what those leave over of the pins'
     /// forces would be their rounding. It is found from moments: with m₁ that of the loads on the outer side about the outer pin, m₂ that
     /// of the loads on the inner side about the inner one, the outer side passes on `(m₁ + m₂)/r` across the leg, and each pin holds the
-    /// rest of its own side.
+    /// rest of its own side. Where the loads of the inner side act close to that joint, far from the inner pin, this may have little of them to
+    /// hold, too: then its part is found from moments about the outer pin.
     pub(super) fn share(&self, balance: &Balance<'a, '_>, leg: &Leg) -> Share<'a> {
         let factor = balance.graph().one() / self.length(leg);
         let Some((joint, from, towards)) = leg.cut(self.model, balance) else {
@@ -494,11 +514,24 @@ impl<'a> Dyad<'a> {
             balance.name(&format!("{}_across_{}", self.joint_name(joint), self.link_name(leg))),
             format!("the moments over |{} {}|", self.joint_name(leg.outer), self.joint_name(self.inner)),
         );
+        let mut loaded = inner.iter().filter(|link| !balance.is_free(**link)).peekable();
+        let is_within = loaded.peek().is_some() && loaded.all(|link| self.is_loaded_within(balance, leg, *link));
+        let about_outer = is_within.then(|| {
+            let moment = moments[0] + self.moment_on(balance, (leg, &inner), leg.near, balance.graph().one());
+            moment * factor
+        });
         let [outer, inner] = [outer, inner].map(|links| total_on(balance, &links));
         let inner = inner.along(self.direction(balance.placement, leg));
         let moment = moments[usize::from(from != leg.link())];
         let cut = Cut { from, towards, across, outer, along: inner.x, moment };
-        Share { inner: across + inner.y, cut: Some(cut) }
+        Share { inner: about_outer.unwrap_or(across + inner.y), cut: Some(cut) }
+    }
+
+    /// Whether all loads on the link of a leg's inner pin act close to the joint within the leg.
+    fn is_loaded_within(&self, balance: &Balance<'a, '_>, leg: &Leg, link: LinkId) -> bool {
+        let within = balance.placement.point(self.place_within(leg, link));
+        let tip = balance.placement.point(leg.tip);
+        self.pinned && leg.tip.end.link == link && balance.all_act_close_to(link, within, tip)
     }
 
     /// A joint's place on a link of a leg: the inner joint's where that is a pin; the point of a slide may be far away.
@@ -563,8 +596,8 @@ impl<'a> Dyad<'a> {
     ) -> RuleResult {
         let (outer, first) = (leg.outer, leg.link());
         if leg.is_single() {
-            let held = loads.plus(&force, balance.placement.direction(GROUND));
-            balance.pin(outer, first, held.opposite());
+            let held = self.single_outer(balance, (leg, force), loads);
+            balance.pin(outer, first, held);
             return Ok(());
         }
         // Along and across the leg the forces are known each to its own size. In ground axes the rounding of the larger would be in both.
@@ -588,6 +621,26 @@ impl<'a> Dyad<'a> {
         balance.push(leg.tip.end.link, tip, pin);
         let held = Held { link, pin: near, reaction, passed: passed.opposite(), moment };
         self.balance_towards(balance, leg, cut.towards, Some(held))
+    }
+
+    /// The force of the outer pin on a leg of one link: what the loads and the inner pin's force leave. Where a load acts next to the inner pin,
+    /// both may be large and leave next to nothing, with their rounding, which a link that the drive moves would pass on: there it is, across
+    /// the leg, the loads' moment about the inner pin.
+    fn single_outer(
+        &self,
+        balance: &Balance<'a, '_>,
+        (leg, force): (&Leg, Framed<'a>),
+        loads: Framed<'a>,
+    ) -> Framed<'a> {
+        let (link, graph) = (leg.link(), balance.graph());
+        let [near, tip] = [leg.near, leg.tip].map(|spot| balance.placement.point(spot));
+        if leg.far.end.link == GROUND || !balance.acts_close_to(link, tip, near) {
+            return loads.plus(&force, balance.placement.direction(GROUND)).opposite();
+        }
+        let axes = self.direction(balance.placement, leg);
+        let [loads, force] = [loads, force].map(|force| force.along(axes).x);
+        let across = balance.moment(link, tip, graph.one() / self.length(leg));
+        Framed { components: Vector::new(-(loads + force), across), axes }
     }
 
     /// A force along and across a leg, along and across the direction of its first link.

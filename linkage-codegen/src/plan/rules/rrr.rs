@@ -96,6 +96,11 @@ impl<'a> Dyad<'a> {
         format!("{first} + {second}")
     }
 
+    fn cosine_meaning(&self) -> String {
+        let [first, second] = self.legs.each_ref().map(|leg| self.link_name(leg));
+        format!("cos μ between {first} and {second}")
+    }
+
     /// `2 r₁ r₂` as text.
     fn area_name(&self) -> String {
         let [first, second] = self.legs.each_ref().map(|leg| self.length_name(leg));
@@ -223,8 +228,7 @@ fn inner_force<'m>(balance: &Balance<'m, '_>, dyad: &Dyad<'m>, [across, needed]:
         return Framed { components: Vector::new(along, zero), axes: u2 };
     }
     let known = balance.pivots.known_cosine(u1, u2);
-    let cosine =
-        known.unwrap_or_else(|| u1.dot(u2)).named(dyad.cosine_name(), format!("cos μ between {link} and {other}"));
+    let cosine = known.unwrap_or_else(|| u1.dot(u2)).named(dyad.cosine_name(), dyad.cosine_meaning());
     let part = across * cosine - needed;
     // Found from the driver's angle with the cosine, the sine is there long before the loads' moments: so is its reciprocal.
     let along = if known.is_some() && !across.is_zero() && !needed.is_zero() {
@@ -367,6 +371,12 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding").held();
     let cosine = closing.cosine.map(Expr::held);
     assembly.pivots.state(u1, u2, Some(pivot), cosine);
+    for (leg, sine, other) in [(first, pivot, u2), (second, -pivot, u1)] {
+        if !leg.is_constant(dyad.model) {
+            let cosine = cosine.unwrap_or_else(|| u1.dot(u2).named(dyad.cosine_name(), dyad.cosine_meaning()));
+            dyad.state_carried(assembly, leg, other, Vector::new(cosine, sine));
+        }
+    }
     assembly.dyads.push(DyadPivot::sine(dyad.model, dyad.inner, pivot, cosine));
     Ok(())
 }
