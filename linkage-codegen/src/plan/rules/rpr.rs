@@ -25,7 +25,7 @@ use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::{GROUND, JointId};
 use crate::model::{Model, Side};
 use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Sign};
-use crate::plan::balance::Balance;
+use crate::plan::balance::{Balance, is_shorter};
 use crate::plan::framed::Framed;
 use crate::plan::pivots::Pivots;
 use crate::plan::placement::Placement;
@@ -95,14 +95,15 @@ impl Rule for Rpr {
             let meaning = format!("across the slide, of the force on {other} by {link}: {terms}/{}", pivot_name(&dyad));
             (moment / reach).named(balance.name(&format!("{slide}_across")), meaning)
         };
-        // The couple about the runner from a link on which nothing else acts, or else from the link that carries the runner: there the lever
-        // arm of the pin does not change. Moments may be large on the other one, and their rounding more than the couple.
-        let runner = balance.model().joint(dyad.inner).place().link;
-        let of_second = match dyad.legs.each_ref().map(|leg| leg.is_single() && balance.is_free(leg.link())) {
-            [false, true] => true,
-            [true, false] => false,
-            _ => runner == second.tip.end.link,
-        };
+        // The couple about the runner from the link that carries it: there the lever arm of the pin does not change. Or else from the other one,
+        // if nothing else acts there: moments may be large on the first one, and their rounding more than the couple. But where the slide is
+        // farther from the pin of that one, its arm is what is left of a long travel.
+        let runner = usize::from(balance.model().joint(dyad.inner).place().link == second.tip.end.link);
+        let free = dyad.legs.each_ref().map(|leg| leg.is_single() && balance.is_free(leg.link()));
+        let spans =
+            dyad.legs.each_ref().map(|leg| balance.placement.point(leg.tip) - balance.placement.point(leg.near));
+        let other_is_free = free[1 - runner] && !free[runner];
+        let of_second = (runner == 1) != (other_is_free && !is_shorter(spans[runner], spans[1 - runner]));
         let (leg, other, acting) = if of_second { (second, first, -across) } else { (first, second, across) };
         let loads = balance.total(leg.link());
         dyad.guide_inner(balance, leg, acting);
