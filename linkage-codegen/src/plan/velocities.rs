@@ -358,24 +358,26 @@ impl<'m, 'p> Motion<'m, 'p> {
 
     fn nearest_twist(&self, link: LinkId, at: Vector<'m>) -> Twist<'m> {
         let own = self.twists[link.index()];
-        if !self.solved[link.index()] || own.rate.is_zero() {
+        if !self.solved[link.index()] || own.rate.is_zero() || own.velocity.components.is_zero() {
             return own;
         }
-        let model = self.model();
-        model.joint_ids().fold(own, |nearest, joint| {
-            let data = model.joint(joint);
-            let (true, Some(_), Some(far)) =
-                (matches!(data.kind, JointKind::Revolute), data.end_on(link), data.end_off(link))
-            else {
-                return nearest;
-            };
-            let [here, there] = [link, far.link].map(|link| self.placement.slide_point(joint, link));
-            let is_nearer = || is_shorter(here - at, nearest.at - at);
-            if !self.solved[far.link.index()] || !is_nearer() {
+        self.pins(link).filter(|(_, far)| self.solved[far.index()]).fold(own, |nearest, (pin, far)| {
+            let [here, there] = [link, far].map(|link| self.placement.slide_point(pin, link));
+            if !is_shorter(here - at, nearest.at - at) {
                 return nearest;
             }
-            let velocity = self.of_place_by(&self.twists[far.link.index()], far.link, there);
+            let velocity = self.of_place_by(&self.twists[far.index()], far, there);
             if is_simple(&velocity) { Twist { rate: own.rate, at: here, velocity } } else { nearest }
+        })
+    }
+
+    /// The pins of a link, each with the other link there.
+    fn pins(&self, link: LinkId) -> impl Iterator<Item = (JointId, LinkId)> {
+        let model = self.model();
+        model.joint_ids().filter_map(move |joint| {
+            let data = model.joint(joint);
+            let far = data.end_on(link).and(data.end_off(link))?.link;
+            matches!(data.kind, JointKind::Revolute).then_some((joint, far))
         })
     }
 
@@ -594,17 +596,12 @@ impl<'m, 'p> Motion<'m, 'p> {
 
     /// The pins of a link that turns about no resting place which move in a simple way, but for those on links that get no loads.
     fn simple_pins(&self, link: LinkId, given: &[LinkId]) -> Vec<JointId> {
-        let (model, own) = (self.model(), self.twists[link.index()]);
+        let own = self.twists[link.index()];
         if own.rate.is_zero() || own.velocity.components.is_zero() {
             return Vec::new();
         }
-        let pins = model.joint_ids().filter(|joint| {
-            let data = model.joint(*joint);
-            let gets = data.end_off(link).is_some_and(|far| !given.contains(&far.link));
-            let is_pin = matches!(data.kind, JointKind::Revolute) && data.end_on(link).is_some();
-            is_pin && gets && is_simple(&self.passed_on(*joint, link))
-        });
-        pins.collect()
+        let pins = self.pins(link).filter(|(pin, far)| !given.contains(far) && is_simple(&self.passed_on(*pin, link)));
+        pins.map(|(pin, _)| pin).collect()
     }
 
     /// The power of all that acts on a link: `ΣF · v` and `ΣM ω`, with the moments about the place whose velocity is v.
