@@ -291,6 +291,25 @@ fn booms_on_cylinders_across_their_line() {
     found.assert_within(&BARS, "a cylinder with next to no boom");
 }
 
+/// A boom of a few millimetres whose load acts two hundred times as far out, beside a cylinder of a metre: its direction has the cylinder's
+/// rounding, and the forces must balance along the directions as they are.
+#[test]
+fn a_load_far_out_on_a_short_boom() {
+    let text = format!(
+        "pub mod sample; ground {{ O: (0, 0), P: 1.0149632692337036m @ 228.115577201663deg }}
+         link boom {{ O -> Q: 0.0032332944683730602m, T: (-0.3123747706413269m, -0.5961052775382996m) }} link tube {{ P: (0, 0) }}
+         link rod {{ Q: (0, -0.036544423550367355m), S: (0, 0), E: (-0.3123747706413269m, -0.5961052775382996m) }}
+         revolute O: ground -> boom; revolute P: ground -> tube; revolute Q: rod -> boom;
+         prismatic lift: tube.P -> rod.S along 0deg of rod; drive extension: lift; assemble Q: right(P -> O);
+         load F: force(boom.T); load H: force(rod.E); {SCENES}"
+    );
+    let drives = (0..30).map(|step| 1.0115 + 0.000_1 * f64::from(step)).collect();
+    let loads =
+        vec![[29.912_719_681_365_218, 13.124_096_303_869_194], [25.872_027_197_046_833, -44.213_025_641_200_73]];
+    let family = Family { text, longest: 1.014_963_269_233_703_6, drives, loads };
+    assert!(check(std::iter::once(family), "a load far out on a short boom") > 25);
+}
+
 /// A parallelogram that a leg at one of its pins drives, next to its fold: two legs hold each other with 10⁷ times the loads, the third carries
 /// no more than it did.
 #[test]

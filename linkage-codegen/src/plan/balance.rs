@@ -200,10 +200,12 @@ impl<'m, 'p> Balance<'m, 'p> {
         !forces.is_empty() && forces.iter().all(|acting| is_close(acting.at, place, other))
     }
 
-    /// Whether a force on a link is known to act there.
+    /// Whether a force on a link is known to act there, and none farther away than the other place is.
     #[must_use]
     pub fn acts_close_to(&self, link: LinkId, place: Vector<'m>, other: Vector<'m>) -> bool {
-        self.wrenches[link.index()].forces.iter().any(|acting| is_close(acting.at, place, other))
+        let forces = &self.wrenches[link.index()].forces;
+        forces.iter().any(|acting| is_close(acting.at, place, other))
+            && forces.iter().all(|acting| is_shorter(acting.at - place, other - place))
     }
 
     /// Whether all forces on a link are known to act farther from one of its places than another one is.

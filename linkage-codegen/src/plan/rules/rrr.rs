@@ -256,6 +256,8 @@ struct Closing<'m> {
     of_angle: Option<OfAngle<'m>>,
     /// cos μ by the law of cosines, where by these lengths it is as good as that of the directions.
     cosine: Option<Expr<'m>>,
+    /// Whether one leg is so much shorter than the other one that its direction has the rounding of that.
+    unlike: bool,
     /// The sign of that root.
     sign: Sign<'m>,
     /// What must exceed what for `sin μ` to be more than rounding.
@@ -344,7 +346,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let [u1, u2] = directions;
     let sine = if closing.of_angle.is_some() {
         closing.k
-    } else if ratio_is_at_most(8, r1, r2) {
+    } else if !closing.unlike {
         name_sine(dyad, closing.k / (2 * (r1 * r2)), &format!("{}/{}", closing.root(name), dyad.area_name()))
     } else {
         // The direction of a much shorter link carries the rounding of the longer one, and forces balance along the directions as they
@@ -562,7 +564,8 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let root =
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
     let significant = vec![(p, p_rounding), (q, q_rounding)];
-    Closing { d, d2, sums: None, k: sign.of(root), of_angle: None, cosine: law_of_cosines(dyad, d2), sign, significant }
+    let (cosine, unlike) = (law_of_cosines(dyad, d2), !ratio_is_at_most(8, r1, r2));
+    Closing { d, d2, sums: None, k: sign.of(root), of_angle: None, cosine, unlike, sign, significant }
 }
 
 /// cos μ from the distance of the outer pins, which is known before the directions are. D²/(2 r₁ r₂) is at most 2¼ if no leg is more than twice
@@ -662,7 +665,9 @@ fn by_driven_length<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>, driven: 
     } else {
         [square + x.squared(), x.squared() - constant]
     };
-    Closing { d, d2, sums: Some(sums), k: sign.of(root), of_angle: None, cosine: None, sign, significant }
+    // The driven leg is at least as long as the two constants differ by.
+    let unlike = (least - 8 * other).sign() == Some(1);
+    Closing { d, d2, sums: Some(sums), k: sign.of(root), of_angle: None, cosine: None, unlike, sign, significant }
 }
 
 /// The least and the largest distance that constant parts of a way can make up.

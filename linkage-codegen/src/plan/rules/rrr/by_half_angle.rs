@@ -7,7 +7,7 @@
 //!
 //! Both constants are exact, and zero where the dyad folds with its driver: near such a fold the square alone is left, and nothing is lost.
 
-use super::{Closing, OfAngle, by_length, gap, lead_by_arms, name_sine};
+use super::{Closing, OfAngle, by_length, gap, lead_by_arms, name_sine, ratio_is_at_most};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Symbol, Vector};
@@ -57,6 +57,7 @@ pub(super) fn by_half_angle<'m>(
     let margins = opening.assembled(margins);
     let (root, equation) = opening.root(margins, smooth);
     let sign = side_sign(dyad, (closure, side), arms, folds)?;
+    let [r1, r2] = dyad.lengths();
     let (k, of_angle, cosine) = if opening.gives_sine {
         let equation = format!("{}{equation}", sign.text());
         (name_sine(dyad, sign.of(root), &equation), Some(opening.of_angle()), opening.cosine())
@@ -70,6 +71,7 @@ pub(super) fn by_half_angle<'m>(
         k,
         of_angle,
         cosine,
+        unlike: !ratio_is_at_most(8, r1, r2),
         sign,
         significant: opening.significant(margins),
     })
