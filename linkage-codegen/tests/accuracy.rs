@@ -8,7 +8,7 @@ use support::families::{
     shaper, single, slider_crank, slotted_crank, slotted_yoke, tangent_mechanism,
 };
 use support::linkages::{Class, Random};
-use support::measures::measure;
+use support::measures::{Measures, measure};
 use support::numbers::{Double, Single};
 use support::{Arguments, Number, compile, pose, scene};
 
@@ -308,6 +308,77 @@ fn a_load_far_out_on_a_short_boom() {
         vec![[29.912_719_681_365_218, 13.124_096_303_869_194], [25.872_027_197_046_833, -44.213_025_641_200_73]];
     let family = Family { text, longest: 1.014_963_269_233_703_6, drives, loads };
     assert!(check(std::iter::once(family), "a load far out on a short boom") > 25);
+}
+
+/// Two links that slide along each other, between pins a few millimetres apart; the slide is declared by a place far out on the one that nothing
+/// loads, whose arm there is what is left of a long travel. The small loaded one must not have the rounding of that.
+#[test]
+fn a_slide_far_from_an_unloaded_links_pin() {
+    let text = format!(
+        "pub mod sample; ground {{ O: (0, 0), P: (0.013m, 0.004m) }} link crank {{ O -> A: 0.0107m }}
+         link bit {{ A: (0, 0), S: (-0.0065m, -0.005m), L: (0.6154m, -0.3255m) }} link bar {{ P: (0, 0), S: (-1.428m, -0.991m) }}
+         revolute O: ground -> crank; revolute A: crank -> bit; revolute P: ground -> bar;
+         prismatic S: bit -> bar along 3.762rad of bar, angle -4.5186rad; drive theta: O; unknown T: torque(ground -> crank);
+         assemble S: ahead(A); load F: force(bit.L); {SCENES}"
+    );
+    let drives = (0..60).map(|step| -3.0 + 0.1 * f64::from(step)).collect();
+    let family = Family { text, longest: 1.738, drives, loads: vec![[46.794_661_329_063_36, 11.911_503_481_551_819]] };
+    assert!(check(std::iter::once(family), "a slide far from an unloaded link's pin") > 30);
+}
+
+/// A member of a triad on a resting pin, next to a pose where the group loses its hold: its load goes nearly through that pin, and must not have
+/// the rounding of velocities within the group, which are thousands of times as large as its own.
+#[test]
+fn a_load_on_a_slow_member_of_a_triad() {
+    let text = format!(
+        "pub mod sample; ground {{ J1: (-1.0845708847045898m, -1.3419924974441528m), J4: (2.0549514293670654m, -0.7982017397880554m),
+         J5: (1.8579635620117188m, 2.3185179233551025m) }}
+         link l2 {{ J1: (0, 0), J3: (-1.5593979358673096m, 2.0865886211395264m), p13: (-3.7673425674438477m, 1.2896945476531982m) }}
+         link l9 {{ J6 -> J7: 1.7518683671951294m, J8: (2.4517037868499756m, 0.9389231204986572m) }}
+         link l10 {{ J3 -> J6: 1.5364713668823242m }} link l12 {{ J5 -> J8: 0.8511312007904053m }}
+         link l11 {{ J4 -> J7: 1.617149829864502m, p14: (1.5024943351745605m, 0.12497469782829285m) }}
+         revolute J1: l2 -> ground; revolute J3: l2 -> l10; revolute J6: l9 -> l10; revolute J4: l11 -> ground; revolute J7: l11 -> l9;
+         revolute J5: l12 -> ground; revolute J8: l12 -> l9;
+         start l10: (1.4882261753082275m, -1.1793633699417114m), angle 2.754526138305664rad;
+         start l11: (2.034505605697632m, -0.8033512830734253m), angle 1.9939144849777222rad;
+         start l12: (1.8490991592407227m, 2.355830192565918m), angle -2.4992165565490723rad;
+         start l9: (0.06723402440547943m, -0.623344361782074m), angle 0.8141549825668335rad;
+         load Lp13: force(l2.p13); load Lp14: force(l11.p14); drive q0: J1; start q0: 2.1519646644592285rad; {SCENES}"
+    );
+    let drives = (-10..=10).map(|step| single(1.471_487_297_870_484_3 + 0.000_1 * f64::from(step))).collect();
+    let loads = vec![[-30.401_933_415_105_5, 1.353_407_014_477_996_4], [-7.561_746_851_432_48, 8.011_910_913_908_45]];
+    let family = Family { text, longest: 4.0, drives, loads };
+    assert!(check(std::iter::once(family), "a load on a slow member of a triad") > 5);
+}
+
+/// The poses that the page says are beyond a bar: by no more than it says, and they keep the other bars.
+#[test]
+fn triads_on_a_crank_of_millimetres() {
+    let text = format!(
+        "pub mod sample; ground {{ J1: (-0.6655423045158386m, -0.3496416211128235m), J4: (-0.6785668730735779m, -0.3496301770210266m),
+         J5: (0.7875091433525085m, -0.2575482726097107m) }}
+         link l2 {{ J1: (0, 0), J3: (-0.003436887636780739m, 0.0027365051209926605m) }}
+         link l9 {{ J6 -> J7: 1.8115129470825195m, J8: (-1.816433072090149m, 1.8614903688430786m), p14: (-1.6967494487762451m, 0.52959805727005m) }}
+         link l10 {{ J3 -> J6: 1.467642903327942m, p13: (1.4529074430465698m, 0.0026859119534492493m) }}
+         link l11 {{ J4 -> J7: 0.8727315068244934m }} link l12 {{ J5 -> J8: 2.5992214679718018m }}
+         revolute J1: ground -> l2; revolute J3: l10 -> l2; revolute J6: l10 -> l9; revolute J4: l11 -> ground; revolute J7: l9 -> l11;
+         revolute J5: l12 -> ground; revolute J8: l9 -> l12;
+         start l10: (-0.6697795987129211m, -0.3497580885887146m), angle 0.06621871143579483rad;
+         start l11: (-0.6781930923461914m, -0.3497658669948578m), angle 1.7684260606765747rad;
+         start l12: (0.7877975106239319m, -0.25773629546165466m), angle -1.2272173166275024rad;
+         start l9: (0.7943307757377625m, -0.2534019351005554m), angle 2.709007501602173rad;
+         load Lp13: force(l10.p13); load Lp14: force(l9.p14); drive q0: J1; start q0: 0.7851831912994385rad; {SCENES}"
+    );
+    let linkage = compile(&text);
+    let loads = vec![[-5.723_937_015_652_027, 37.990_243_346_193], [-20.576_402_351_749_167, 27.539_582_770_619_887]];
+    let measures = (-10..=10).map(|step| {
+        let drives = vec![single(0.735_183_210_118_815_9 + 0.000_1 * f64::from(step))];
+        let arguments = Arguments { drives, loads: loads.clone(), ..Arguments::default() };
+        measure::<Double>(&linkage, &arguments, 2.6, f64::EPSILON).expect("a regular pose")
+    });
+    let worst = measures.fold(Measures::default(), Measures::worst);
+    assert!(worst.torque > BARS.torque && worst.torque < 16.0, "{worst:?}");
+    Measures { torque: 0.0, ..worst }.assert_within(&BARS, "but for virtual work");
 }
 
 /// A parallelogram that a leg at one of its pins drives, next to its fold: two legs hold each other with 10⁷ times the loads, the third carries
