@@ -310,22 +310,6 @@ fn a_load_far_out_on_a_short_boom() {
     assert!(check(std::iter::once(family), "a load far out on a short boom") > 25);
 }
 
-/// Two links that slide along each other, between pins a few millimetres apart; the slide is declared by a place far out on the one that nothing
-/// loads, whose arm there is what is left of a long travel. The small loaded one must not have the rounding of that.
-#[test]
-fn a_slide_far_from_an_unloaded_links_pin() {
-    let text = format!(
-        "pub mod sample; ground {{ O: (0, 0), P: (0.013m, 0.004m) }} link crank {{ O -> A: 0.0107m }}
-         link bit {{ A: (0, 0), S: (-0.0065m, -0.005m), L: (0.6154m, -0.3255m) }} link bar {{ P: (0, 0), S: (-1.428m, -0.991m) }}
-         revolute O: ground -> crank; revolute A: crank -> bit; revolute P: ground -> bar;
-         prismatic S: bit -> bar along 3.762rad of bar, angle -4.5186rad; drive theta: O; unknown T: torque(ground -> crank);
-         assemble S: ahead(A); load F: force(bit.L); {SCENES}"
-    );
-    let drives = (0..60).map(|step| -3.0 + 0.1 * f64::from(step)).collect();
-    let family = Family { text, longest: 1.738, drives, loads: vec![[46.794_661_329_063_36, 11.911_503_481_551_819]] };
-    assert!(check(std::iter::once(family), "a slide far from an unloaded link's pin") > 30);
-}
-
 /// A member of a triad on a resting pin, next to a pose where the group loses its hold: its load goes nearly through that pin, and must not have
 /// the rounding of velocities within the group, which are thousands of times as large as its own.
 #[test]
