@@ -16,7 +16,7 @@ use crate::model::ids::{GROUND, JointId, LinkId, UnknownId};
 use crate::model::{End, JointKind, Model, arm_name};
 
 /// Two places of a link are close to each other if others are so many times as far away.
-pub(super) const CLOSE: i64 = 8;
+const CLOSE: i64 = 8;
 
 /// What acts on a link: forces and a couple.
 #[derive(Clone, Debug)]

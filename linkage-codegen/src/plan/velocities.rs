@@ -356,6 +356,7 @@ impl<'m, 'p> Motion<'m, 'p> {
         self.of_place_by(&self.nearest_twist(link, at), link, at)
     }
 
+    /// The motion of a link as that of the nearest such pin, or of the place for which it was found.
     fn nearest_twist(&self, link: LinkId, at: Vector<'m>) -> Twist<'m> {
         let own = self.twists[link.index()];
         if !self.solved[link.index()] || own.rate.is_zero() || own.velocity.components.is_zero() {
@@ -560,13 +561,14 @@ impl<'m, 'p> Motion<'m, 'p> {
     pub fn at_nearest_pins<'l>(&self, loads: &Balance<'m, 'l>) -> Balance<'m, 'l> {
         let (mut carried, mut given) = (loads.clone(), Vec::new());
         for link in self.model().moving_links() {
-            if let Some(pin) = self.pin_for_power(&carried, link, &given) {
+            let pins = self.simple_pins(link, &given);
+            if let Some(pin) = self.pin_for_power(&carried, link, &pins) {
                 carried.carry_over(pin, link);
                 given.push(link);
                 continue;
             }
             let own = self.twists[link.index()].at;
-            for pin in self.simple_pins(link, &given) {
+            for pin in pins {
                 let at = self.placement.slide_point(pin, link);
                 let known = !carried.is_free(self.other(pin, link));
                 let goes = |place| if known { is_close(place, at, own) } else { place == at && at != own };
@@ -578,15 +580,15 @@ impl<'m, 'p> Motion<'m, 'p> {
         carried
     }
 
-    /// The pin of a link at which the power of its loads is found best, if that is not where the link's own motion is.
+    /// The one of these pins of a link at which the power of its loads is found best, if that is not where the link's own motion is.
     ///
     /// What turning adds to the velocity of a far place may take most of it away again, and leave its rounding. So if all forces act nearer to
     /// another pin that moves in a simple way, as one of a link on the ground, they are carried there, to the link on its other side, and leave
     /// their moment about the pin. That link's motion has to be known for loads of its own; or the forces act at the pin itself, and no load
-    /// asks how this link turns. A link that has given its loads away, one of `given`, gets none back.
-    fn pin_for_power(&self, loads: &Balance<'m, '_>, link: LinkId, given: &[LinkId]) -> Option<JointId> {
+    /// asks how this link turns.
+    fn pin_for_power(&self, loads: &Balance<'m, '_>, link: LinkId, pins: &[JointId]) -> Option<JointId> {
         let own = self.twists[link.index()].at;
-        let nearest = self.simple_pins(link, given).into_iter().fold((own, None), |nearest, joint| {
+        let nearest = pins.iter().fold((own, None), |nearest, &joint| {
             let at = self.placement.slide_point(joint, link);
             let known = !loads.is_free(self.other(joint, link)) || loads.acts_only_at(link, at);
             if known && loads.all_act_nearer(link, at, nearest.0) { (at, Some(joint)) } else { nearest }
@@ -594,7 +596,8 @@ impl<'m, 'p> Motion<'m, 'p> {
         nearest.1
     }
 
-    /// The pins of a link that turns about no resting place which move in a simple way, but for those on links that get no loads.
+    /// The pins of a link that turns about no resting place which move in a simple way. A link that has given its loads away, one of `given`, gets
+    /// none back: no pin there.
     fn simple_pins(&self, link: LinkId, given: &[LinkId]) -> Vec<JointId> {
         let own = self.twists[link.index()];
         if own.rate.is_zero() || own.velocity.components.is_zero() {

@@ -16,7 +16,7 @@ use crate::graph::{Expr, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model};
 use crate::plan::assembly::Assembly;
-use crate::plan::balance::{Balance, CLOSE};
+use crate::plan::balance::{Balance, is_close};
 use crate::plan::efforts::{self, Unit};
 use crate::plan::framed::Framed;
 use crate::plan::linear::{CORE, Core, Equation, solve};
@@ -293,12 +293,9 @@ impl<'p, 'm> Parts<'p, 'm> {
         // Of several there the number of one on the ground is what the others leave: it does no work, and may be far larger than that of one
         // that the drive moves.
         let pins: Vec<Vector<'m>> = candidates.clone().map(|(_, pin, _)| self.place(pin, carrier)).collect();
-        let is_close = |pin: JointId| {
+        let has_close = |pin: JointId| {
             let at = self.place(pin, carrier);
-            let ways: Vec<Expr<'m>> =
-                pins.iter().filter(|other| **other != at).map(|other| (*other - at).squared()).collect();
-            let much_less = |way: &Expr<'m>, than: &Expr<'m>| (CLOSE * CLOSE * *way - *than).sign() == Some(-1);
-            ways.iter().any(|way| ways.iter().any(|than| much_less(way, than)))
+            pins.iter().any(|near| *near != at && pins.iter().any(|far| is_close(*near, at, *far)))
         };
         let rank = |(member, pin, _): &(&Member, JointId, Vector<'m>)| {
             let end = self.model.joint(*pin).end_on(carrier);
@@ -309,7 +306,7 @@ impl<'p, 'm> Parts<'p, 'm> {
                 (true, false) => 1,
                 (false, _) => 2,
             };
-            (!is_close(*pin), rank)
+            (!has_close(*pin), rank)
         };
         candidates.min_by_key(rank).map(|(_, pin, along)| (pin, along))
     }
@@ -566,59 +563,65 @@ impl Rule for Block {
                     |(_, velocity)| *velocity,
                 )
             };
-            follow_member(motion, &parts, member, [end(member.near), end(member.far)]);
+            let of_near = end(member.near);
+            if parts.is_slide(member.far) {
+                follow_slider(motion, &parts, member, of_near);
+            } else {
+                let twist = twist_of_rod(motion, &parts, member, [of_near, end(member.far)]);
+                motion.found(member.link, twist);
+            }
         }
         Ok(())
     }
 }
 
-/// The motion of a member from the velocities of the pins at its near end and at its far one.
-///
-/// Velocities within the group may be large, and leave their rounding in that of a slow link, which may be loaded where that tells. Where the
-/// far end is on a link that was found before, what that link does with a rod along it, with a slider across the slide, has none of that.
-fn follow_member<'m>(
-    motion: &mut Motion<'m, '_>,
+// Velocities within the group may be large, and leave their rounding in that of a slow member, which may be loaded where that tells. Where the
+// far end is on a link that was found before, what that link does with a rod along it, with a slider across the slide, has none of that.
+
+/// The motion of a rod from the velocities of the pins at its near end and at its far one.
+fn twist_of_rod<'m>(
+    motion: &Motion<'m, '_>,
     parts: &Parts<'_, 'm>,
     member: &Member,
     [of_near, of_far]: [Framed<'m>; 2],
-) {
+) -> Twist<'m> {
     let (link, name) = (member.link, &parts.model.link(member.link).name);
     let [near, far] = [member.near, member.far].map(|joint| parts.place(joint, link));
-    if parts.is_slide(member.far) {
-        let carried = motion.carried(member.far, link);
-        let rate = motion.named_rate(carried.rate, &name.text, "");
-        if member.within {
-            motion.found(link, Twist { rate, at: near, velocity: of_near });
-            return;
-        }
-        motion.found(link, Twist { rate, ..carried });
-        let (axes, guided) = (motion.placement.slide_direction(member.far), motion.of_place(link, near));
-        let [along, guided_along] = [of_near, guided].map(|velocity| motion.part(&velocity, axes));
-        let sliding = motion.named_sliding(along - guided_along, member.far, &name.text, "");
-        let along = if guided_along.is_zero() { sliding } else { along };
-        let components = Vector::new(along, motion.part(&guided, axes.perp()));
-        motion.found(link, Twist { rate, at: near, velocity: Framed { components, axes } });
-        motion.records(member.far, link, sliding);
-        return;
-    }
     let (length, axes) = parts.rod(member);
     // The far end's, and what a change of the rod adds to it.
-    let change = motion.within(link, near - far);
-    let far_and_change =
-        of_far.plus(&Framed { components: change, axes: motion.placement.direction(link) }, parts.ground());
+    let change = Framed { components: motion.within(link, near - far), axes: motion.placement.direction(link) };
+    let far_and_change = of_far.plus(&change, parts.ground());
     let gap = motion.difference(&of_near, &far_and_change);
     let rate = motion.named_rate(motion.part(&gap, axes.perp()) / length, &name.text, "");
-    let twist = if member.within {
-        Twist { rate, at: near, velocity: of_near }
-    } else if of_far.components.is_zero() {
-        Twist { rate, at: far, velocity: of_far }
-    } else {
-        motion.found(link, Twist { rate, at: far, velocity: of_far });
-        let along = motion.part(&far_and_change, axes) - motion.centripetal(link, length);
-        let components = Vector::new(along, motion.part(&of_near, axes.perp()));
-        Twist { rate, at: near, velocity: Framed { components, axes } }
-    };
-    motion.found(link, twist);
+    if member.within {
+        return Twist { rate, at: near, velocity: of_near };
+    }
+    if of_far.components.is_zero() {
+        return Twist { rate, at: far, velocity: of_far };
+    }
+    let along = motion.part(&far_and_change, axes) - motion.centripetal(link, length);
+    let components = Vector::new(along, motion.part(&of_near, axes.perp()));
+    Twist { rate, at: near, velocity: Framed { components, axes } }
+}
+
+/// The motion of a slider from the velocity of its pin, and how fast it slides.
+fn follow_slider<'m>(motion: &mut Motion<'m, '_>, parts: &Parts<'_, 'm>, member: &Member, of_near: Framed<'m>) {
+    let (link, name) = (member.link, &parts.model.link(member.link).name);
+    let at = parts.place(member.near, link);
+    let carried = motion.carried(member.far, link);
+    let rate = motion.named_rate(carried.rate, &name.text, "");
+    if member.within {
+        motion.found(link, Twist { rate, at, velocity: of_near });
+        return;
+    }
+    motion.found(link, Twist { rate, ..carried });
+    let (axes, guided) = (motion.placement.slide_direction(member.far), motion.of_place(link, at));
+    let [along, guided_along] = [of_near, guided].map(|velocity| motion.part(&velocity, axes));
+    let sliding = motion.named_sliding(along - guided_along, member.far, &name.text, "");
+    let along = if guided_along.is_zero() { sliding } else { along };
+    let components = Vector::new(along, motion.part(&guided, axes.perp()));
+    motion.found(link, Twist { rate, at, velocity: Framed { components, axes } });
+    motion.records(member.far, link, sliding);
 }
 
 /// The number of a free body or a pin that the core gives, as a named quantity: the components in which its motion is resolved, and of a

@@ -514,9 +514,9 @@ impl<'a> Dyad<'a> {
             balance.name(&format!("{}_across_{}", self.joint_name(joint), self.link_name(leg))),
             format!("the moments over |{} {}|", self.joint_name(leg.outer), self.joint_name(self.inner)),
         );
-        let mut loaded = inner.iter().filter(|link| !balance.is_free(**link)).peekable();
-        let is_within = loaded.peek().is_some() && loaded.all(|link| self.is_loaded_within(balance, leg, *link));
-        let about_outer = is_within.then(|| {
+        let tip = leg.tip.end.link;
+        let tip_alone = inner.iter().all(|link| *link == tip || balance.is_free(*link));
+        let about_outer = (tip_alone && self.is_loaded_within(balance, leg, tip)).then(|| {
             let moment = moments[0] + self.moment_on(balance, (leg, &inner), leg.near, balance.graph().one());
             moment * factor
         });
@@ -638,9 +638,19 @@ impl<'a> Dyad<'a> {
             return loads.plus(&force, balance.placement.direction(GROUND)).opposite();
         }
         let axes = self.direction(balance.placement, leg);
+        let (name, outer, inner) = (self.link_name(leg), self.joint_name(leg.outer), self.joint_name(self.inner));
+        let called = |part: Expr<'a>, way: &str, what: &str| {
+            part.named(
+                balance.name(&format!("{outer}_{way}_{name}")),
+                format!("{way} {name}, of the force on {name} at {outer}: {what}"),
+            )
+        };
         let [loads, force] = [loads, force].map(|force| force.along(axes).x);
+        let along =
+            called(-(loads + force), "along", &format!("−ΣF of the loads on {name} and of the force at {inner}"));
         let across = balance.moment(link, tip, graph.one() / self.length(leg));
-        Framed { components: Vector::new(-(loads + force), across), axes }
+        let across = called(across, "across", &format!("ΣM({inner})/|{outer} {inner}| of the loads on {name}"));
+        Framed { components: Vector::new(along, across), axes }
     }
 
     /// A force along and across a leg, along and across the direction of its first link.

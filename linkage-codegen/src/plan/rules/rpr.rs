@@ -103,8 +103,9 @@ impl Rule for Rpr {
         let spans =
             dyad.legs.each_ref().map(|leg| balance.placement.point(leg.tip) - balance.placement.point(leg.near));
         let other_is_free = free[1 - runner] && !free[runner];
-        let of_second = (runner == 1) != (other_is_free && !is_shorter(spans[runner], spans[1 - runner]));
-        let (leg, other, acting) = if of_second { (second, first, -across) } else { (first, second, across) };
+        let from_other = other_is_free && !is_shorter(spans[runner], spans[1 - runner]);
+        let from = if from_other { 1 - runner } else { runner };
+        let (leg, other, acting) = if from == 1 { (second, first, -across) } else { (first, second, across) };
         let loads = balance.total(leg.link());
         dyad.guide_inner(balance, leg, acting);
         if leg.is_single() {

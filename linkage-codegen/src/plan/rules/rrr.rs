@@ -24,7 +24,8 @@
 //! only, it is found of cos²(ψ/2) instead, which vanishes there, and nothing is lost beside the −1.
 //!
 //! Where a drive gives the length of one link, `r₁² = x² + y²` with a constant y, and D and r₂ are constants, the same four factors are
-//! taken together as `p = (D + r₂)² − r₁²`, `q = r₁² − (D − r₂)²`: there the constants fold.
+//! taken together as `p = (D + r₂)² − r₁²`, `q = r₁² − (D − r₂)²`: there the constants fold. The drive's line is turned from the leg by the
+//! constant y, and from the other leg by the sum of that angle and μ, whose sine and cosine follow from those of both.
 //!
 //! Forces, by the textbooks' resolution along and across the links: with `m₁`, `m₂` the moments of the loads about P and Q, the
 //! force F on the first link at B has across it `t = −m₁/r₁` and, from `u₂ × F = m₂/r₂`, along it `N = (t cos μ − m₂/r₂)/sin μ`. Where
