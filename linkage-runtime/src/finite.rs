@@ -61,8 +61,7 @@ pub(crate) use in_each;
 
 /// Whether something holds for all of some numbers: `$four` marks those of four for which it does not.
 ///
-/// More than two together, which takes fewer instructions; two each by itself, which is known sooner, in registers of their kind: one for
-/// integers, kept for this from the check of the angle on, would have to be saved.
+/// More than two together, which takes fewer instructions; two each by itself, which is known sooner.
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 macro_rules! in_fours {
     ($values:expr, $four:ident, $value:ident => $holds:expr) => {

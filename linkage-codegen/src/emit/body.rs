@@ -169,7 +169,8 @@ impl<'a> Body<'a> {
         });
         let statements = values.flat_map(|value| body.let_statements(value, &mut calls)).collect();
         let angles: BTreeSet<(Kernel, Vec<ValueId>)> = body.kernels().collect();
-        let angles = angles.into_iter().filter_map(|(kernel, args)| body.is_short(kernel, &args));
+        let angles = angles.into_iter().filter_map(|(kernel, args)| body.angle(kernel, &args));
+        let angles = angles.map(|angle| quote!(math::each_short(#angle)));
         // No angle is short that is not finite.
         let sines = body.program.steps.iter().filter_map(|step| match step {
             Step::Let(value) => Some(*value).filter(|value| body.is_sine(*value)),
@@ -217,18 +218,15 @@ impl<'a> Body<'a> {
         matches!(self.program.op(value), Some(Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_), .. }))
     }
 
-    /// The condition under which a sine and cosine need no branch.
-    fn is_short(&self, kernel: Kernel, args: &[ValueId]) -> Option<TokenStream> {
+    /// The angle that a sine and cosine reduce.
+    fn angle(&self, kernel: Kernel, args: &[ValueId]) -> Option<TokenStream> {
         let [angle] = args else { return None };
         match kernel {
-            Kernel::SinCos => {
-                let angle = self.value(*angle);
-                Some(quote!(math::is_short(#angle)))
-            }
+            Kernel::SinCos => Some(self.value(*angle)),
             Kernel::SinCosSum(phase) => {
                 let angle = self.code(*angle).within(Binding::Sum);
                 let (high, _) = split(&self.graph.number(phase), self.graph.scalar());
-                Some(quote!(math::is_short(#angle + #high)))
+                Some(quote!(#angle + #high))
             }
             _ => None,
         }
@@ -439,6 +437,7 @@ impl<'a> Body<'a> {
         let mut notes = Notes::default();
         let mut calls = self.calls();
         let mut statements = TokenStream::new();
+        let angles = self.program.angles();
         for step in &self.program.steps {
             let statement = match step {
                 Step::Let(value) => {
@@ -447,6 +446,7 @@ impl<'a> Body<'a> {
                     continue;
                 }
                 Step::Check { guard, weaker, .. } => self.check(guard, weaker.as_ref()),
+                Step::FiniteInput(value) if angles.contains(value) => self.finite_angle(*value),
                 Step::FiniteInput(value) => self.finite_input(*value),
                 Step::FiniteResults(checked) => self.finite_results(checked),
             };
@@ -582,8 +582,18 @@ impl<'a> Body<'a> {
 
     fn finite_input(&self, value: ValueId) -> TokenStream {
         let name = self.value(value);
-        let text = name.to_string();
-        quote!(if !#name.is_finite() { return Err(Error::NotFinite { what: #text }); })
+        self.asked(value, &quote!(#name.is_finite()))
+    }
+
+    /// The same of an angle: its sine, which asks whether it is short, need not ask again then.
+    fn finite_angle(&self, value: ValueId) -> TokenStream {
+        let name = self.value(value);
+        self.asked(value, &quote!(math::is_angle(#name)))
+    }
+
+    fn asked(&self, value: ValueId, is_finite: &TokenStream) -> TokenStream {
+        let text = self.value(value).to_string();
+        quote!(if !#is_finite { return Err(Error::NotFinite { what: #text }); })
     }
 
     /// What is asked where something fails, before that is told.
@@ -599,15 +609,14 @@ impl<'a> Body<'a> {
 
     /// The arguments that are looked at in place of results: angles of which a sine is taken, which asks whether they are short, and others.
     fn moderate(&self) -> (Vec<ValueId>, Vec<ValueId>) {
-        let sines = self.kernels().filter(|(kernel, _)| *kernel == Kernel::SinCos);
-        let angles: BTreeSet<ValueId> = sines.flat_map(|(_, args)| args).collect();
+        let angles = self.program.angles();
         self.program.moderate.iter().partition(|value| angles.contains(value))
     }
 
     fn finite_results(&self, checked: &[ValueId]) -> TokenStream {
         let values = self.array(checked);
         let (angles, others) = self.moderate();
-        let short = angles.into_iter().filter_map(|angle| self.is_short(Kernel::SinCos, &[angle]));
+        let short = angles.into_iter().map(|angle| self.value(angle)).map(|angle| quote!(math::is_short(#angle)));
         let others =
             (!others.is_empty()).then(|| self.array(&others)).map(|values| quote!(math::all_moderate(#values)));
         let moderate = match &short.chain(others).collect::<Vec<_>>()[..] {

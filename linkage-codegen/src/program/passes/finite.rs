@@ -40,15 +40,19 @@ pub(super) fn check_once(mut program: Program, graph: &Graph) -> Program {
 }
 
 /// An argument need not be asked where a checked result is not finite without it: the check of this result is made anyway.
+///
+/// An angle is asked first all the same, if it is not for the check of a pivot that it goes through: its sine asks whether it is short, so this
+/// costs nothing, and results need not be looked at for it.
 pub(super) fn ask_late(mut program: Program, _graph: &Graph) -> Program {
     let checked = program.steps.iter().filter_map(|step| match step {
         Step::FiniteResults(checked) => Some(checked),
         _ => None,
     });
     let shown = program.shown_by(checked.flatten().copied());
+    let (angles, refused) = (program.angles(), program.refused_by_checks());
     let (mut steps, mut late) = (core::mem::take(&mut program.steps), core::mem::take(&mut program.asked_late));
     steps.retain(|step| match step {
-        Step::FiniteInput(value) if shown.contains(value) => {
+        Step::FiniteInput(value) if shown.contains(value) && (refused.contains(value) || !angles.contains(value)) => {
             late.push(*value);
             false
         }
@@ -134,16 +138,34 @@ impl Program {
         self.inputs().filter(|(_, input)| is_meant(*input)).map(|(value, _)| value).collect()
     }
 
-    /// The arguments with which, if they are not finite, a check fails or they are asked first.
+    /// The values whose sine and cosine are taken as they are.
+    pub(crate) fn angles(&self) -> BTreeSet<ValueId> {
+        let angle = |step: &Step| match step {
+            Step::Let(value) => match self.op(*value) {
+                Some(Op::Kernel { kernel: Kernel::SinCos, args, .. }) => args.first().copied(),
+                _ => None,
+            },
+            _ => None,
+        };
+        self.steps.iter().filter_map(angle).collect()
+    }
+
+    /// The arguments with which, if they are not finite, a check of a pivot fails or they are asked first.
     fn refused(&self) -> BTreeSet<ValueId> {
-        let (mut refused, mut asked) = (BTreeSet::new(), Vec::new());
-        for step in &self.steps {
-            match step {
-                Step::Check { guard, .. } => asked.extend(guard.condition.operands()),
-                Step::FiniteInput(value) => drop(refused.insert(*value)),
-                Step::Let(_) | Step::FiniteResults(_) => {}
-            }
-        }
+        let mut refused = self.refused_by_checks();
+        refused.extend(self.steps.iter().filter_map(|step| match step {
+            Step::FiniteInput(value) => Some(*value),
+            _ => None,
+        }));
+        refused
+    }
+
+    /// The arguments with which, if they are not finite, a check of a pivot fails.
+    fn refused_by_checks(&self) -> BTreeSet<ValueId> {
+        let guards = self.steps.iter().filter_map(|step| match step {
+            Step::Check { guard, .. } => Some(guard.condition.operands()),
+            _ => None,
+        });
         // No number, which a sine of what is not finite is, stays none up to the check.
         let kept = |value: ValueId| match self.op(value) {
             Some(
@@ -151,7 +173,8 @@ impl Program {
             ) => op.operands(),
             _ => Vec::new(),
         };
-        for value in reached(asked, kept) {
+        let mut refused = BTreeSet::new();
+        for value in reached(guards.flatten(), kept) {
             if let Some(Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_), args, .. }) = self.op(value) {
                 refused.extend(args);
                 refused.extend(self.shown_by(args.iter().copied()));
