@@ -37,8 +37,8 @@ pub(crate) struct Competitor {
 
 /// A table of arguments and a function, whatever their types.
 trait Calls {
-    /// Goes through the table that often.
-    fn sweep(&mut self, times: u32, mode: Mode);
+    /// Goes through the table that often. Results are written to one of the places.
+    fn sweep(&mut self, times: u32, mode: Mode, place: usize);
     /// The results for every argument of the table.
     fn results(&self) -> Vec<Vec<f64>>;
     /// The length of the table.
@@ -48,24 +48,31 @@ trait Calls {
 /// The function is a pointer that the optimiser cannot see through: no competitor is inlined into the loop.
 struct Table<C, R> {
     cases: Vec<C>,
+    /// Where results are written, all over a page of memory.
+    places: Vec<R>,
     call: fn(&C, &mut R) -> bool,
 }
 
+/// What a processor tells addresses apart by before it knows all of them. A constant that is as far into a page as the results of the call
+/// before is taken for these and waits for them: with some competitor that happens wherever they are, with none in more than a few places.
+const PAGE: usize = 4096;
+
 impl<C: Chained, R: Results> Calls for Table<C, R> {
-    fn sweep(&mut self, times: u32, mode: Mode) {
+    fn sweep(&mut self, times: u32, mode: Mode, place: usize) {
         let call = black_box(if mode == Mode::Empty { |_: &C, _: &mut R| true } else { self.call });
         let zero = black_box(0.0);
-        let mut results = R::default();
+        let place = place % self.places.len();
+        let results = &mut self.places[place];
         let mut answers = true;
         for _ in 0..times {
             if mode == Mode::Chained {
                 for case in &mut self.cases {
                     case.depend(zero * results.last());
-                    answers &= call(case, black_box(&mut results));
+                    answers &= call(case, black_box(results));
                 }
             } else {
                 for case in &self.cases {
-                    answers &= call(case, black_box(&mut results));
+                    answers &= call(case, black_box(results));
                 }
             }
         }
@@ -94,24 +101,25 @@ impl Competitor {
         cases: Vec<C>,
         call: fn(&C, &mut R) -> bool,
     ) -> Self {
-        Self { method, errors, rounding: R::MISTAKE, calls: Box::new(Table { cases, call }) }
+        let places = vec![R::default(); PAGE.div_ceil(size_of::<R>())];
+        Self { method, errors, rounding: R::MISTAKE, calls: Box::new(Table { cases, places, call }) }
     }
 
     /// Goes through the table that often.
     pub(crate) fn sweep(&mut self, times: u32, mode: Mode) {
-        self.calls.sweep(times, mode);
+        self.calls.sweep(times, mode, 0);
     }
 
-    fn time(&mut self, sweeps: u32, mode: Mode) -> Duration {
+    fn time(&mut self, sweeps: u32, mode: Mode, place: usize) -> Duration {
         let start = Instant::now();
-        self.calls.sweep(sweeps, mode);
+        self.calls.sweep(sweeps, mode, place);
         start.elapsed()
     }
 
     /// As many sweeps as take the time.
     fn sweeps_for(&mut self, least: Duration, mode: Mode) -> u32 {
         let mut sweeps = 1;
-        while self.time(sweeps, mode) < least && sweeps < 1 << 20 {
+        while self.time(sweeps, mode, 0) < least && sweeps < 1 << 20 {
             sweeps *= 2;
         }
         sweeps
@@ -146,14 +154,14 @@ pub(crate) struct Timing {
     pub(crate) quartiles: (f64, f64),
 }
 
-/// Times all competitors of an item: A B C A B C …
+/// Times all competitors of an item: A B C A B C …, with results at another place in each round.
 pub(crate) fn measure(item: &mut Item, rounds: usize, least: Duration, mode: Mode) -> Vec<Timing> {
     let sweeps: Vec<u32> = item.competitors.iter_mut().map(|competitor| competitor.sweeps_for(least, mode)).collect();
     let mut times = vec![Vec::with_capacity(rounds); item.competitors.len()];
-    for _ in 0..rounds {
+    for round in 0..rounds {
         for ((competitor, sweeps), times) in item.competitors.iter_mut().zip(&sweeps).zip(&mut times) {
             let calls = f64::from(*sweeps) * f64::from(competitor.calls.length());
-            times.push(competitor.time(*sweeps, mode).as_secs_f64() * 1e9 / calls);
+            times.push(competitor.time(*sweeps, mode, round).as_secs_f64() * 1e9 / calls);
         }
     }
     times.iter().map(|own| timing(own, &times[0])).collect()

@@ -55,7 +55,7 @@ impl Rule for Rrp {
         close(assembly, group, &dyad)
     }
 
-    fn balance(&self, balance: &mut Balance<'_, '_>, group: &Group) -> RuleResult {
+    fn balance<'m>(&self, balance: &mut Balance<'m, '_>, group: &Group) -> RuleResult {
         let model = balance.model();
         let Some(dyad) = rod_and_slider(model, group) else { return Ok(()) };
         let [rod_leg, slider_leg] = &dyad.legs;
@@ -67,23 +67,34 @@ impl Rule for Rrp {
         let u = dyad.direction(balance.placement, rod_leg);
         let load = slider_leg.total(balance).along(e);
         let share = dyad.share(balance, rod_leg);
-        let of_force = format!("of the force on {rod} at {inner}");
-        let across = (-share.inner).named(
+        // The part across the slide is known last, and need not be negated where the pin's force has it as it is.
+        let (rod_end, slider_end) = (rod_leg.tip.end.link, slider_leg.tip.end.link);
+        let (reports_rod, normal) = (model.joint(dyad.inner).to.link == rod_end, e.perp());
+        let on_rod = match [normal.x.sign(), normal.y.sign()] {
+            [Some(0 | 1), Some(0 | 1)] => reports_rod,
+            [Some(-1 | 0), Some(-1 | 0)] => !reports_rod,
+            _ => true,
+        };
+        let of_force =
+            format!("of the force on {} at {inner}", model.link(if on_rod { rod_end } else { slider_end }).name);
+        let [sign, opposite] = if on_rod { ["", "−"] } else { ["−", ""] };
+        let reported = |on_rod_itself: Expr<'m>| if on_rod { on_rod_itself } else { -on_rod_itself };
+        let across = reported(-share.inner).named(
             balance.name(&format!("{inner}_across_{rod}")),
-            format!("across {rod}, {of_force}: −ΣM({outer})/|{outer} {inner}| of its loads"),
+            format!("across {rod}, {of_force}: {opposite}ΣM({outer})/|{outer} {inner}| of the loads on {rod}"),
         );
-        let along_slide = load.x.named(
+        let along_slide = reported(load.x).named(
             balance.name(&format!("{inner}_along_slide")),
-            format!("along the slide, {of_force}: ΣF of the loads on {slider}"),
+            format!("along the slide, {of_force}: {sign}ΣF of the loads on {slider}"),
         );
         let side = if across.is_zero() && along_slide.is_zero() {
             balance.graph().zero()
         } else {
             let cosine = balance.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
             let needed = across - along_slide * balance.pivots.sine(u, e);
-            let moment = format!("−ΣM({outer})/|{outer} {inner}| of the loads on {rod}");
+            let moment = format!("{opposite}ΣM({outer})/|{outer} {inner}| of the loads on {rod}");
             let across_rod = balance.called(across, &format!("{inner}_across_{rod}"), &moment);
-            let force = format!("ΣF of the loads on {slider} along the slide");
+            let force = format!("{sign}ΣF of the loads on {slider} along the slide");
             let along = balance.called(along_slide, &format!("{inner}_along_slide"), &force);
             let terms = difference([(across, across_rod), (along_slide, format!("{along} (u × e)"))]);
             (needed / cosine).named(
@@ -94,13 +105,13 @@ impl Rule for Rrp {
         let force = Framed { components: Vector::new(along_slide, side), axes: e };
         let loads = balance.total(rod_leg.link());
         // The pin puts its part on the slider, whose moments give the couple of the guide.
-        let force = balance.pin(dyad.inner, rod_leg.tip.end.link, force);
+        let force = balance.pin(dyad.inner, rod_end, if on_rod { force } else { force.opposite() });
         dyad.balance_shared(balance, (rod_leg, &share), force, loads)?;
         if !slider_leg.is_single() {
             return dyad.balance_rest(balance, slider_leg);
         }
-        let pin = balance.placement.point(slider_leg.tip);
-        super::slide::guide(balance, slide, slider_leg.link(), load.y - side, pin);
+        let at = balance.placement.point(slider_leg.tip);
+        super::slide::guide(balance, slide, slider_leg.link(), load.y - reported(side), at);
         Ok(())
     }
 
