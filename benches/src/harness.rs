@@ -53,8 +53,8 @@ struct Table<C, R> {
     call: fn(&C, &mut R) -> bool,
 }
 
-/// What a processor tells addresses apart by before it knows all of them. A constant that is as far into a page as the results of the call
-/// before is taken for these and waits for them: with some competitor that happens wherever they are, with none in more than a few places.
+/// A processor may tell addresses apart by their place in a page before it knows all of them. A constant with the place of the results of the
+/// call before is taken for these and waits for them: at some places that slows a competitor down, at most it does not.
 const PAGE: usize = 4096;
 
 impl<C: Chained, R: Results> Calls for Table<C, R> {

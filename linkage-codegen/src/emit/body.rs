@@ -582,18 +582,13 @@ impl<'a> Body<'a> {
 
     fn finite_input(&self, value: ValueId) -> TokenStream {
         let name = self.value(value);
-        self.asked(value, &quote!(#name.is_finite()))
+        asked(&name, &quote!(#name.is_finite()))
     }
 
     /// The same of an angle: its sine, which asks whether it is short, need not ask again then.
     fn finite_angle(&self, value: ValueId) -> TokenStream {
         let name = self.value(value);
-        self.asked(value, &quote!(math::is_angle(#name)))
-    }
-
-    fn asked(&self, value: ValueId, is_finite: &TokenStream) -> TokenStream {
-        let text = self.value(value).to_string();
-        quote!(if !#is_finite { return Err(Error::NotFinite { what: #text }); })
+        asked(&name, &quote!(math::is_angle(#name)))
     }
 
     /// What is asked where something fails, before that is told.
@@ -628,6 +623,12 @@ impl<'a> Body<'a> {
         let late = self.asked_late();
         quote!(if #moderate !math::all_finite(#values) { #late return Err(Error::NotFinite { what: #what }); })
     }
+}
+
+/// Refuses an argument that is not finite.
+fn asked(name: &TokenStream, is_finite: &TokenStream) -> TokenStream {
+    let text = name.to_string();
+    quote!(if !#is_finite { return Err(Error::NotFinite { what: #text }); })
 }
 
 /// The wanted name, or with a number the first of that kind that is not used yet.

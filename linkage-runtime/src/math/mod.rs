@@ -50,6 +50,53 @@ macro_rules! by_quadrant {
     };
 }
 
+/// Whether the short reduction serves for an angle: up to `FAST`, and not for what is no number.
+macro_rules! short_angles {
+    ($scalar:ident) => {
+        /// Whether the short reduction serves for an angle.
+        ///
+        /// As integers, whose units have nothing else to do; and where floating point is software, a comparison of such numbers would be a call.
+        #[doc(hidden)]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
+        #[must_use]
+        pub fn is_short(x: $scalar) -> bool {
+            x.abs().to_bits() <= FAST.to_bits()
+        }
+
+        /// Whether it serves for half of an angle.
+        #[inline]
+        pub(super) fn is_short_half(x: $scalar) -> bool {
+            x.abs().to_bits() <= (2.0 * FAST).to_bits()
+        }
+
+        /// The same as `is_short` for loops that are vectorised, which look at several positions at once.
+        #[doc(hidden)]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "for loops that are vectorised")]
+        #[must_use]
+        pub fn each_short(x: $scalar) -> bool {
+            x.abs() <= FAST
+        }
+
+        /// Whether an angle is finite. Behind this its sine need not ask again whether it is short.
+        #[doc(hidden)]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
+        #[must_use]
+        pub fn is_angle(x: $scalar) -> bool {
+            is_short(x) || large_is_finite(x)
+        }
+
+        /// Out of line, so that it is not worked out beside the other question.
+        #[cold]
+        #[inline(never)]
+        fn large_is_finite(x: $scalar) -> bool {
+            x.is_finite()
+        }
+    };
+}
+
 /// Sine and cosine without a branch, in two parts: for angles for which the short reduction serves; elsewhere the numbers mean nothing. Loops
 /// over angles keep what lies between, so that the operations of the second part do not wait for those of the first.
 macro_rules! short_sines {

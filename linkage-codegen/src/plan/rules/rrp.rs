@@ -79,10 +79,9 @@ impl Rule for Rrp {
             format!("of the force on {} at {inner}", model.link(if on_rod { rod_end } else { slider_end }).name);
         let [sign, opposite] = if on_rod { ["", "−"] } else { ["−", ""] };
         let reported = |on_rod_itself: Expr<'m>| if on_rod { on_rod_itself } else { -on_rod_itself };
-        let across = reported(-share.inner).named(
-            balance.name(&format!("{inner}_across_{rod}")),
-            format!("across {rod}, {of_force}: {opposite}ΣM({outer})/|{outer} {inner}| of the loads on {rod}"),
-        );
+        let moment = format!("{opposite}ΣM({outer})/|{outer} {inner}| of the loads on {rod}");
+        let across = reported(-share.inner)
+            .named(balance.name(&format!("{inner}_across_{rod}")), format!("across {rod}, {of_force}: {moment}"));
         let along_slide = reported(load.x).named(
             balance.name(&format!("{inner}_along_slide")),
             format!("along the slide, {of_force}: {sign}ΣF of the loads on {slider}"),
@@ -92,7 +91,6 @@ impl Rule for Rrp {
         } else {
             let cosine = balance.pivots.dividing_cosine(u, e, u.graph().one(), &dyad.pivot_name(), &dyad.group_name());
             let needed = across - along_slide * balance.pivots.sine(u, e);
-            let moment = format!("{opposite}ΣM({outer})/|{outer} {inner}| of the loads on {rod}");
             let across_rod = balance.called(across, &format!("{inner}_across_{rod}"), &moment);
             let force = format!("{sign}ΣF of the loads on {slider} along the slide");
             let along = balance.called(along_slide, &format!("{inner}_along_slide"), &force);

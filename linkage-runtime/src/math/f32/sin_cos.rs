@@ -84,48 +84,7 @@ fn large_sin_cos_sum(x: f32, hi: f32, lo: f32) -> (f32, f32) {
     reduce_large_sum(x, hi, lo).sin_cos()
 }
 
-/// Whether the short reduction serves for an angle: not for what is no number.
-///
-/// As integers, whose units have nothing else to do; and where floating point is software, a comparison of such numbers would be a call.
-#[doc(hidden)]
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "as `sin_cos`")]
-#[must_use]
-pub fn is_short(x: f32) -> bool {
-    x.abs().to_bits() <= FAST.to_bits()
-}
-
-/// Whether an angle is finite. Behind this its sine need not ask again whether it is short.
-#[doc(hidden)]
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "as `sin_cos`")]
-#[must_use]
-pub fn is_angle(x: f32) -> bool {
-    is_short(x) || large_is_finite(x)
-}
-
-/// Out of line, so that it is not worked out beside the other question.
-#[cold]
-#[inline(never)]
-fn large_is_finite(x: f32) -> bool {
-    x.is_finite()
-}
-
-/// Whether it serves for half of an angle.
-#[inline]
-pub(super) fn is_short_half(x: f32) -> bool {
-    x.abs().to_bits() <= (2.0 * FAST).to_bits()
-}
-
-/// Whether it serves for an angle, for loops that are vectorised, which look at several positions at once.
-#[doc(hidden)]
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "for loops that are vectorised")]
-#[must_use]
-pub fn each_short(x: f32) -> bool {
-    x.abs() <= FAST
-}
-
+short_angles!(f32);
 short_sines!(f32, sin_cos);
 
 /// a + b as a rounded sum and its error, exactly.

@@ -115,48 +115,7 @@ fn of(reduced: Reduced) -> (f64, f64) {
     reduced.one_by_one()
 }
 
-/// Whether the short reduction serves for an angle: not for what is no number.
-///
-/// As integers, whose units have nothing else to do; and where floating point is software, a comparison of such numbers would be a call.
-#[doc(hidden)]
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "as `sin_cos`")]
-#[must_use]
-pub fn is_short(x: f64) -> bool {
-    x.abs().to_bits() <= FAST.to_bits()
-}
-
-/// Whether an angle is finite. Behind this its sine need not ask again whether it is short.
-#[doc(hidden)]
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "as `sin_cos`")]
-#[must_use]
-pub fn is_angle(x: f64) -> bool {
-    is_short(x) || large_is_finite(x)
-}
-
-/// Out of line, so that it is not worked out beside the other question.
-#[cold]
-#[inline(never)]
-fn large_is_finite(x: f64) -> bool {
-    x.is_finite()
-}
-
-/// Whether it serves for half of an angle.
-#[inline]
-pub(super) fn is_short_half(x: f64) -> bool {
-    x.abs().to_bits() <= (2.0 * FAST).to_bits()
-}
-
-/// Whether it serves for an angle, for loops that are vectorised, which look at several positions at once.
-#[doc(hidden)]
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "for loops that are vectorised")]
-#[must_use]
-pub fn each_short(x: f64) -> bool {
-    x.abs() <= FAST
-}
-
+short_angles!(f64);
 short_sines!(f64, one_by_one);
 
 /// a + b as a rounded sum and its error, exactly.
