@@ -6,14 +6,14 @@
 //! just stress
 //! ```
 //!
-//! with 10⁶ random poses of four-bars and slider-cranks, and 10⁴ of each other kind and of any in fused arithmetic; with 100 members of a
-//! kind in each family, 50 in fused arithmetic; of 6, 8, and of NaN and infinities with 20 and 10, at the ends of motions with the same 100.
-//! Bounds are looked at in every fourth member, and members are drawn until 30 poses have some. Of regular poses one in a hundred may be
-//! refused in doubles, one in five in single precision, down to pivots at which rounding leaves digits: 10⁻⁷ and 10⁻²·⁵; of blocks with a loop
-//! that folds one in twenty, as an iteration may come past a change point in many digits and not in few.
-//! Of the bounds there one in a hundred may say that nothing is known; in 4 in single precision one in twenty; in 1, 2 and 3, whose pivots are about what they are said to be, one in eight, in single precision one in four, and
-//! so many in 9, where legs may be 10⁻⁴ from meeting in a point. With links shorter by 10ⁿ than others a pose is told as beside a pivot of
-//! 10⁻ⁿᐟ².
+//! with 10⁶ random poses of four-bars and slider-cranks, and 10⁴ of each other kind and of any in fused arithmetic; with 100 members of a kind in
+//! each family, 50 in fused arithmetic; of 6, 8, and of NaN and infinities with 20 and 10, at the ends of motions with the same 100. Bounds are
+//! looked at in every fourth member, and members are drawn until 30 poses have some; in the reduced size in every member until 8 have, and a median
+//! of less than 30 poses is not judged. Of regular poses one in a hundred may be refused in doubles, one in five in single precision, down to pivots
+//! at which rounding leaves digits: 10⁻⁷ and 10⁻²·⁵; of blocks with a loop that folds one in twenty, as an iteration may come past a change point in
+//! many digits and not in few. Of the bounds there one in a hundred may say that nothing is known; in 4 in single precision one in twenty; in 1, 2
+//! and 3, whose pivots are about what they are said to be, one in eight, in single precision one in four, and so many in 9, where legs may be 10⁻⁴
+//! from meeting in a point. With links shorter by 10ⁿ than others a pose is told as beside a pivot of 10⁻ⁿᐟ².
 //! It prints, for each kind and family, the worst measure as a part of its bar, the median of bound over error, and how many bounds say
 //! nothing. Members are drawn until as many as are asked for have poses in either scalar: a kind without poses in a family that is its own by
 //! the table fails. The bars are `BARS` of `support/families.rs`, the measures explained in `support/measures.rs`.
@@ -986,7 +986,7 @@ fn share(measures: &Measures) -> (f64, &'static str) {
     all.into_iter().fold((0.0, ""), |worst, one| if one.0 > worst.0 { one } else { worst })
 }
 
-/// Of how many poses a median is at least: the results of one pose often share one error.
+/// Of how many poses a median of bounds over errors is judged: the results of one pose often share one error.
 const ENOUGH: usize = 30;
 
 /// Errors of forces grow as ε/pivot². How far above them bounds are is judged where this is small: in doubles down to pivots of 10⁻⁷, the
@@ -1034,7 +1034,7 @@ impl Cell {
     }
 
     fn is_full(&self, size: &Size) -> bool {
-        self.poses >= size.poses && self.bounded >= ENOUGH
+        self.poses >= size.poses && self.bounded >= size.with_bounds
     }
 
     /// Its part of a line, and what is beyond its bar; of its regular poses one in so many may be refused, of their bounds one in so many be
@@ -1051,7 +1051,8 @@ impl Cell {
             self.bounds
         );
         let beyond = self.example.filter(|(share, _)| *share > 1.0).map(|(_, example)| example);
-        let loose = (median > LOOSEST).then(|| format!("bounds are too far from errors: {median}"));
+        let loose =
+            (median > LOOSEST && self.bounded >= ENOUGH).then(|| format!("bounds are too far from errors: {median}"));
         // Of few poses two: those of one linkage are refused together.
         let allowed = ((self.answered + self.refused) / one_in).max(2);
         let refused = (self.refused > allowed)
@@ -1063,18 +1064,32 @@ impl Cell {
 }
 
 /// How much of each family.
+#[derive(Clone, Copy)]
 struct Size {
     /// Members that have poses in both scalars.
     members: usize,
-    /// Poses in each scalar.
+    /// Random poses in each scalar, beside those of the families.
     poses: usize,
-    /// Each of how many members has its bounds looked at: all, or each fourth at full size.
+    /// Each of how many members has its bounds looked at.
     bounded: usize,
+    /// Poses with bounds in each scalar.
+    with_bounds: usize,
     /// Whether products are added without being rounded.
     fused: bool,
 }
 
 impl Size {
+    const REDUCED: Self = Self { members: 2, poses: 0, bounded: 1, with_bounds: 8, fused: false };
+
+    const fn full(poses: usize) -> Self {
+        Self { members: 100, poses, bounded: 4, with_bounds: ENOUGH, fused: false }
+    }
+
+    /// As much in fused arithmetic as suffices beside this.
+    fn fused(self) -> Self {
+        Self { members: self.members.div_ceil(2), poses: self.poses.min(10_000), fused: true, ..self }
+    }
+
     /// Draws members until there are as many as are asked for, and enough of them for a median, in both scalars.
     fn filled(&self, what: &str, mut make: impl FnMut() -> Vec<Poses>) -> (Cell, Cell) {
         let (mut double, mut single) = (Cell::default(), Cell::default());
@@ -1101,9 +1116,9 @@ impl Size {
 }
 
 /// All families of a kind, and as many random poses as are asked for.
-fn run(kind: &Kind, members: usize, random_poses: usize, bounded: usize, fused: bool) {
+fn run(kind: &Kind, size: Size) {
     let mut beyond = String::new();
-    let kind_name = if fused { format!("{}, fused", kind.name) } else { kind.name.to_owned() };
+    let kind_name = if size.fused { format!("{}, fused", kind.name) } else { kind.name.to_owned() };
     let mut add = |family: &str, unknown: Unknown, (double, single): (Cell, Cell)| {
         // Beyond a change point, where the branches of a loop cross, no motion leads to a pose, but an iteration in many digits may come past.
         let crosses = family == FOLDS && kind.is_by_places() && !kind.is_cascade();
@@ -1119,17 +1134,17 @@ fn run(kind: &Kind, members: usize, random_poses: usize, bounded: usize, fused: 
     for (number, Hard { name, of, make, unknown }) in (0..).zip(&FAMILIES) {
         if of(kind) {
             let mut random = Random(number);
-            let size = Size { members, poses: 1, bounded, fused };
+            let size = Size { poses: 1, ..size };
             add(name, *unknown, size.filled(&[&kind_name, ", ", name].concat(), || make(kind, &mut random)));
         }
     }
-    if random_poses > 0 {
+    if size.poses > 0 {
         let mut random = Random(77);
-        let size = Size { members: 1, poses: random_poses, bounded, fused };
+        let size = Size { members: 1, ..size };
         let cells = size.filled(&kind_name, || {
             let member = kind.drawn(&mut random);
             // Of very many poses each linkage has more: compiling it takes as long as measuring a hundred.
-            let drives = member.drives(&mut random, if random_poses > 100_000 { 200 } else { 40 });
+            let drives = member.drives(&mut random, if size.poses > 100_000 { 200 } else { 40 });
             vec![member.poses(drives)]
         });
         add("random, many", REGULAR, cells);
@@ -1498,14 +1513,14 @@ macro_rules! kinds {
         mod quick {$(
             #[test]
             fn $name() {
-                super::all(&super::KINDS[$index], 2, 0, 1);
+                super::all(&super::KINDS[$index], super::Size::REDUCED);
             }
         )*}
         mod long {$(
             #[test]
             #[ignore = "long"]
             fn $name() {
-                super::all(&super::KINDS[$index], 100, $random, 4);
+                super::all(&super::KINDS[$index], super::Size::full($random));
             }
         )*}
     };
@@ -1519,14 +1534,12 @@ fn each_by_itself<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     not_finite::<T>(kind, members.div_ceil(5), fused);
 }
 
-fn all(kind: &Kind, members: usize, random_poses: usize, bounded: usize) {
-    ends(kind, members);
-    for (fused, members, random_poses) in
-        [(false, members, random_poses), (true, members.div_ceil(2), random_poses.min(10_000))]
-    {
-        each_by_itself::<Double>(kind, members, fused);
-        each_by_itself::<Single>(kind, members, fused);
-        run(kind, members, random_poses, bounded, fused);
+fn all(kind: &Kind, size: Size) {
+    ends(kind, size.members);
+    for size in [size, size.fused()] {
+        each_by_itself::<Double>(kind, size.members, size.fused);
+        each_by_itself::<Single>(kind, size.members, size.fused);
+        run(kind, size);
     }
 }
 
