@@ -16,8 +16,8 @@ long:
     cargo test --release --workspace --exclude linkage-compile-fail --all-features --tests --no-fail-fast -- --ignored
 
 # Of these the stress suite: every kind of group in every family of hard poses, with a table of the worst found.
-stress *arguments:
-    cargo test --release --package linkage-codegen --test stress -- --ignored --nocapture {{arguments}}
+stress kind="":
+    cargo test --release --package linkage-codegen --test all stress::long::{{kind}} -- --ignored --nocapture
 
 # Looks at snapshots that have changed, and accepts or refuses them (`cargo install cargo-insta`).
 review:

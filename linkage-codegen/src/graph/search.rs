@@ -513,7 +513,9 @@ impl<T: Real> Newton<T> {
             Mode::Walks | Mode::Closes | Mode::GivesUp => return None,
         }
         self.ahead = self.behind.add(&self.stride);
-        if self.mode == Mode::Walks && (self.strides == 0 || self.behind.at_least(&self.ahead)) {
+        // Numbers of many bits tell apart what no scalar does: for them a stride is lost where it is 2⁻⁶⁴ of the way behind.
+        let lost = self.behind.at_least(&self.ahead) || self.behind.mul(&power(-64)).at_least(&self.stride);
+        if self.mode == Mode::Walks && (self.strides == 0 || lost) {
             self.mode = Mode::GivesUp;
         }
         self.strides = self.strides.wrapping_sub(1);

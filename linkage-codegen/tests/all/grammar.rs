@@ -1,0 +1,66 @@
+//! The examples of the grammar page are what the parser reads.
+
+use linkage_codegen::diagnostics::{Diagnostic, Sink};
+use linkage_codegen::syntax;
+
+const PAGE: &str = include_str!("../../../docs/grammar.md");
+
+/// The blocks of examples; rules have `:=`.
+fn examples() -> Vec<String> {
+    let blocks = PAGE.split("```text\n").skip(1).filter_map(|rest| rest.split("```").next());
+    blocks.filter(|block| !block.contains(":=")).map(str::to_owned).collect()
+}
+
+/// The declaration that a block shows, or one of its items.
+fn declaration(block: &str) -> String {
+    match block.split_once("linkage! {") {
+        Some((_, inner)) => inner.trim_end().trim_end_matches('}').to_owned(),
+        None => format!("mod example; {block}"),
+    }
+}
+
+#[test]
+fn every_example_is_read() {
+    let examples = examples();
+    assert!(examples.len() >= 8, "{} examples", examples.len());
+    for example in examples {
+        let sink = Sink::default();
+        let tokens = declaration(&example).parse().unwrap_or_else(|error| panic!("{error}\n{example}"));
+        let ast = syntax::parse(tokens, &sink);
+        let errors = sink.into_errors();
+        let messages: Vec<&str> = errors.iter().map(Diagnostic::message).collect();
+        assert!(ast.is_some() && messages.is_empty(), "{}\n{example}", messages.join("\n"));
+    }
+}
+
+/// Every word that a rule sets in `code` and that begins an item has an example.
+#[test]
+fn every_item_has_an_example() {
+    let items = [
+        "units",
+        "scalar",
+        "arithmetic",
+        "crate",
+        "emit",
+        "param",
+        "ground",
+        "link",
+        "mass",
+        "revolute",
+        "prismatic",
+        "slot",
+        "weld",
+        "gear",
+        "drive",
+        "assemble",
+        "start",
+        "unknown",
+        "load",
+        "scene",
+    ];
+    let shown = examples().concat();
+    for item in items {
+        let begins = shown.lines().any(|line| line.trim_start().starts_with(&format!("{item} ")));
+        assert!(begins, "`{item}` has no example");
+    }
+}
