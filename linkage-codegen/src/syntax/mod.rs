@@ -34,7 +34,7 @@ const LENGTH: usize = 4096;
 pub(crate) const JOINTS: [&str; 5] = ["revolute", "prismatic", "slot", "weld", "gear"];
 
 /// The words that begin an item.
-const ITEMS: [&str; 20] = [
+pub const ITEMS: [&str; 20] = [
     "units",
     "scalar",
     "arithmetic",

@@ -1,6 +1,8 @@
 //! The families of poses that break weak implementations.
 
-use crate::support::families::{Family, SCENES, boom, check, length, loads, single, slider_crank, tangent_mechanism};
+use crate::support::families::{
+    BARS, Family, SCENES, boom, check, length, loads, single, slider_crank, tangent_mechanism, worst,
+};
 use crate::support::linkages::{Random, in_single_precision};
 use crate::support::measures::from_kept;
 use crate::support::numbers::{Double, Extended, Single};
@@ -141,8 +143,8 @@ fn links_of_very_different_lengths() {
     let (near, far): (Vec<_>, Vec<_>) = singles.by_ref().enumerate().partition(|(index, _)| *index < 6);
     assert!(check(near.into_iter().map(|(_, family)| family), "ratios up to 10⁴") > 20);
     for (_, family) in far {
-        let (worst, _) = crate::support::families::worst::<Double>(&family, "f64", f64::EPSILON);
-        worst.assert_within(&crate::support::families::BARS, "ratios up to 10⁸");
+        let (worst, _) = worst::<Double>(&family, "f64", f64::EPSILON);
+        worst.assert_within(&BARS, "ratios up to 10⁸");
     }
 }
 

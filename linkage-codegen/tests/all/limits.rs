@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
+use crate::support::examples::declaration;
 use crate::support::linkages::Random;
 use crate::support::numbers::Double;
 use crate::support::{Arguments, compile, compile_if_it_closes, scene};
@@ -584,7 +585,7 @@ fn constants_are_exact_to_the_last_bit() {
 /// METU 6.3: 80 + 140 = 100 + 120, so that it folds at 180°, exactly.
 #[test]
 fn the_seed_example_is_at_its_change_point() {
-    let declaration = crate::support::examples::declaration("four_bar");
+    let declaration = declaration("four_bar");
     let linkage = linkage_codegen::analyse(declaration).unwrap_or_else(|refusal| panic!("{:?}", refusal.errors));
     let [found] = linkage.limits.loops.as_slice() else { panic!("{:?}", linkage.limits) };
     let known = known(found);

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use crate::support::general::{Coordinates, residuals_at};
 use crate::support::linkages::{Kind, Random, sample_with_search};
+use crate::support::measures::from_kept;
 use crate::support::numbers::{Double, Extended, Single};
 use crate::support::{Arguments, Number, compile, index_of, moved, pose};
 use linkage_codegen::Linkage;
@@ -237,7 +238,7 @@ fn near_singular_poses_are_refused_or_close() {
                     "{closure:e} {unit:e} at {q}"
                 );
                 here = next;
-                let scene = crate::support::measures::from_kept::<Double>(&linkage, "all", &here, &at(q));
+                let scene = from_kept::<Double>(&linkage, "all", &here, &at(q));
                 match scene {
                     Ok(values) => assert!(values.values().all(|value| value.0.is_finite())),
                     Err(fault) => assert!(matches!(fault, Fault::Failed(Failure::DeadCentre { .. })), "{fault:?}"),
