@@ -3,13 +3,12 @@
 use std::process::{Command, Stdio};
 
 use crate::harness::Mode;
-use crate::items::{Extent, Item, all};
+use crate::items::{Extent, chosen};
 
 /// Goes through an item's table with one competitor; what callgrind watches.
 pub(crate) fn once(id: &str, method: &str, sweeps: u32, mode: Mode) -> Result<(), String> {
-    let mut items = all(EXTENT);
-    let item = items.iter_mut().find(|item| item.id == id).ok_or_else(|| format!("no item is called {id}"))?;
-    let mut competitors = item.competitors.iter_mut();
+    let mut items = chosen(EXTENT, &[id])?;
+    let mut competitors = items.iter_mut().flat_map(|item| &mut item.competitors);
     let competitor =
         competitors.find(|competitor| competitor.method == method).ok_or_else(|| format!("{id} has no {method}"))?;
     competitor.sweep(sweeps, mode);
@@ -23,12 +22,12 @@ const POSES: u32 = 512;
 const EXTENT: Extent = Extent { timed: POSES, judged: false, shuffled: false, single: false };
 
 /// Prints the instructions of one call of every competitor, the loop around it taken off.
-pub(crate) fn print(chosen: impl Fn(&Item) -> bool) -> Result<(), String> {
+pub(crate) fn print(ids: &[&str]) -> Result<(), String> {
     let version = Command::new("valgrind").arg("--version").stdin(Stdio::null()).output();
     if !version.is_ok_and(|version| version.status.success()) {
         return Err("--instructions counts by callgrind: install `valgrind`".into());
     }
-    for item in all(EXTENT).iter().filter(|item| chosen(item)) {
+    for item in &chosen(EXTENT, ids)? {
         println!("\n{}  {}", item.id, item.title);
         println!("  {:<28} {:>12}", "", "instructions");
         for competitor in &item.competitors {

@@ -21,7 +21,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use crate::harness::{Mode, Timing, agree, measure};
-use crate::items::{Extent, Item};
+use crate::items::{Extent, Item, chosen};
 
 /// What the command line can be; `--once` is how `--instructions` calls this program again.
 const USAGE: &str = "\
@@ -62,16 +62,22 @@ fn run(arguments: &[String]) -> Result<(), String> {
         arguments.drain(..2);
     }
     let (options, ids): (Vec<&str>, Vec<&str>) = arguments.into_iter().partition(|argument| argument.starts_with("--"));
-    if options.iter().any(|option| {
-        !["--quick", "--chained", "--shuffled", "--instructions", "--sweeps", "--expansion", "--pareto"]
-            .contains(option)
-    }) {
+    let has = |option| options.contains(&option);
+    let apart: Vec<&str> =
+        ["--instructions", "--sweeps", "--expansion", "--pareto"].into_iter().filter(|option| has(option)).collect();
+    // With which other options each goes, and how many items or files it takes.
+    let (with, most): (&[&str], usize) = match apart.as_slice() {
+        [] => (&["--quick", "--chained", "--shuffled"], usize::MAX),
+        ["--instructions"] => (&[], usize::MAX),
+        ["--pareto"] => (&["--quick"], 1),
+        ["--sweeps" | "--expansion"] => (&["--quick"], 0),
+        _ => return Err(USAGE.into()),
+    };
+    if ids.len() > most || !options.iter().all(|option| with.contains(option) || apart.contains(option)) {
         return Err(USAGE.into());
     }
-    let has = |option| options.contains(&option);
-    let chosen = |item: &Item| ids.is_empty() || ids.contains(&item.id);
     if has("--instructions") {
-        return instructions::print(chosen);
+        return instructions::print(&ids);
     }
     let quick = has("--quick");
     if has("--expansion") {
@@ -97,7 +103,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
         if extent.shuffled { "in disorder" } else { "along a turn" },
         if mode == Mode::Chained { "each waits for the one before" } else { "independent of each other" }
     );
-    for mut item in items::all(extent).into_iter().filter(chosen) {
+    for mut item in chosen(extent, &ids)? {
         agree(&item)?;
         let timings = measure(&mut item, rounds, least, mode);
         print(&item, &timings);

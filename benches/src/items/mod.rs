@@ -361,6 +361,17 @@ pub(crate) fn all(extent: Extent) -> Vec<Item> {
     items
 }
 
+/// The items of these ids, all where none is named.
+pub(crate) fn chosen(extent: Extent, ids: &[&str]) -> Result<Vec<Item>, String> {
+    let mut items = all(extent);
+    if let Some(id) = ids.iter().find(|id| !items.iter().any(|item| item.id == **id)) {
+        let known: Vec<&str> = items.iter().map(|item| item.id).collect();
+        return Err(format!("no item is called {id}; there are {}", known.join(", ")));
+    }
+    items.retain(|item| ids.is_empty() || ids.contains(&item.id));
+    Ok(items)
+}
+
 /// Numbers without a pattern, the same in every run (splitmix64).
 pub(crate) struct Random(pub(crate) u64);
 
