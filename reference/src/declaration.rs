@@ -4,10 +4,8 @@
 //! with its number: the link `crank` is `L0_crank`, its point `A` `P1_A`, the joint `A` `J1_A`. All numbers are taken as SI: a
 //! consistent set of units gives consistent results.
 
-use std::collections::HashMap;
-
 use linkage_codegen::diagnostics::Sink;
-use linkage_codegen::graph::Symbol;
+use linkage_codegen::graph::{Evaluated, Symbol};
 use linkage_codegen::model::ids::{GROUND, LinkId};
 use linkage_codegen::topology::Topology;
 use linkage_codegen::{model, syntax};
@@ -498,7 +496,7 @@ impl<'a> Writer<'a> {
                     _ => f64::NAN,
                 };
                 let driven = model.driven_angle(GROUND, link);
-                driven.map_or(0.0, |[driven, _]| model.graph.evaluate(driven.id(), &known, &mut HashMap::new()))
+                driven.map_or(0.0, |[driven, _]| model.graph.evaluate(driven.id(), &known, &mut Evaluated::default()))
             };
             let near = relative + driven(from) - driven(on);
             let start = format!("load {}: torsion(", self.loads.find(&load.name)?);

@@ -1,6 +1,6 @@
 //! What is known of four-bars and slider-cranks: as constants or a function, and as a section of the derivation.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -270,7 +270,7 @@ fn prepared(linkage: &Linkage, program: Option<&Program>) -> TokenStream {
 
 /// The values of a program by the nodes that they are of.
 struct Values {
-    of: HashMap<NodeId, TokenStream>,
+    of: FxHashMap<NodeId, TokenStream>,
 }
 
 impl Values {

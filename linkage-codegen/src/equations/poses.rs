@@ -3,11 +3,9 @@
 //! They serve messages alone: what to release of a linkage that is held too often, and from where a search may start. Nothing that is
 //! emitted comes from here.
 
-use std::collections::HashMap;
-
 use super::{Declared, Row, Source, drive_row, joint_rows};
 use crate::graph::real::Real;
-use crate::graph::{Coordinate, NodeId, Symbol};
+use crate::graph::{Coordinate, Evaluated, NodeId, Symbol};
 use crate::model::Model;
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
 
@@ -100,7 +98,7 @@ impl<'m> Poses<'m> {
     /// The number of an expression of parameters, by their defaults.
     pub(crate) fn constant(&self, node: NodeId) -> f64 {
         let known = |symbol: Symbol| self.parameter(symbol);
-        self.model.graph.evaluate(node, &known, &mut HashMap::new())
+        self.model.graph.evaluate(node, &known, &mut Evaluated::default())
     }
 
     /// A parameter's default.
@@ -139,7 +137,7 @@ impl<'m> Poses<'m> {
             }
             _ => self.parameter(symbol),
         };
-        let mut done = HashMap::new();
+        let mut done = Evaluated::default();
         let mut value = |node: NodeId| self.model.graph.evaluate(node, &known, &mut done);
         let line = |(row, wanted): &(Row, f64)| {
             let mut line = vec![0.0; 3 * links.len()];

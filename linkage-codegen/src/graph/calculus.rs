@@ -1,10 +1,13 @@
 //! Differentiation, substitution and evaluation.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::real::Real;
 use super::{Coordinate, Expr, Graph, Kernel, NodeId, Op, Order, Stage, Symbol};
 use crate::model::ids::LinkId;
+
+/// Values of nodes, as far as they are known.
+pub type Evaluated<T> = FxHashMap<NodeId, T>;
 
 impl Graph {
     /// Partial derivative by a coordinate of a link: its place or its angle. Cosine and sine of a link are functions of its angle.
@@ -143,7 +146,7 @@ impl Graph {
         stage: Stage,
         by: &dyn Fn(Symbol) -> Option<Expr<'g>>,
     ) -> Expr<'g> {
-        let mut done = HashMap::new();
+        let mut done = FxHashMap::default();
         self.expr(self.substitute(of.id(), (stage, by), &mut done))
     }
 
@@ -151,7 +154,7 @@ impl Graph {
         &'g self,
         id: NodeId,
         (stage, by): (Stage, &dyn Fn(Symbol) -> Option<Expr<'g>>),
-        done: &mut HashMap<NodeId, NodeId>,
+        done: &mut FxHashMap<NodeId, NodeId>,
     ) -> NodeId {
         if self.stage(id) < stage {
             return id;
@@ -168,7 +171,7 @@ impl Graph {
     }
 
     /// The value of a node, checks passed over. `known` gives the values of symbols; it is remembered what was computed.
-    pub fn evaluate<T: Real>(&self, id: NodeId, known: &dyn Fn(Symbol) -> T, done: &mut HashMap<NodeId, T>) -> T {
+    pub fn evaluate<T: Real>(&self, id: NodeId, known: &dyn Fn(Symbol) -> T, done: &mut Evaluated<T>) -> T {
         if let Some(value) = done.get(&id) {
             return value.clone();
         }
@@ -179,8 +182,15 @@ impl Graph {
             Op::Symbol(Symbol::Start(search, number)) => of(self.start_of(search, number)),
             Op::Symbol(symbol) => known(symbol),
             Op::Kernel { kernel, args, part } => {
-                let args: Vec<T> = args.iter().map(|a| of(*a)).collect();
-                self.apply(kernel, &args).swap_remove(usize::from(part))
+                let values: Vec<T> = args.iter().map(|a| of(*a)).collect();
+                let mut results = self.apply(kernel, &values);
+                // All that the call has found: a search is long.
+                for (part, result) in (0..).zip(&results) {
+                    if let Some(node) = self.find(&Op::Kernel { kernel, args: args.clone(), part }) {
+                        done.insert(node.id(), result.clone());
+                    }
+                }
+                results.swap_remove(usize::from(part))
             }
             op => op.arithmetic(&mut of),
         };

@@ -18,8 +18,11 @@ pub(crate) mod tangent;
 mod vector;
 
 use core::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
+use rustc_hash::FxHashMap;
+
+pub use calculus::Evaluated;
 pub use expr::Expr;
 use number::Number;
 pub use search::{Arguments, Search, SearchId, Sought, sought_direction};

@@ -37,7 +37,9 @@
 
 mod solutions;
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashSet};
+
+use rustc_hash::FxHashMap;
 
 use super::elimination::Equation;
 use super::number::Number;
@@ -172,11 +174,11 @@ pub struct HeldBound<'g> {
 #[derive(Debug)]
 pub struct Rounding<'g> {
     graph: &'g Graph,
-    done: HashMap<NodeId, Deviation<'g>>,
+    done: FxHashMap<NodeId, Deviation<'g>>,
     /// Directions, by either component.
-    directions: HashMap<NodeId, Direction<'g>>,
+    directions: FxHashMap<NodeId, Direction<'g>>,
     /// Which values are directions.
-    pairs: HashMap<NodeId, Vector<'g>>,
+    pairs: FxHashMap<NodeId, Vector<'g>>,
     /// Those of which the deviation is being found.
     open: HashSet<NodeId>,
     /// What has been found since, where some values are supposed to be exact.
@@ -187,7 +189,7 @@ pub struct Rounding<'g> {
     sources: Vec<String>,
     /// Solutions of linear equations that are known better than their operations tell, and which of them a value belongs to.
     solutions: Vec<(Vec<Equation<'g>>, Vec<Expr<'g>>)>,
-    solved: HashMap<NodeId, usize>,
+    solved: FxHashMap<NodeId, usize>,
     /// What belongs to values that a pose keeps; it is kept beside them.
     pub held: Vec<HeldBound<'g>>,
 }
@@ -208,9 +210,9 @@ impl<'g> Rounding<'g> {
         let solved = solutions.iter().enumerate().flat_map(of).collect();
         Self {
             graph,
-            done: HashMap::new(),
-            directions: HashMap::new(),
-            pairs: HashMap::new(),
+            done: FxHashMap::default(),
+            directions: FxHashMap::default(),
+            pairs: FxHashMap::default(),
             open: HashSet::new(),
             supposed: None,
             passed_on: HashSet::new(),

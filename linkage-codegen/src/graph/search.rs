@@ -1,11 +1,11 @@
 //! Groups that are placed by Newton's method: the arithmetic of the run-time crate, operation by operation, for any number type.
 
-use std::collections::HashMap;
+use std::collections::BTreeSet;
 
 use super::linear::Factors;
 use super::number::Number;
 use super::real::Real;
-use super::{Expr, Graph, Kernel, NodeId, Op, Scalar, Stage, Symbol, Vector};
+use super::{Evaluated, Expr, Graph, Kernel, NodeId, Op, Scalar, Stage, Symbol, Vector};
 use crate::model::ids::DriveId;
 
 /// A search for the places of a group.
@@ -257,7 +257,7 @@ impl Graph {
     /// Whether an expression reads a symbol of a search.
     #[must_use]
     pub fn depends_on(&self, expression: Expr<'_>, symbol: Symbol) -> bool {
-        let (mut open, mut seen) = (vec![expression.id()], std::collections::BTreeSet::new());
+        let (mut open, mut seen) = (vec![expression.id()], BTreeSet::new());
         while let Some(node) = open.pop() {
             if self.stage(node) == Stage::Iterated && seen.insert(node) {
                 match self.op(node) {
@@ -272,7 +272,7 @@ impl Graph {
     /// The drives and all else from which some expressions are worked out.
     fn note_given(&self, results: &[NodeId], search: &mut Search) {
         let mut open: Vec<NodeId> = results.iter().rev().copied().collect();
-        let mut seen = std::collections::BTreeSet::new();
+        let mut seen = BTreeSet::new();
         while let Some(node) = open.pop() {
             if !seen.insert(node) {
                 continue;
@@ -297,7 +297,7 @@ impl Graph {
 
     /// What changes on the way of a search, with the drives at some place; `None` where the links before the group have no pose.
     fn on_the_way<T: Real>(&self, search: &Search, drives: &[T], given: &[T]) -> Option<Vec<T>> {
-        let mut done: HashMap<NodeId, T> = search.given.iter().copied().zip(given.iter().cloned()).collect();
+        let mut done: Evaluated<T> = search.given.iter().copied().zip(given.iter().cloned()).collect();
         let symbol = |symbol: Symbol| match symbol {
             Symbol::Drive(drive) => {
                 let index = search.drives.iter().position(|own| *own == drive);
@@ -306,7 +306,7 @@ impl Graph {
             _ => T::zero(),
         };
         let mut open: Vec<NodeId> = search.known[..search.changing].to_vec();
-        let mut seen = std::collections::BTreeSet::new();
+        let mut seen = BTreeSet::new();
         while let Some(node) = open.pop() {
             if !seen.insert(node) || search.given.contains(&node) {
                 continue;
@@ -328,7 +328,7 @@ impl Graph {
     /// The largest parts of expressions that do not depend on a search's unknowns; constants are written where they stand.
     fn note_known(&self, results: &[NodeId], known: &mut Vec<NodeId>) {
         let mut open: Vec<NodeId> = results.iter().rev().copied().collect();
-        let mut seen = std::collections::BTreeSet::new();
+        let mut seen = BTreeSet::new();
         while let Some(node) = open.pop() {
             if !seen.insert(node) {
                 continue;
@@ -342,10 +342,27 @@ impl Graph {
         }
     }
 
+    /// The constants in a search's equations, which are the same at every step.
+    fn constants<T: Real>(&self, search: &Search) -> Evaluated<T> {
+        let mut open = search.results();
+        let mut seen: BTreeSet<NodeId> = search.known.iter().copied().collect();
+        let mut constants = Evaluated::default();
+        while let Some(node) = open.pop() {
+            if seen.insert(node) {
+                match self.op(node) {
+                    Op::Constant(number) => drop(constants.insert(node, T::from_number(&self.number(number)))),
+                    op => open.extend(op.operands()),
+                }
+            }
+        }
+        constants
+    }
+
     /// The results of a search.
     pub(super) fn searched<T: Real>(&self, id: SearchId, args: &[T]) -> Vec<T> {
         let search = self.search(id);
         let Arguments { start, from, to, reach, given, known } = search.arguments(args);
+        let constants = self.constants(&search);
         let mut newton = Newton::new(&search, self.scalar(), start, [from, to, reach]);
         while let Some(between) = newton.way() {
             let known = match between {
@@ -356,7 +373,8 @@ impl Graph {
                 }),
             };
             let Some(known) = known else { continue };
-            let known: HashMap<NodeId, T> = search.known.iter().copied().zip(known).collect();
+            let mut known: Evaluated<T> = search.known.iter().copied().zip(known).collect();
+            known.extend(constants.clone());
             while let Some(places) = newton.places() {
                 let symbol = |symbol: Symbol| match symbol {
                     Symbol::Sought(_, number) => places[usize::from(number)].clone(),

@@ -4,7 +4,7 @@
 //! that both need are shared, because the graph holds each of them once.
 
 use core::cell::{Cell, RefCell};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::{Condition, Expr, Failure, Graph, Guard, Kernel, NodeId, Op, Stage, Symbol, Vector};
 
@@ -16,7 +16,7 @@ pub(crate) struct Tangent<'g> {
     /// What the unknown is called.
     name: String,
     /// What is stated or found.
-    known: RefCell<HashMap<NodeId, NodeId>>,
+    known: RefCell<FxHashMap<NodeId, NodeId>>,
     /// Whether what a pose keeps stands still.
     posed: bool,
     /// Whether a search was reached: what it finds has no derivative but what is stated.

@@ -47,7 +47,7 @@ impl Extract<'_> {
             scene,
             program: Program { counts_rounding: self.counts_rounding(&nodes), ..Program::default() },
             placed: BTreeMap::new(),
-            computed: HashMap::new(),
+            computed: FxHashMap::default(),
         };
         let needed = self.needed(&nodes, |node| building.operands(node));
         // What a search is given was checked before, and so were the drives of a pose.
@@ -147,7 +147,7 @@ struct Building<'g> {
     /// The value of each node that is placed.
     placed: BTreeMap<NodeId, ValueId>,
     /// What is computed already. Without the names within, nodes may compute the same.
-    computed: HashMap<Op<ValueId>, ValueId>,
+    computed: FxHashMap<Op<ValueId>, ValueId>,
 }
 
 impl Building<'_> {

@@ -1,6 +1,6 @@
 //! The interpreter: a program carried out with any number type.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::{Definition, Input, Program, Step, ValueId};
 use crate::graph::number::Number;
@@ -19,7 +19,7 @@ pub enum Fault {
 /// What is computed so far: values, and all results of the calls of kernels.
 struct Values<T> {
     known: Vec<Option<T>>,
-    calls: HashMap<(Kernel, Vec<ValueId>), Vec<T>>,
+    calls: FxHashMap<(Kernel, Vec<ValueId>), Vec<T>>,
 }
 
 /// Carries programs out.
@@ -38,7 +38,7 @@ impl Run<'_> {
     ///
     /// As the emitted function: where a check fails or a number is not finite.
     pub fn with<T: Real>(self, inputs: &dyn Fn(Input) -> T) -> Result<Vec<T>, Fault> {
-        let mut values = Values { known: vec![None; self.program.values.len()], calls: HashMap::new() };
+        let mut values = Values { known: vec![None; self.program.values.len()], calls: FxHashMap::default() };
         for step in &self.program.steps {
             match step {
                 Step::Let(value) => drop(self.value(*value, inputs, &mut values)),

@@ -3,13 +3,13 @@
 //! The places of the joints and the angles of the links are drawn at random, and the dimensions are those that fit: what is singular
 //! then is singular by structure, whatever the declared dimensions are.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::{Group, Input};
 use crate::equations::joints::{Shape, Teeth};
 use crate::equations::poses::Random;
 use crate::equations::{Body, Dimensions, Row, drive_row, joint_rows, unknown_row};
-use crate::graph::{Coordinate, Graph, Symbol, Vector};
+use crate::graph::{Coordinate, Evaluated, Graph, Symbol, Vector};
 use crate::model::ids::JointId;
 use crate::model::{End, JointKind, Model, UnknownKind};
 
@@ -40,7 +40,7 @@ pub(super) fn rank_of(model: &Model, group: &Group) -> usize {
     let mut best = 0;
     for seed in 0..POSES {
         let pose = Pose::random(model, seed);
-        let value = |id| graph.evaluate(id, &|symbol| pose.value(symbol), &mut HashMap::new());
+        let value = |id| graph.evaluate(id, &|symbol| pose.value(symbol), &mut Evaluated::default());
         let matrix: Vec<Vec<f64>> = rows
             .iter()
             .map(|row| {
@@ -110,13 +110,13 @@ impl<'g> Dimensions<'g> for Free<'_, 'g> {
 
 /// A random pose with the dimensions that fit it.
 struct Pose {
-    values: HashMap<Symbol, f64>,
+    values: FxHashMap<Symbol, f64>,
 }
 
 impl Pose {
     fn random(model: &Model, seed: u64) -> Self {
         let mut random = Random::new(seed);
-        let mut values = HashMap::new();
+        let mut values = FxHashMap::default();
         let mut frames: Vec<[f64; 4]> = vec![[0.0, 0.0, 1.0, 0.0]];
         for link in model.moving_links() {
             // A random rotation by its half-angle tangent: no trigonometry.

@@ -1,13 +1,11 @@
 //! Inverse scenes of random linkages: whatever motion of a joint the drives make, they are found from it; and whatever is found from a motion
 //! makes it.
 
-use std::collections::HashMap;
-
 use crate::support::linkages::{Kind, Sample, sample};
 use crate::support::numbers::Double;
 use crate::support::{Arguments, compile_if_it_closes, direct, pose};
 use linkage_codegen::Linkage;
-use linkage_codegen::graph::{Expr, Failure, NodeId};
+use linkage_codegen::graph::{Evaluated, Expr, Failure, NodeId};
 use linkage_codegen::model::ids::{DriveId, GROUND, JointId, LinkId};
 use linkage_codegen::model::{End, JointKind};
 use linkage_codegen::program::Fault;
@@ -19,7 +17,7 @@ type Moved = [f64; 3];
 fn coordinate(linkage: &Linkage, arguments: &Arguments, joint: JointId, turns: bool) -> Result<Moved, Fault> {
     pose::<Double>(linkage, arguments)?;
     let graph = &linkage.model.graph;
-    let mut done: HashMap<NodeId, Double> = HashMap::new();
+    let mut done: Evaluated<Double> = Evaluated::default();
     let mut of = |node: NodeId| graph.evaluate(node, &|symbol| Double(arguments.of(symbol)), &mut done).0;
     let data = linkage.model.joint(joint);
     let [a, b] = [data.from, data.to];

@@ -1,7 +1,5 @@
 //! Groups that are placed by Newton's method: how well they close, near which poses they do not, and that they stay on their branch.
 
-use std::collections::HashMap;
-
 use crate::support::general::{Coordinates, residuals_at};
 use crate::support::linkages::{Kind, Random, sample_with_search};
 use crate::support::measures::from_kept;
@@ -9,7 +7,7 @@ use crate::support::numbers::{Double, Extended, Single};
 use crate::support::{Arguments, Number, compile, index_of, moved, pose};
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{Failure, Graph, Kernel, NodeId, Op};
+use linkage_codegen::graph::{Evaluated, Failure, Graph, Kernel, Op};
 use linkage_codegen::program::{Definition, Fault};
 
 /// The bars, in epsilons of the scalar: closure over the longest link, and the size of directions.
@@ -26,8 +24,8 @@ const STEPHENSON: &str = "pub mod sample;
     start d: (4m, -1m), angle 115deg; load F: force(t.G); scene all: equilibrium; scene work: virtual_work;";
 
 /// The largest constraint residual of a pose, and the largest deviation of a direction from unit size.
-fn errors<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &HashMap<NodeId, T>) -> (f64, f64) {
-    let exact: HashMap<NodeId, Extended> =
+fn errors<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &Evaluated<T>) -> (f64, f64) {
+    let exact: Evaluated<Extended> =
         kept.iter().map(|(node, value)| (*node, Extended::exactly(value.to_f64()))).collect();
     let residuals = residuals_at(&Coordinates::at(linkage, arguments, &exact));
     let closure = residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs()));
@@ -132,7 +130,7 @@ fn a_sweep_stays_on_its_branch_and_comes_back() {
 }
 
 /// The largest difference of two poses.
-fn apart(a: &HashMap<NodeId, Double>, b: &HashMap<NodeId, Double>) -> f64 {
+fn apart(a: &Evaluated<Double>, b: &Evaluated<Double>) -> f64 {
     a.iter().map(|(node, value)| (value.0 - b[node].0).abs()).fold(0.0, f64::max)
 }
 

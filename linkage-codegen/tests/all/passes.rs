@@ -1,7 +1,5 @@
 //! Every pass keeps the results of every program.
 
-use std::collections::HashMap;
-
 use crate::support::families::boom;
 use crate::support::linkages::{Kind, Random, Sample, sample, sample_with_search};
 use crate::support::numbers::{Double, Extended, Single};
@@ -14,7 +12,7 @@ use linkage_codegen::program::passes::PASSES;
 use linkage_codegen::program::{Counts, Definition, Extract, Fault, Form, Input, Program, Run, Step, Value, ValueId};
 
 fn results<T: Number>(linkage: &Linkage, program: &Program, arguments: &Arguments) -> Vec<T> {
-    let kept: HashMap<_, T> = pose(linkage, arguments).expect("a pose");
+    let kept = pose::<T>(linkage, arguments).expect("a pose");
     let run = Run { program, graph: &linkage.model.graph };
     run.with(&|input| match input {
         Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),

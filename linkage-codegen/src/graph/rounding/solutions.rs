@@ -164,11 +164,9 @@ impl<'g> Rounding<'g> {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::HashMap;
-
     use super::super::Rounding;
     use crate::graph::number::Number;
-    use crate::graph::{Expr, Graph, Scalar, Symbol};
+    use crate::graph::{Evaluated, Expr, Graph, Scalar, Symbol};
     use crate::model::ids::LoadId;
 
     /// A sequence of numbers from −1 to 1.
@@ -186,11 +184,11 @@ mod tests {
             _ => f64::NAN,
         };
         let exactly = |symbol: Symbol| Number::from_f64(of(symbol)).expect("finite");
-        let rounded: f64 = graph.evaluate(value.id(), &of, &mut HashMap::new());
-        let exact: Number = graph.evaluate(value.id(), &exactly, &mut HashMap::new());
+        let rounded: f64 = graph.evaluate(value.id(), &of, &mut Evaluated::default());
+        let exact: Number = graph.evaluate(value.id(), &exactly, &mut Evaluated::default());
         // Of singular equations a check, which is not among these operations, says that there is no solution.
         let error = Number::from_f64(rounded).map_or(0.0, |rounded| rounded.sub(&exact).to_f64().abs());
-        (graph.evaluate(bound.id(), &of, &mut HashMap::new()), error)
+        (graph.evaluate(bound.id(), &of, &mut Evaluated::default()), error)
     }
 
     #[test]
@@ -248,7 +246,7 @@ mod tests {
                 Symbol::Load(load, _) => values[load.index()],
                 _ => f64::NAN,
             };
-            graph.evaluate::<f64>(bound.id(), &of, &mut HashMap::new())
+            graph.evaluate::<f64>(bound.id(), &of, &mut Evaluated::default())
         };
         assert_eq!(at(0.0, 0.1).to_bits(), 0.0f64.to_bits());
         assert!(at(1.0, 0.1) < 1e-13);

@@ -4,7 +4,9 @@
 //! change have one `1/(l sin μ)`; and what is left of a sum whose common factor was taken out, so that the work of a load along a line has
 //! the velocity along it.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap;
 
 use super::multiples::MULTIPLE;
 use crate::graph::{Graph, Label, Op};
@@ -12,7 +14,7 @@ use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn compute_once(mut program: Program, _graph: &Graph) -> Program {
     let mut replaced: BTreeMap<ValueId, ValueId> = BTreeMap::new();
-    let mut first: HashMap<Op<ValueId>, ValueId> = HashMap::new();
+    let mut first: FxHashMap<Op<ValueId>, ValueId> = FxHashMap::default();
     // Constants need no step.
     for (index, value) in program.values.iter().enumerate() {
         if let Definition::Computed(op @ Op::Constant(_)) = &value.definition {

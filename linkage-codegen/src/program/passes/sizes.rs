@@ -3,6 +3,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use rustc_hash::FxHashMap;
+
 use crate::graph::number::Number;
 use crate::graph::{Graph, Kernel, Op};
 use crate::program::{Definition, Program, Step, ValueId};
@@ -161,7 +163,7 @@ pub(super) enum Order {
 /// What is known of the sizes so far. Of a value that nothing known has to do with nothing is said.
 struct Solution<'s> {
     sizes: &'s Sizes,
-    known: Powers,
+    known: FxHashMap<ValueId, i32>,
     /// Sums of which something new is known.
     open: Vec<usize>,
     /// Values that were met when they were not known.
@@ -173,7 +175,7 @@ struct Solution<'s> {
 
 impl<'s> Solution<'s> {
     fn of(sizes: &'s Sizes) -> Self {
-        let (known, open, undecided) = (BTreeMap::new(), Vec::new(), BTreeSet::new());
+        let (known, open, undecided) = (FxHashMap::default(), Vec::new(), BTreeSet::new());
         Self { sizes, known, open, undecided, values: usize::MAX, power: i32::MAX }
     }
 
@@ -199,8 +201,7 @@ impl<'s> Solution<'s> {
         while let Some(value) = self.undecided.pop_first() {
             self.leave(value)?;
         }
-        self.known.retain(|_, power| *power != 0);
-        Some(self.known)
+        Some(self.known.into_iter().filter(|(_, power)| *power != 0).collect())
     }
 
     /// Leaves a value as it is, if nothing speaks against it, and first of all what it is made of.
