@@ -553,7 +553,8 @@ impl<'a> Body<'a> {
         }
         let weaker = weaker.map(|weaker| self.failing(weaker, &TokenStream::new()));
         let late = self.asked_late();
-        self.failing(guard, &quote!(#late #weaker))
+        let given = self.program.given_to(guard).into_iter().map(|value| self.finite_input(value));
+        self.failing(guard, &quote!(#late #(#given)* #weaker))
     }
 
     /// Where a condition does not hold: something else that is asked first, then its own failure.

@@ -405,11 +405,11 @@ pub(super) fn accessors(linkage: &Linkage) -> TokenStream {
         let name = ident(&accessor.name);
         let prepared = prepared_of_pose(linkage, program);
         let bindings = bindings(linkage, program, Drives::Pose);
-        let unchecked = without_checks(program);
-        let (statements, body) = body(linkage, &unchecked).statements();
+        let plain = without_checks_and_headings(program);
+        let (statements, body) = body(linkage, &plain).statements();
         let doc = format!(" {}", accessor.meaning);
         let ty = output_type(&linkage.model, &accessor.output, "");
-        let value = result(Method::Position, "", "", &accessor.output, &mut outputs(&body, &unchecked).into_iter());
+        let value = result(Method::Position, "", "", &accessor.output, &mut outputs(&body, &plain).into_iter());
         quote! {
             #[doc = #doc]
             #[inline]
@@ -425,10 +425,12 @@ pub(super) fn accessors(linkage: &Linkage) -> TokenStream {
     all.collect()
 }
 
-/// A pose's own values are finite, and what follows from them by a few sums is too.
-fn without_checks(program: &Program) -> Program {
+/// A pose's own values are finite, and what follows from them by a few sums is too. What they are, the method's documentation says: the
+/// heading would be the one under which they were first of use.
+fn without_checks_and_headings(program: &Program) -> Program {
     let mut program = program.clone();
     program.steps.retain(|step| matches!(step, crate::program::Step::Let(_)));
+    program.values.iter_mut().for_each(|value| value.section.clear());
     program
 }
 

@@ -507,11 +507,11 @@ struct Arena {
     ops: Vec<Op>,
     stages: Vec<Stage>,
     sections_of: Vec<SectionId>,
-    index: HashMap<Op, NodeId>,
+    index: FxHashMap<Op, NodeId>,
     numbers: Vec<Number>,
-    number_index: HashMap<number::Key, NumberId>,
+    number_index: FxHashMap<number::Key, NumberId>,
     guards: Vec<Guard>,
-    guard_index: HashMap<Guard, GuardId>,
+    guard_index: FxHashMap<Guard, GuardId>,
     labels: BTreeMap<NodeId, Label>,
     /// The scene whose results are being worked out, and in which scene a label was given.
     scene: Option<usize>,
@@ -521,6 +521,8 @@ struct Arena {
     positive: BTreeSet<NodeId>,
     /// Quotients that are divided, whatever others have the same divisor.
     divided: BTreeSet<NodeId>,
+    /// What is checked when a pose is made.
+    hold_in_poses: BTreeSet<GuardId>,
     /// Of what a pose keeps, the reciprocals that it keeps, too.
     reciprocals: BTreeMap<NodeId, NodeId>,
     /// Of values, how they are put together where a pose is given.
@@ -638,6 +640,16 @@ impl Graph {
     #[must_use]
     pub fn guard(&self, id: GuardId) -> Guard {
         self.arena.borrow().guards[id.0 as usize].clone()
+    }
+
+    /// Notes the checks without which there is no pose.
+    pub(crate) fn hold_in_poses(&self, guards: BTreeSet<GuardId>) {
+        self.arena.borrow_mut().hold_in_poses = guards;
+    }
+
+    /// Whether there is no pose without this check.
+    pub(crate) fn holds_in_poses(&self, guard: GuardId) -> bool {
+        self.arena.borrow().hold_in_poses.contains(&guard)
     }
 
     /// A node's name.

@@ -1,9 +1,11 @@
 //! Taking out of the graph what a function's results need.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::FxHashMap;
 
 use super::{Definition, Input, Program, Step, Value, ValueId};
-use crate::graph::{Component, Graph, Guard, NodeId, Op, SearchId, Stage, Symbol};
+use crate::graph::{Component, Graph, Guard, GuardId, NodeId, Op, SearchId, Stage, Symbol};
 
 /// What a function starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,12 +103,29 @@ impl Extract<'_> {
                 if let Op::Symbol(Symbol::Start(search, number)) = op {
                     open.push(self.graph.start_of(search, number));
                 }
-                if let Op::Checked { guard, .. } = op {
+                if let Op::Checked { guard, .. } = op
+                    && self.checks(guard)
+                {
                     open.extend(self.graph.guard(guard).condition.operands());
                 }
             }
         }
         needed
+    }
+
+    /// Whether the function makes a check: what holds in every pose is not asked of one again.
+    fn checks(self, guard: GuardId) -> bool {
+        self.form != Form::FromPose || !self.graph.holds_in_poses(guard)
+    }
+
+    /// The checks that the function makes for some results.
+    pub(super) fn guards(self, results: &[NodeId]) -> BTreeSet<GuardId> {
+        let needed = self.needed(results, |node| self.graph.op(node).operands());
+        let guard = |node| match self.graph.op(node) {
+            Op::Checked { guard, .. } => Some(guard),
+            _ => None,
+        };
+        needed.into_iter().filter_map(guard).collect()
     }
 
     /// The input that a node is for this function, if it is one.
@@ -260,8 +279,8 @@ impl Building<'_> {
             return;
         }
         match self.op(node) {
-            Op::Constant(_) | Op::Quantity(_) | Op::Held(_) | Op::Symbol(Symbol::Start(..)) => {}
-            Op::Checked { guard, .. } => self.check(&graph.guard(guard)),
+            Op::Checked { guard, .. } if self.extract.checks(guard) => self.check(&graph.guard(guard)),
+            Op::Constant(_) | Op::Quantity(_) | Op::Held(_) | Op::Checked { .. } | Op::Symbol(Symbol::Start(..)) => {}
             _ => self.program.steps.push(Step::Let(value)),
         }
     }

@@ -55,6 +55,8 @@ impl Functions {
         };
         let kept: Vec<(String, NodeId)> = plan.pose.iter().map(|kept| (kept.name.clone(), kept.node)).collect();
         let finite: Vec<NodeId> = plan.pose.iter().filter(|kept| !kept.is_bound).map(|kept| kept.node).collect();
+        let poses: Vec<NodeId> = plan.pose.iter().map(|kept| kept.node).collect();
+        graph.hold_in_poses(Extract { graph, form: Form::Direct }.guards(&poses));
         // What is counted may read any number of a pose.
         let pose = |form| {
             let program = Extract { graph, form }.program(&kept, &finite);

@@ -49,9 +49,10 @@ impl Run<'_> {
                         !guard.condition.holds(&value, &limit)
                     };
                     if fails(guard) {
+                        let mut asked = self.program.asked_late.clone();
+                        asked.extend(self.program.given_to(guard));
                         let guard = weaker.as_ref().filter(|weaker| fails(weaker)).unwrap_or(guard);
-                        let mut late = self.program.asked_late.iter();
-                        let told = late.all(|value| self.value(*value, inputs, &mut values).is_finite());
+                        let told = asked.into_iter().all(|value| self.value(value, inputs, &mut values).is_finite());
                         return Err(if told { Fault::Failed(guard.failure.map(|_| ())) } else { Fault::NotFinite });
                     }
                 }

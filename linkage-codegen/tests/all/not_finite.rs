@@ -6,13 +6,11 @@
 //! equation of motion are given such numbers as emitted code: in the root package's `sweeps.rs`, `sweeps_of_motion.rs`, `control.rs`, and
 //! in `limits.rs`.
 
-use std::collections::HashMap;
-
 use crate::support::declarations::{coordinates, given, linkages, poses};
 use crate::support::numbers::{Double, Single};
 use crate::support::{Arguments, Number, checked_pose, direct, from_pose, moved, pose, prepared};
 use linkage_codegen::Linkage;
-use linkage_codegen::graph::{NodeId, Order, Scalar, Symbol};
+use linkage_codegen::graph::{Evaluated, Failure, Order, Scalar, Symbol};
 use linkage_codegen::model::ids::DriveId;
 use linkage_codegen::program::{Fault, Input, Program, Step};
 
@@ -83,7 +81,7 @@ fn functions<'a, T: Number + 'a>(linkage: &'a Linkage, is_inverse: bool) -> Vec<
         let good = good.unwrap_or_else(|| panic!("{name}: {:?}", call(&at[0]).err())).clone();
         all.push(Function { name: name.to_owned(), good, reads, call });
     };
-    let in_order = move |kept: &HashMap<NodeId, T>| -> Vec<T> {
+    let in_order = move |kept: &Evaluated<T>| -> Vec<T> {
         linkage.plan.pose.iter().map(|part| kept[&part.node].clone()).collect()
     };
     add(
@@ -138,18 +136,26 @@ fn try_all<T: Number>(name: &str, linkage: &Linkage, is_inverse: bool, tally: &m
         assert!(before.iter().all(|value| value.to_f64().is_finite()), "{name}, {function}");
         for symbol in &inputs {
             for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-                let Ok(after) = call(&Arguments { instead: Some((*symbol, bad)), ..good.clone() }) else {
-                    tally.refused += 1;
-                    continue;
+                let after = call(&Arguments { instead: Some((*symbol, bad)), ..good.clone() });
+                let context = format!("{name}, {function} with {symbol:?} = {bad}");
+                assert_eq!(after.is_err(), reads.contains(symbol), "{context}: {:?}", after.err());
+                let after = match after {
+                    Ok(after) => after,
+                    Err(fault) => {
+                        // A length that is no number is not a positive one.
+                        let is_told = match fault {
+                            Fault::NotFinite => true,
+                            Fault::Failed(Failure::Parameter { .. }) => matches!(symbol, Symbol::Parameter(_)),
+                            Fault::Failed(_) => false,
+                        };
+                        assert!(is_told, "{context}: {fault:?}");
+                        tally.refused += 1;
+                        continue;
+                    }
                 };
-                assert!(!reads.contains(symbol), "{name}, {function} reads {symbol:?}, {bad} passes");
                 for (found, expected) in after.iter().zip(&before) {
                     let [found, expected] = [found, expected].map(T::to_f64);
-                    assert_eq!(
-                        found.to_bits(),
-                        expected.to_bits(),
-                        "{name}, {function} with {symbol:?} = {bad}: {found} instead of {expected}"
-                    );
+                    assert_eq!(found.to_bits(), expected.to_bits(), "{context}: {found} instead of {expected}");
                 }
                 tally.untouched += 1;
             }

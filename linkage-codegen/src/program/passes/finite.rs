@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 use super::reached;
 use crate::graph::bounds::Bounds;
-use crate::graph::{Graph, Kernel, Op, Scalar, Symbol};
+use crate::graph::{Graph, Guard, Kernel, Op, Scalar, Symbol};
 use crate::program::bounds::Given;
 use crate::program::{Input, Program, Step, ValueId};
 
@@ -112,7 +112,7 @@ pub(super) fn look_at_arguments(mut program: Program, graph: &Graph) -> Program 
         return program;
     }
     let scalar = graph.scalar();
-    let given = program.inputs_that(|input| matches!(input, Input::Symbol(Symbol::Load(..) | Symbol::Driven(..))));
+    let given = program.inputs_that(is_given);
     let mut drives = program.inputs_that(|input| matches!(input, Input::Symbol(Symbol::Drive(_))));
     // Those of a pose are no arguments.
     drives.retain(|drive| program.value(*drive).within.is_none());
@@ -133,7 +133,20 @@ pub(super) fn look_at_arguments(mut program: Program, graph: &Graph) -> Program 
     program
 }
 
+/// Loads, and the rates of drives.
+fn is_given(input: Input) -> bool {
+    matches!(input, Input::Symbol(Symbol::Load(..) | Symbol::Driven(..)))
+}
+
 impl Program {
+    /// The loads and rates on which a check depends: where it fails, they may be at fault.
+    pub(crate) fn given_to(&self, guard: &Guard<ValueId>) -> Vec<ValueId> {
+        let read = reached(guard.condition.operands(), |value| self.op(value).map(Op::operands).unwrap_or_default());
+        let mut given = self.inputs_that(is_given);
+        given.retain(|value| read.contains(value));
+        given
+    }
+
     fn inputs_that(&self, is_meant: impl Fn(Input) -> bool) -> Vec<ValueId> {
         self.inputs().filter(|(_, input)| is_meant(*input)).map(|(value, _)| value).collect()
     }
