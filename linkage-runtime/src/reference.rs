@@ -35,7 +35,8 @@ use crate::Error;
 /// # Ok::<(), linkage_runtime::Error>(())
 /// ```
 ///
-/// A size of `1e-15` is a matter of roundings; it grows with [`condition`](Self::condition).
+/// A size of `1e-15` is a matter of roundings; it grows with [`condition`](Self::condition), and where loads nearly cancel, since forces and
+/// moments are held against the largest that result: compare at poses where they do not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verification<T> {
     /// The sum of all contributions against equilibrium.

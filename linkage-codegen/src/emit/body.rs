@@ -620,7 +620,12 @@ impl<'a> Body<'a> {
             [one] => quote!(!#one &&),
             all => quote!(!(#(#all)&&*) &&),
         };
-        let what = if self.program.reads_loads() { "a load or a result" } else { "a result" };
+        let what = match (self.program.reads_motion(), self.program.reads_loads()) {
+            (true, true) => "a rate, an acceleration, a load or a result",
+            (true, false) => "a rate, an acceleration or a result",
+            (false, true) => "a load or a result",
+            (false, false) => "a result",
+        };
         let late = self.asked_late();
         quote!(if #moderate !math::all_finite(#values) { #late return Err(Error::NotFinite { what: #what }); })
     }

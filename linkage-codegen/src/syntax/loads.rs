@@ -92,6 +92,9 @@ fn moment(input: ParseStream<'_>) -> Result<LoadKind> {
 /// `a.P, b.Q`
 pub(super) fn two_ends(input: ParseStream<'_>) -> Result<[End; 2]> {
     let first = end(input)?;
+    if input.peek(Token![->]) {
+        return Err(input.error("a comma stands between the two points: `ground.P, boom.Q`"));
+    }
     if !input.peek(Token![,]) {
         let help = "name the two points between which it acts: `ground.P, boom.Q`";
         return Err(Error::new(first.link.span, format!("two points are needed, and one is given\nhelp: {help}")));
@@ -104,10 +107,22 @@ pub(super) fn two_ends(input: ParseStream<'_>) -> Result<[End; 2]> {
     Ok([first, second])
 }
 
+/// The name behind a comma, which stays to be read.
+fn name_behind(input: ParseStream<'_>) -> Result<Name> {
+    let ahead = input.fork();
+    ahead.parse::<Token![,]>()?;
+    name(&ahead)
+}
+
 fn two_links(input: ParseStream<'_>) -> Result<(Name, Name)> {
     let from = name(input)?;
     if !input.peek(Token![->]) {
-        let help = format!("name both: `ground -> {from}`, on the second by the first");
+        // `ground, crank` names both.
+        let (first, second) = match name_behind(input) {
+            Ok(second) => (from.text.clone(), second.text),
+            Err(_) => ("ground".to_owned(), from.text.clone()),
+        };
+        let help = format!("name both: `{first} -> {second}`, on the second by the first");
         return Err(Error::new(from.span, format!("a torsion spring acts between two links\nhelp: {help}")));
     }
     input.parse::<Token![->]>()?;

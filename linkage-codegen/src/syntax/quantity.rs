@@ -76,7 +76,9 @@ fn factor(input: ParseStream<'_>) -> Result<Value> {
     })
 }
 
+/// `atom (^ INTEGER)?`; behind a literal it is a power of its unit.
 fn power(input: ParseStream<'_>) -> Result<Value> {
+    let is_literal = input.peek(Lit);
     let base = atom(input)?;
     if !input.peek(Token![^]) {
         return Ok(base);
@@ -87,7 +89,14 @@ fn power(input: ParseStream<'_>) -> Result<Value> {
     drop(input.parse::<TokenTree>());
     let place = base.place.to(Place::at(exponent.span()));
     match exponent.base10_parse::<u32>() {
-        Ok(power @ 0..=16) if exponent.suffix().is_empty() => built(ValueKind::Power(Box::new(base), power), place),
+        Ok(power @ 0..=16) if exponent.suffix().is_empty() => match base.kind {
+            ValueKind::Number(digits, Some(unit)) if is_literal => {
+                let number = built(ValueKind::Number(digits, None), base.place)?;
+                let unit = built(ValueKind::Number("1".to_owned(), Some(unit)), base.place)?;
+                joined(ValueKind::Product, number, built(ValueKind::Power(Box::new(unit), power), place)?)
+            }
+            _ => built(ValueKind::Power(Box::new(base), power), place),
+        },
         _ => Err(Error::new(exponent.span(), "an exponent is a whole number from 0 to 16, without a unit")),
     }
 }
@@ -105,6 +114,9 @@ fn atom(input: ParseStream<'_>) -> Result<Value> {
     }
     if input.peek(Lit) {
         return number(input);
+    }
+    if input.peek(Token![.]) {
+        return Err(input.error("a number begins with a digit, as in `0.5mm`"));
     }
     if peek_word(input).is_some() {
         let word = name(input)?;
@@ -126,6 +138,9 @@ const AFTER_VALUES: [&str; 7] = ["along", "angle", "at", "in", "inertia", "of", 
 
 fn number(input: ParseStream<'_>) -> Result<Value> {
     let literal: Lit = input.parse()?;
+    if input.peek(Token![.]) {
+        return Err(input.error("digits follow a decimal point, as in `80.0mm`"));
+    }
     let follows = peek_word(input).filter(|word| !AFTER_VALUES.contains(&word.as_str()));
     // A word and a colon begin the next field.
     if let Some(word) = follows.filter(|_| !input.peek2(Token![:])) {

@@ -14,6 +14,7 @@ mod newton;
 mod not_finite;
 mod operations;
 mod passes;
+mod quantities;
 mod random;
 mod redundant;
 mod robustness;

@@ -27,6 +27,7 @@ linkage! {
     load S3: thrust(coupler.C) = 250N;
     load S4: thrust(ground.B0, coupler.Z);
     load S5: spring(ground, coupler.C) { rate: 2N/mm, free: 0 };
+    load S6: thrust(ground.B0 -> coupler.C) = 250N;
 
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
