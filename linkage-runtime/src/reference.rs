@@ -151,7 +151,7 @@ pub fn verify<T: RealField + Copy>(compared: &Compared<'_, T>) -> Result<Verific
     let terms = largest_terms(coefficients, loads, equilibrium);
     let size_of = |column: usize| {
         let own = coefficients.iter().filter(|(_, own, value)| *own == column && !value.is_zero());
-        own.fold(equilibrium[column].abs(), |m, (line, _, value)| m.max(terms[*line] / value.abs()))
+        own.fold(equilibrium[column].abs(), |m, (line, _, value)| m.max((terms[*line] / *value).abs()))
     };
     // The unknowns from `first` on, forces and moments each by their largest.
     let difference = |values: &[T], first: usize| {
@@ -176,9 +176,9 @@ pub fn verify<T: RealField + Copy>(compared: &Compared<'_, T>) -> Result<Verific
 
 /// The largest term of each equation, what the loads exert among them.
 fn largest_terms<T: RealField + Copy>(coefficients: &[(usize, usize, T)], loads: &[T], values: &[T]) -> Vec<T> {
-    let mut terms: Vec<T> = loads.iter().map(|load| load.abs()).collect();
+    let mut terms: Vec<T> = loads.to_vec();
     for (line, column, coefficient) in coefficients {
-        terms[*line] = terms[*line].max((*coefficient * values[*column]).abs());
+        terms[*line] = terms[*line].abs().max((*coefficient * values[*column]).abs());
     }
     terms
 }
