@@ -392,7 +392,9 @@ fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         "torque" => {
             let from = name(&content)?;
             if !content.peek(Token![->]) {
-                return Err(one_sided_torque(&from, &content));
+                let help =
+                    format!("write `torque({})`: on the second, by the first", loads::both_links(&from, &content));
+                return Err(Error::new(from.span, format!("a torque acts between two links\nhelp: {help}")));
             }
             content.parse::<Token![->]>()?;
             let to = name(&content)?;
@@ -432,16 +434,4 @@ fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     };
     let place = place_of(&between(&begin, input)).unwrap_or(name_.place());
     Ok(Item::Unknown(Unknown { name: name_, place, effort }))
-}
-
-/// A torque without an arrow; what stands behind its first link may be the second.
-fn one_sided_torque(from: &Name, content: ParseStream<'_>) -> Error {
-    take(content);
-    let example = match name(content) {
-        Ok(to) => format!("{from} -> {to}"),
-        Err(_) if from.text == "ground" => "ground -> crank".to_owned(),
-        Err(_) => format!("ground -> {from}"),
-    };
-    let help = format!("write `torque({example})`: on the second, by the first");
-    Error::new(from.span, format!("a torque acts between two links\nhelp: {help}"))
 }

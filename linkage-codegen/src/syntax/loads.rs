@@ -107,22 +107,20 @@ pub(super) fn two_ends(input: ParseStream<'_>) -> Result<[End; 2]> {
     Ok([first, second])
 }
 
-/// The name behind a comma, which stays to be read.
-fn name_behind(input: ParseStream<'_>) -> Result<Name> {
-    let ahead = input.fork();
-    ahead.parse::<Token![,]>()?;
-    name(&ahead)
+/// How two links are written of which only the first stands as it should; what stands behind it may be the second.
+pub(super) fn both_links(from: &Name, behind: ParseStream<'_>) -> String {
+    take(behind);
+    match name(behind) {
+        Ok(to) => format!("{from} -> {to}"),
+        Err(_) if from.text == "ground" => "ground -> crank".to_owned(),
+        Err(_) => format!("ground -> {from}"),
+    }
 }
 
 fn two_links(input: ParseStream<'_>) -> Result<(Name, Name)> {
     let from = name(input)?;
     if !input.peek(Token![->]) {
-        // `ground, crank` names both.
-        let (first, second) = match name_behind(input) {
-            Ok(second) => (from.text.clone(), second.text),
-            Err(_) => ("ground".to_owned(), from.text.clone()),
-        };
-        let help = format!("name both: `{first} -> {second}`, on the second by the first");
+        let help = format!("name both: `{}`, on the second by the first", both_links(&from, input));
         return Err(Error::new(from.span, format!("a torsion spring acts between two links\nhelp: {help}")));
     }
     input.parse::<Token![->]>()?;

@@ -29,6 +29,7 @@ linkage! {
     load T5: torsion(ground -> crank) { rate: _, free: 0, near: 20deg };
     load T6: torsion(ground -> rocker) { near: 20deg };
     load T7: torsion(ground, crank) { rate: 3N*m/rad, free: 0 };
+    load T8: torsion(ground) { rate: 3N*m/rad, free: 0 };
 
     scene statics: equilibrium;
     scene torque: virtual_work -> (T12);
