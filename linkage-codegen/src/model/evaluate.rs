@@ -6,7 +6,7 @@ use super::names::{Entry, FUNCTIONS, Names, Role};
 use super::units::{Dimension, Kind, unit, unit_names};
 use crate::diagnostics::{Diagnostic, Place, closest};
 use crate::graph::number::Number;
-use crate::graph::{Expr, Symbol, Vector};
+use crate::graph::{Expr, Failure, Symbol, Vector};
 use crate::syntax::ast::{Direction, DirectionKind, Name, Value, ValueKind, VectorKind, VectorValue};
 
 /// An expression and its dimension; the bare zero has none, and fits all.
@@ -29,6 +29,22 @@ impl<'m> Scope<'m> {
     pub(super) fn scalar(&self, value: &Value, kind: Kind) -> Evaluated<Expr<'m>> {
         let found = self.quantity(value)?;
         self.converted(&found, kind, value.place)
+    }
+
+    /// The same that must not be negative: of a parameter that is required of what is given for it.
+    pub(super) fn not_negative(
+        &self,
+        value: &Value,
+        kind: Kind,
+        what: &str,
+        requirement: String,
+    ) -> Evaluated<Expr<'m>> {
+        let found = self.scalar(value, kind)?;
+        match found.sign() {
+            Some(-1) => Err(Diagnostic::new(value.place, format!("{what} cannot be negative"))),
+            Some(_) => Ok(found),
+            None => Ok(found.require_at_least(found, self.model.graph.zero(), Failure::Parameter { requirement })),
+        }
     }
 
     fn converted(&self, found: &Quantity<'m>, kind: Kind, place: Place) -> Evaluated<Expr<'m>> {

@@ -323,15 +323,8 @@ fn mass(scope: Scope<'_>, link: LinkId, given: &ast::Mass) -> Result<Option<Mass
     let inertia = match &given.inertia {
         None => graph.zero(),
         Some(value) => {
-            let inertia = scope.scalar(value, Kind::Inertia)?;
-            match inertia.sign() {
-                Some(-1) => return Err(Diagnostic::new(value.place, "a moment of inertia cannot be negative")),
-                Some(_) => inertia,
-                None => {
-                    let requirement = format!("{}: the moment of inertia must not be negative", body.name);
-                    inertia.require_at_least(inertia, graph.zero(), Failure::Parameter { requirement })
-                }
-            }
+            let requirement = format!("{}: the moment of inertia must not be negative", body.name);
+            scope.not_negative(value, Kind::Inertia, "a moment of inertia", requirement)?
         }
     };
     Ok(Some(Mass { mass: mass.id(), centroid: centroid.into(), inertia: inertia.id() }))

@@ -9,7 +9,7 @@ use super::names::{Names, Role, unread};
 use super::units::Kind;
 use super::{End, Load, LoadKind, Model, Pair};
 use crate::diagnostics::{Diagnostic, Sink};
-use crate::graph::{Expr, Failure, NodeId, Symbol, Vector};
+use crate::graph::{Expr, NodeId, Symbol, Vector};
 use crate::syntax::ast::{self, Ast, Item, Magnitude};
 use crate::syntax::is_given_at_run_time;
 
@@ -262,25 +262,19 @@ fn spring_values(
         let value = match &field.value {
             None => Some(scope.model.graph.symbol(Symbol::Load(id, [0, 1, 2, 3][part]))),
             Some(value) => {
-                let found = sink.absorb(scope.scalar(value, known[part].1));
-                let what = match name.text.as_str() {
+                let limited = match name.text.as_str() {
                     "rate" => Some(("the rate of a spring", "the rate")),
                     "damping" => Some(("a damping", "the damping")),
                     "free" if !turns => Some(("a free length", "the free length")),
                     _ => None,
                 };
-                match (found.zip(what), found.and_then(Expr::sign)) {
-                    (Some((found, (what, _))), Some(-1)) => {
-                        sink.report(Diagnostic::new(value.place, format!("{what} cannot be negative")));
-                        Some(found)
+                let kind = known[part].1;
+                sink.absorb(match limited {
+                    Some((what, its)) => {
+                        scope.not_negative(value, kind, what, format!("{}: {its} must not be negative", given.name))
                     }
-                    (Some((found, (_, what))), None) => {
-                        let requirement = format!("{}: {what} must not be negative", given.name);
-                        let failure = Failure::Parameter { requirement };
-                        Some(found.require_at_least(found, scope.model.graph.zero(), failure))
-                    }
-                    _ => found,
-                }
+                    None => scope.scalar(value, kind),
+                })
             }
         };
         // What could not be read is reported; it is not missing.
