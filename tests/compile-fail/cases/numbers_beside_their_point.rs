@@ -6,7 +6,7 @@ linkage! {
     units { mm, N }
 
     ground       { A0: (0, 0), B0: (140mm, 0) }
-    link crank   { A0 -> A: 80mm }
+    link crank   { A0 -> A: 80.mm }
     link coupler { A -> B: .5mm, C: left(A -> B, 70mm, 80mm) }
     link rocker  { B0 -> B: 120mm, D: (90mm, 0) }
 
