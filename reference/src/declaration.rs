@@ -5,7 +5,7 @@
 //! consistent set of units gives consistent results.
 
 use linkage_codegen::diagnostics::Sink;
-use linkage_codegen::graph::{Evaluated, Symbol};
+use linkage_codegen::graph::{NodeValues, Symbol};
 use linkage_codegen::model::ids::{GROUND, LinkId};
 use linkage_codegen::topology::Topology;
 use linkage_codegen::{model, syntax};
@@ -496,7 +496,7 @@ impl<'a> Writer<'a> {
                     _ => f64::NAN,
                 };
                 let driven = model.driven_angle(GROUND, link);
-                driven.map_or(0.0, |[driven, _]| model.graph.evaluate(driven.id(), &known, &mut Evaluated::default()))
+                driven.map_or(0.0, |[driven, _]| model.graph.evaluate(driven.id(), &known, &mut NodeValues::default()))
             };
             let near = relative + driven(from) - driven(on);
             let start = format!("load {}: torsion(", self.loads.find(&load.name)?);

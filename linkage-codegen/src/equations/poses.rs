@@ -5,7 +5,7 @@
 
 use super::{Declared, Row, Source, drive_row, joint_rows};
 use crate::graph::real::Real;
-use crate::graph::{Coordinate, Evaluated, NodeId, Symbol};
+use crate::graph::{Coordinate, NodeId, NodeValues, Symbol};
 use crate::model::Model;
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
 
@@ -98,7 +98,7 @@ impl<'m> Poses<'m> {
     /// The number of an expression of parameters, by their defaults.
     pub(crate) fn constant(&self, node: NodeId) -> f64 {
         let known = |symbol: Symbol| self.parameter(symbol);
-        self.model.graph.evaluate(node, &known, &mut Evaluated::default())
+        self.model.graph.evaluate(node, &known, &mut NodeValues::default())
     }
 
     /// A parameter's default.
@@ -137,7 +137,7 @@ impl<'m> Poses<'m> {
             }
             _ => self.parameter(symbol),
         };
-        let mut done = Evaluated::default();
+        let mut done = NodeValues::default();
         let mut value = |node: NodeId| self.model.graph.evaluate(node, &known, &mut done);
         let line = |(row, wanted): &(Row, f64)| {
             let mut line = vec![0.0; 3 * links.len()];

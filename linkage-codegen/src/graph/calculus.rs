@@ -7,7 +7,7 @@ use super::{Coordinate, Expr, Graph, Kernel, NodeId, Op, Order, Stage, Symbol};
 use crate::model::ids::LinkId;
 
 /// Values of nodes, as far as they are known.
-pub type Evaluated<T> = FxHashMap<NodeId, T>;
+pub type NodeValues<T> = FxHashMap<NodeId, T>;
 
 impl Graph {
     /// Partial derivative by a coordinate of a link: its place or its angle. Cosine and sine of a link are functions of its angle.
@@ -171,7 +171,7 @@ impl Graph {
     }
 
     /// The value of a node, checks passed over. `known` gives the values of symbols; it is remembered what was computed.
-    pub fn evaluate<T: Real>(&self, id: NodeId, known: &dyn Fn(Symbol) -> T, done: &mut Evaluated<T>) -> T {
+    pub fn evaluate<T: Real>(&self, id: NodeId, known: &dyn Fn(Symbol) -> T, done: &mut NodeValues<T>) -> T {
         if let Some(value) = done.get(&id) {
             return value.clone();
         }
@@ -184,9 +184,9 @@ impl Graph {
             Op::Kernel { kernel, args, part } => {
                 let values: Vec<T> = args.iter().map(|a| of(*a)).collect();
                 let mut results = self.apply(kernel, &values);
-                // All that the call has found: a search is long.
-                for (part, result) in (0..).zip(&results) {
-                    if let Some(node) = self.find(&Op::Kernel { kernel, args: args.clone(), part }) {
+                // What else the call has found: a search is long.
+                for (other, result) in (0..).zip(&results).filter(|(other, _)| *other != part) {
+                    if let Some(node) = self.find(&Op::Kernel { kernel, args: args.clone(), part: other }) {
                         done.insert(node.id(), result.clone());
                     }
                 }

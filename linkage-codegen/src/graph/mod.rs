@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
-pub use calculus::Evaluated;
+pub use calculus::NodeValues;
 pub use expr::Expr;
 use number::Number;
 pub use search::{Arguments, Search, SearchId, Sought, sought_direction};

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::linear::Factors;
 use super::number::Number;
 use super::real::Real;
-use super::{Evaluated, Expr, Graph, Kernel, NodeId, Op, Scalar, Stage, Symbol, Vector};
+use super::{Expr, Graph, Kernel, NodeId, NodeValues, Op, Scalar, Stage, Symbol, Vector};
 use crate::model::ids::DriveId;
 
 /// A search for the places of a group.
@@ -297,7 +297,7 @@ impl Graph {
 
     /// What changes on the way of a search, with the drives at some place; `None` where the links before the group have no pose.
     fn on_the_way<T: Real>(&self, search: &Search, drives: &[T], given: &[T]) -> Option<Vec<T>> {
-        let mut done: Evaluated<T> = search.given.iter().copied().zip(given.iter().cloned()).collect();
+        let mut done: NodeValues<T> = search.given.iter().copied().zip(given.iter().cloned()).collect();
         let symbol = |symbol: Symbol| match symbol {
             Symbol::Drive(drive) => {
                 let index = search.drives.iter().position(|own| *own == drive);
@@ -343,10 +343,10 @@ impl Graph {
     }
 
     /// The constants in a search's equations, which are the same at every step.
-    fn constants<T: Real>(&self, search: &Search) -> Evaluated<T> {
+    fn constants<T: Real>(&self, search: &Search) -> NodeValues<T> {
         let mut open = search.results();
         let mut seen: BTreeSet<NodeId> = search.known.iter().copied().collect();
-        let mut constants = Evaluated::default();
+        let mut constants = NodeValues::default();
         while let Some(node) = open.pop() {
             if seen.insert(node) {
                 match self.op(node) {
@@ -373,7 +373,7 @@ impl Graph {
                 }),
             };
             let Some(known) = known else { continue };
-            let mut known: Evaluated<T> = search.known.iter().copied().zip(known).collect();
+            let mut known: NodeValues<T> = search.known.iter().copied().zip(known).collect();
             known.extend(constants.clone());
             while let Some(places) = newton.places() {
                 let symbol = |symbol: Symbol| match symbol {

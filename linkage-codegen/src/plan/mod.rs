@@ -42,7 +42,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostics::{Diagnostic, Sink, list};
 use crate::equations::System;
-use crate::graph::{Coordinate, Evaluated, Expr, Graph, Label, NodeId, Op, Order, Sought, Symbol};
+use crate::graph::{Coordinate, Expr, Graph, Label, NodeId, NodeValues, Op, Order, Sought, Symbol};
 use crate::model::ids::{DriveId, JointId, LinkId, ParamId};
 use crate::model::units::Kind;
 use crate::model::{Along, Closure, End, Joint, Model, Pair, Scene, Wanted, reciprocal_name};
@@ -580,7 +580,7 @@ fn check_defaults(model: &Model, sink: &Sink) {
             Symbol::Parameter(id) => default(&id).map_or(f64::NAN, |number| number.to_f64()),
             _ => f64::NAN,
         };
-        let mut done = Evaluated::default();
+        let mut done = NodeValues::default();
         let (value, limit) = (graph.evaluate(value, &known, &mut done), graph.evaluate(limit, &known, &mut done));
         if !guard.condition.holds(&value, &limit) && told.insert(requirement.clone()) {
             let name = &model.param(*first).name;

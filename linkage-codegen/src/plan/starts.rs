@@ -1,7 +1,7 @@
 //! Starts that close: for messages that miss one, a pose of this linkage to paste.
 
 use crate::equations::poses::{Pose, Poses, Random};
-use crate::graph::{Evaluated, NodeId, Symbol};
+use crate::graph::{NodeId, NodeValues, Symbol};
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
 use crate::model::{JointKind, Model, Start};
 
@@ -107,7 +107,7 @@ impl Wanted<'_, '_> {
             Symbol::Side(_) => 1.0,
             _ => own.parameter(symbol),
         };
-        let mut done = Evaluated::default();
+        let mut done = NodeValues::default();
         for link in self.model.moving_links() {
             if let Some(frame) = (self.placed)(link) {
                 pose.0[link.index()] = frame.map(|node| self.model.graph.evaluate(node, &known, &mut done));

@@ -2,7 +2,7 @@
 
 use super::{Fault, Functions, Input, Run};
 use crate::diagnostics::{Diagnostic, Sink, list};
-use crate::graph::{Evaluated, Failure, NodeId, Symbol};
+use crate::graph::{Failure, NodeId, NodeValues, Symbol};
 use crate::model::Model;
 use crate::model::ids::{GROUND, LinkId};
 use crate::model::units::Kind;
@@ -65,15 +65,15 @@ fn at_start(model: &Model, choice: u32, symbol: Symbol) -> f64 {
 /// What goes wrong at the start, with the sides as the bits of a choice say.
 fn fault(model: &Model, functions: &Functions, choice: u32) -> Option<Fault> {
     let of = |symbol: Symbol| at_start(model, choice, symbol);
-    let run = |program, prepared: &Evaluated<f64>| {
+    let run = |program, prepared: &NodeValues<f64>| {
         Run { program, graph: &model.graph }.with(&|input| match input {
             Input::Symbol(symbol) => of(symbol),
             Input::Prepared(node) => prepared.get(&node).copied().unwrap_or(f64::NAN),
             Input::Kept(_) | Input::Known(_) => f64::NAN,
         })
     };
-    let prepared = run(&functions.prepare, &Evaluated::default());
-    let prepared = prepared.map(|values| functions.prepared.iter().copied().zip(values).collect::<Evaluated<_>>());
+    let prepared = run(&functions.prepare, &NodeValues::default());
+    let prepared = prepared.map(|values| functions.prepared.iter().copied().zip(values).collect::<NodeValues<_>>());
     prepared.and_then(|prepared| run(&functions.pose, &prepared)).err()
 }
 
@@ -85,7 +85,7 @@ fn gap(model: &Model, links: &str) -> Option<f64> {
     };
     let known = |symbol: Symbol| at_start(model, 0, symbol);
     let gaps = model.graph.guards().into_iter().filter_map(|guard| of(&guard.failure));
-    let mut gaps = gaps.map(|gap| model.graph.evaluate(gap, &known, &mut Evaluated::default()));
+    let mut gaps = gaps.map(|gap| model.graph.evaluate(gap, &known, &mut NodeValues::default()));
     gaps.find(|gap| *gap > 0.0 && gap.is_finite())
 }
 

@@ -9,7 +9,7 @@ use super::{Group, Input};
 use crate::equations::joints::{Shape, Teeth};
 use crate::equations::poses::Random;
 use crate::equations::{Body, Dimensions, Row, drive_row, joint_rows, unknown_row};
-use crate::graph::{Coordinate, Evaluated, Graph, Symbol, Vector};
+use crate::graph::{Coordinate, Graph, NodeValues, Symbol, Vector};
 use crate::model::ids::JointId;
 use crate::model::{End, JointKind, Model, UnknownKind};
 
@@ -40,7 +40,7 @@ pub(super) fn rank_of(model: &Model, group: &Group) -> usize {
     let mut best = 0;
     for seed in 0..POSES {
         let pose = Pose::random(model, seed);
-        let value = |id| graph.evaluate(id, &|symbol| pose.value(symbol), &mut Evaluated::default());
+        let value = |id| graph.evaluate(id, &|symbol| pose.value(symbol), &mut NodeValues::default());
         let matrix: Vec<Vec<f64>> = rows
             .iter()
             .map(|row| {

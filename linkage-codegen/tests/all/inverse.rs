@@ -5,7 +5,7 @@ use crate::support::linkages::{Kind, Sample, sample};
 use crate::support::numbers::Double;
 use crate::support::{Arguments, compile_if_it_closes, direct, pose};
 use linkage_codegen::Linkage;
-use linkage_codegen::graph::{Evaluated, Expr, Failure, NodeId};
+use linkage_codegen::graph::{Expr, Failure, NodeId, NodeValues};
 use linkage_codegen::model::ids::{DriveId, GROUND, JointId, LinkId};
 use linkage_codegen::model::{End, JointKind};
 use linkage_codegen::program::Fault;
@@ -17,7 +17,7 @@ type Moved = [f64; 3];
 fn coordinate(linkage: &Linkage, arguments: &Arguments, joint: JointId, turns: bool) -> Result<Moved, Fault> {
     pose::<Double>(linkage, arguments)?;
     let graph = &linkage.model.graph;
-    let mut done: Evaluated<Double> = Evaluated::default();
+    let mut done: NodeValues<Double> = NodeValues::default();
     let mut of = |node: NodeId| graph.evaluate(node, &|symbol| Double(arguments.of(symbol)), &mut done).0;
     let data = linkage.model.joint(joint);
     let [a, b] = [data.from, data.to];

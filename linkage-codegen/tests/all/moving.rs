@@ -7,7 +7,7 @@ use crate::support::numbers::{Double, Extended};
 use crate::support::{Arguments, Number, compile, index_of, pose, prepared, scene};
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{Coordinate, Evaluated, NodeId, Symbol};
+use linkage_codegen::graph::{Coordinate, NodeId, NodeValues, Symbol};
 use linkage_codegen::model::ids::LinkId;
 use linkage_codegen::model::{End, LoadKind, Pair};
 use linkage_codegen::program::{Input, Run};
@@ -53,12 +53,12 @@ impl Moment<'_> {
     }
 
     /// The value of an expression of the plan.
-    fn value(&self, node: NodeId, done: &mut Evaluated<Extended>) -> Extended {
+    fn value(&self, node: NodeId, done: &mut NodeValues<Extended>) -> Extended {
         self.linkage.model.graph.evaluate(node, &|symbol| self.known(symbol), done)
     }
 
     /// What a pose keeps.
-    fn kept(&self) -> Evaluated<Extended> {
+    fn kept(&self) -> NodeValues<Extended> {
         let prepared = prepared::<Extended>(self.linkage, self.arguments).expect("parameters");
         let run = Run { program: &self.linkage.functions.pose, graph: &self.linkage.model.graph };
         let values = run.with(&|input| match input {
@@ -73,7 +73,7 @@ impl Moment<'_> {
 /// The linkage at three moments: before, at, and behind that of the arguments.
 struct Passing<'a> {
     linkage: &'a Linkage,
-    moments: [(Moment<'a>, Evaluated<Extended>); 3],
+    moments: [(Moment<'a>, NodeValues<Extended>); 3],
 }
 
 impl<'a> Passing<'a> {
@@ -87,16 +87,16 @@ impl<'a> Passing<'a> {
     }
 
     /// The value at the three moments.
-    fn values(&self, of: &dyn Fn(&Moment<'_>, &mut Evaluated<Extended>) -> Extended) -> [Extended; 3] {
+    fn values(&self, of: &dyn Fn(&Moment<'_>, &mut NodeValues<Extended>) -> Extended) -> [Extended; 3] {
         self.moments.each_ref().map(|(moment, kept)| of(moment, &mut kept.clone()))
     }
 
-    fn rate(&self, of: &dyn Fn(&Moment<'_>, &mut Evaluated<Extended>) -> Extended) -> Extended {
+    fn rate(&self, of: &dyn Fn(&Moment<'_>, &mut NodeValues<Extended>) -> Extended) -> Extended {
         let [before, _, behind] = self.values(of);
         behind.sub(&before).div(&exactly(STEP).add(&exactly(STEP)))
     }
 
-    fn acceleration(&self, of: &dyn Fn(&Moment<'_>, &mut Evaluated<Extended>) -> Extended) -> Extended {
+    fn acceleration(&self, of: &dyn Fn(&Moment<'_>, &mut NodeValues<Extended>) -> Extended) -> Extended {
         let [before, at, behind] = self.values(of);
         behind.add(&before).sub(&at).sub(&at).div(&exactly(STEP).mul(&exactly(STEP)))
     }
@@ -106,7 +106,7 @@ impl<'a> Passing<'a> {
     }
 
     /// A place in a link's frame, at a moment.
-    fn place(&self, link: LinkId, at: Pair, moment: &Moment<'_>, done: &mut Evaluated<Extended>) -> [Extended; 2] {
+    fn place(&self, link: LinkId, at: Pair, moment: &Moment<'_>, done: &mut NodeValues<Extended>) -> [Extended; 2] {
         use Coordinate::{Cos, Sin, X, Y};
         let [x, y, c, s] = [X, Y, Cos, Sin].map(|which| moment.value(self.coordinate(link, which), done));
         let [a, b] = [at.x, at.y].map(|node| moment.value(node, done));
@@ -122,7 +122,7 @@ impl<'a> Passing<'a> {
         [0, 1].map(|part| self.rate(&|moment, done| self.place(link, at, moment, done)[part].clone()))
     }
 
-    fn distance(&self, ends: [End; 2], moment: &Moment<'_>, done: &mut Evaluated<Extended>) -> Extended {
+    fn distance(&self, ends: [End; 2], moment: &Moment<'_>, done: &mut NodeValues<Extended>) -> Extended {
         let [a, b] = ends.map(|end| self.place(end.link, self.point(end), moment, done));
         let [x, y] = [b[0].sub(&a[0]), b[1].sub(&a[1])];
         x.mul(&x).add(&y.mul(&y)).sqrt()
@@ -191,12 +191,12 @@ impl<'a> Passing<'a> {
         massive.fold(Extended::zero(), |sum, (link, mass)| {
             let now = |node: NodeId| self.moments[1].0.value(node, &mut self.moments[1].1.clone());
             let parts = [0, 1].map(|part| {
-                let place = |moment: &Moment<'_>, done: &mut Evaluated<Extended>| {
+                let place = |moment: &Moment<'_>, done: &mut NodeValues<Extended>| {
                     self.place(link, mass.centroid, moment, done)[part].clone()
                 };
                 now(mass.mass).mul(&self.rate(&place)).mul(&self.acceleration(&place))
             });
-            let angle = |moment: &Moment<'_>, done: &mut Evaluated<Extended>| {
+            let angle = |moment: &Moment<'_>, done: &mut NodeValues<Extended>| {
                 moment.value(self.coordinate(link, Coordinate::Angle), done)
             };
             let turning = now(mass.inertia).mul(&self.rate(&angle)).mul(&self.acceleration(&angle));
@@ -217,7 +217,7 @@ fn check_differences(sample: &Sample, linkage: &Linkage, passing: &Passing<'_>) 
     let speeds = scene::<Extended>(linkage, "speeds", &sample.arguments).expect("velocities");
     let accelerations = scene::<Extended>(linkage, "accelerations", &sample.arguments).expect("accelerations");
     for (path, node) in places {
-        let place = |moment: &Moment<'_>, done: &mut Evaluated<Extended>| moment.value(node, done);
+        let place = |moment: &Moment<'_>, done: &mut NodeValues<Extended>| moment.value(node, done);
         near(&speeds[&path], &passing.rate(&place), 1e-25, &format!("velocity of {path}"), &sample.text);
         let found = &accelerations[&path];
         near(found, &passing.acceleration(&place), 1e-20, &format!("acceleration of {path}"), &sample.text);

@@ -7,7 +7,7 @@ use crate::support::numbers::{Double, Extended, Single};
 use crate::support::{Arguments, Number, compile, index_of, moved, pose};
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{Evaluated, Failure, Graph, Kernel, Op};
+use linkage_codegen::graph::{Failure, Graph, Kernel, NodeValues, Op};
 use linkage_codegen::program::{Definition, Fault};
 
 /// The bars, in epsilons of the scalar: closure over the longest link, and the size of directions.
@@ -24,8 +24,8 @@ const STEPHENSON: &str = "pub mod sample;
     start d: (4m, -1m), angle 115deg; load F: force(t.G); scene all: equilibrium; scene work: virtual_work;";
 
 /// The largest constraint residual of a pose, and the largest deviation of a direction from unit size.
-fn errors<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &Evaluated<T>) -> (f64, f64) {
-    let exact: Evaluated<Extended> =
+fn errors<T: Number>(linkage: &Linkage, arguments: &Arguments, kept: &NodeValues<T>) -> (f64, f64) {
+    let exact: NodeValues<Extended> =
         kept.iter().map(|(node, value)| (*node, Extended::exactly(value.to_f64()))).collect();
     let residuals = residuals_at(&Coordinates::at(linkage, arguments, &exact));
     let closure = residuals.iter().fold(0.0f64, |m, r| m.max(r.to_f64().abs()));
@@ -130,7 +130,7 @@ fn a_sweep_stays_on_its_branch_and_comes_back() {
 }
 
 /// The largest difference of two poses.
-fn apart(a: &Evaluated<Double>, b: &Evaluated<Double>) -> f64 {
+fn apart(a: &NodeValues<Double>, b: &NodeValues<Double>) -> f64 {
     a.iter().map(|(node, value)| (value.0 - b[node].0).abs()).fold(0.0, f64::max)
 }
 

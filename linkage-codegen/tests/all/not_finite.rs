@@ -10,7 +10,7 @@ use crate::support::declarations::{coordinates, given, linkages, poses};
 use crate::support::numbers::{Double, Single};
 use crate::support::{Arguments, Number, checked_pose, direct, from_pose, moved, pose, prepared};
 use linkage_codegen::Linkage;
-use linkage_codegen::graph::{Evaluated, Failure, Order, Scalar, Symbol};
+use linkage_codegen::graph::{Failure, NodeValues, Order, Scalar, Symbol};
 use linkage_codegen::model::ids::DriveId;
 use linkage_codegen::program::{Fault, Input, Program, Step};
 
@@ -81,7 +81,7 @@ fn functions<'a, T: Number + 'a>(linkage: &'a Linkage, is_inverse: bool) -> Vec<
         let good = good.unwrap_or_else(|| panic!("{name}: {:?}", call(&at[0]).err())).clone();
         all.push(Function { name: name.to_owned(), good, reads, call });
     };
-    let in_order = move |kept: &Evaluated<T>| -> Vec<T> {
+    let in_order = move |kept: &NodeValues<T>| -> Vec<T> {
         linkage.plan.pose.iter().map(|part| kept[&part.node].clone()).collect()
     };
     add(

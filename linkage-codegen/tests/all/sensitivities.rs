@@ -8,7 +8,7 @@ use crate::support::{Arguments, Number, compile, index_of};
 use linkage_codegen::Linkage;
 use linkage_codegen::diagnostics::Diagnostic;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{Evaluated, Op, Order, Symbol};
+use linkage_codegen::graph::{NodeValues, Op, Order, Symbol};
 use linkage_codegen::model::End;
 use linkage_codegen::model::ids::{DriveId, GROUND, LinkId, LoadId, ParamId, PointId};
 use linkage_codegen::plan::rules::RULES;
@@ -35,7 +35,7 @@ impl At<'_> {
         }
     }
 
-    fn run<T: Number>(&self, program: &Program, pose: &Evaluated<T>) -> Result<Vec<T>, Fault> {
+    fn run<T: Number>(&self, program: &Program, pose: &NodeValues<T>) -> Result<Vec<T>, Fault> {
         let graph = &self.linkage.model.graph;
         let nothing = || T::exactly(f64::NAN);
         let functions = &self.linkage.functions;
@@ -43,7 +43,7 @@ impl At<'_> {
             Input::Symbol(symbol) => self.known(symbol),
             _ => nothing(),
         })?;
-        let prepared: Evaluated<T> = functions.prepared.iter().copied().zip(values).collect();
+        let prepared: NodeValues<T> = functions.prepared.iter().copied().zip(values).collect();
         Run { program, graph }.with(&|input| match input {
             Input::Symbol(symbol) => self.known(symbol),
             Input::Prepared(node) => prepared[&node].clone(),
@@ -54,11 +54,11 @@ impl At<'_> {
 
     fn direct<T: Number>(&self, scene: &str) -> Result<HashMap<String, T>, Fault> {
         let program = &self.linkage.functions.scenes[index_of(self.linkage, scene)].direct;
-        Ok(paths(program).zip(self.run(program, &Evaluated::default())?).collect())
+        Ok(paths(program).zip(self.run(program, &NodeValues::default())?).collect())
     }
 
     fn posed<T: Number>(&self, scene: &str) -> Result<HashMap<String, T>, Fault> {
-        let kept = self.run(&self.linkage.functions.pose, &Evaluated::default())?;
+        let kept = self.run(&self.linkage.functions.pose, &NodeValues::default())?;
         let pose = self.linkage.plan.pose.iter().map(|kept| kept.node).zip(kept).collect();
         let program = &self.linkage.functions.scenes[index_of(self.linkage, scene)].from_pose;
         Ok(paths(program).zip(self.run(program, &pose)?).collect())

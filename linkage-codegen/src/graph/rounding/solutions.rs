@@ -166,7 +166,7 @@ impl<'g> Rounding<'g> {
 mod tests {
     use super::super::Rounding;
     use crate::graph::number::Number;
-    use crate::graph::{Evaluated, Expr, Graph, Scalar, Symbol};
+    use crate::graph::{Expr, Graph, NodeValues, Scalar, Symbol};
     use crate::model::ids::LoadId;
 
     /// A sequence of numbers from −1 to 1.
@@ -184,11 +184,11 @@ mod tests {
             _ => f64::NAN,
         };
         let exactly = |symbol: Symbol| Number::from_f64(of(symbol)).expect("finite");
-        let rounded: f64 = graph.evaluate(value.id(), &of, &mut Evaluated::default());
-        let exact: Number = graph.evaluate(value.id(), &exactly, &mut Evaluated::default());
+        let rounded: f64 = graph.evaluate(value.id(), &of, &mut NodeValues::default());
+        let exact: Number = graph.evaluate(value.id(), &exactly, &mut NodeValues::default());
         // Of singular equations a check, which is not among these operations, says that there is no solution.
         let error = Number::from_f64(rounded).map_or(0.0, |rounded| rounded.sub(&exact).to_f64().abs());
-        (graph.evaluate(bound.id(), &of, &mut Evaluated::default()), error)
+        (graph.evaluate(bound.id(), &of, &mut NodeValues::default()), error)
     }
 
     #[test]
@@ -246,7 +246,7 @@ mod tests {
                 Symbol::Load(load, _) => values[load.index()],
                 _ => f64::NAN,
             };
-            graph.evaluate::<f64>(bound.id(), &of, &mut Evaluated::default())
+            graph.evaluate::<f64>(bound.id(), &of, &mut NodeValues::default())
         };
         assert_eq!(at(0.0, 0.1).to_bits(), 0.0f64.to_bits());
         assert!(at(1.0, 0.1) < 1e-13);

@@ -819,7 +819,7 @@ fn put_joint<'m>(balance: &mut Balance<'m, '_>, joint: JointId, values: &[Expr<'
 mod tests {
     use super::Block;
     use crate::diagnostics::Sink;
-    use crate::graph::{Evaluated, Order, Symbol};
+    use crate::graph::{NodeValues, Order, Symbol};
     use crate::model::{self, Model};
     use crate::plan::assembly::Assembly;
     use crate::plan::rules::{Rule, rule_of};
@@ -857,7 +857,7 @@ mod tests {
             Symbol::Driven(drive, Order::Acceleration) => [0.7, 2.1][drive.index()],
             _ => f64::NAN,
         };
-        let mut done = Evaluated::default();
+        let mut done = NodeValues::default();
         let mut all = Vec::new();
         for motion in [&velocities, &accelerations] {
             for link in model.moving_links() {

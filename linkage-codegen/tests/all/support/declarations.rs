@@ -1,6 +1,6 @@
 //! Declarations of all that there is, and what is given to their functions.
 
-use linkage_codegen::graph::Evaluated;
+use linkage_codegen::graph::NodeValues;
 use linkage_codegen::model::Param;
 use linkage_codegen::{Linkage, analyse};
 use proc_macro2::TokenStream;
@@ -65,7 +65,7 @@ pub fn coordinates(linkage: &Linkage) -> impl Iterator<Item = Vec<f64>> {
     let model = &linkage.model;
     let given = given(linkage);
     let known = |symbol| given.of(symbol);
-    let mut done = Evaluated::default();
+    let mut done = NodeValues::default();
     let mut longest = 0.0f64;
     for link in &model.links {
         let at: Vec<[f64; 2]> = link

@@ -9,7 +9,7 @@ use linkage_codegen::equations::loads::Case;
 use linkage_codegen::equations::{Declared, Exerted, Source, drive_row};
 use linkage_codegen::graph::number::Number as Exact;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{Coordinate, Evaluated, NodeId, Symbol};
+use linkage_codegen::graph::{Coordinate, NodeId, NodeValues, Symbol};
 use linkage_codegen::model::JointKind;
 use linkage_codegen::model::ids::{DriveId, LinkId};
 use linkage_codegen::program::Fault;
@@ -35,7 +35,7 @@ pub fn equations<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<
 pub fn equations_at<T: Number>(pose: &Coordinates<'_, T>) -> General<T> {
     let linkage = pose.linkage;
     let known = |symbol| pose.known(symbol);
-    let mut done: Evaluated<T> = Evaluated::default();
+    let mut done: NodeValues<T> = NodeValues::default();
     let mut value = |node| linkage.model.graph.evaluate(node, &known, &mut done);
     let lines = 3 * (linkage.model.links.len() - 1);
     let mut column = |exerts: &[Exerted]| {
@@ -64,7 +64,7 @@ pub fn residuals<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<
 pub fn residuals_at<T: Number>(pose: &Coordinates<'_, T>) -> Vec<T> {
     let (linkage, graph) = (pose.linkage, &pose.linkage.model.graph);
     let known = |symbol| pose.known(symbol);
-    let mut done: Evaluated<T> = Evaluated::default();
+    let mut done: NodeValues<T> = NodeValues::default();
     let mut value = |node| graph.evaluate(node, &known, &mut done);
     let residuals = linkage.system.rows.iter().filter_map(|row| {
         let residual = value(row.residual?);
@@ -84,7 +84,7 @@ pub fn residuals_at<T: Number>(pose: &Coordinates<'_, T>) -> Vec<T> {
     // The joints' coordinates are those that the drives give.
     let drives = (0..linkage.model.drives.len()).map(DriveId::new).filter_map(|drive| {
         let coordinate = drive_row(&linkage.model, graph, &Declared(&linkage.model), drive).residual?;
-        let coordinate = graph.evaluate(coordinate, &known, &mut Evaluated::default());
+        let coordinate = graph.evaluate(coordinate, &known, &mut NodeValues::default());
         let apart = coordinate.sub(&T::exactly(pose.arguments.drives[drive.index()]));
         Some(if linkage.model.drive(drive).turns { within_a_turn(&apart, &T::exactly(1.0)) } else { apart })
     });
@@ -96,12 +96,12 @@ pub fn residuals_at<T: Number>(pose: &Coordinates<'_, T>) -> Vec<T> {
 pub struct Coordinates<'a, T> {
     pub linkage: &'a Linkage,
     pub arguments: &'a Arguments,
-    placed: RefCell<Evaluated<T>>,
+    placed: RefCell<NodeValues<T>>,
 }
 
 impl<'a, T: Number> Coordinates<'a, T> {
     /// From what the pose keeps.
-    pub fn at(linkage: &'a Linkage, arguments: &'a Arguments, kept: &Evaluated<T>) -> Self {
+    pub fn at(linkage: &'a Linkage, arguments: &'a Arguments, kept: &NodeValues<T>) -> Self {
         Self { linkage, arguments, placed: RefCell::new(kept.clone()) }
     }
 
@@ -142,7 +142,7 @@ pub fn open_motion<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Resul
     });
     let open = joints.chain(drives).map(|(source, residual)| {
         let rate = graph.rate(residual);
-        let both = [rate, graph.rate(rate)].map(|of| graph.evaluate(of.id(), &known, &mut Evaluated::default()));
+        let both = [rate, graph.rate(rate)].map(|of| graph.evaluate(of.id(), &known, &mut NodeValues::default()));
         (source, both)
     });
     Ok(open.collect())

@@ -7,7 +7,7 @@ use linkage_codegen::equations::Source;
 use linkage_codegen::equations::joints::Component;
 use linkage_codegen::equations::loads::{self, Action};
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{Coordinate, Evaluated, Vector};
+use linkage_codegen::graph::{Coordinate, NodeValues, Vector};
 use linkage_codegen::model::ids::{GROUND, JointId, LinkId};
 use linkage_codegen::model::{End, JointKind, LoadKind, UnknownKind};
 use linkage_codegen::program::Fault;
@@ -72,7 +72,7 @@ pub fn measure<T: Number>(
 ) -> Result<Measures, Fault> {
     let kept = pose::<T>(linkage, arguments)?;
     let (all, work) = (from_kept(linkage, "all", &kept, arguments)?, from_kept(linkage, "work", &kept, arguments)?);
-    let extended: Evaluated<Extended> =
+    let extended: NodeValues<Extended> =
         kept.iter().map(|(node, value)| (*node, Extended::exactly(value.to_f64()))).collect();
     let unit = direction_error(linkage, &extended) / epsilon;
     let here = Coordinates::at(linkage, arguments, &extended);
@@ -176,7 +176,7 @@ fn farthest(pose: &Coordinates<'_, Extended>) -> f64 {
 }
 
 /// The pose with all directions brought to unit size.
-fn normalised(linkage: &Linkage, kept: &Evaluated<Extended>) -> Evaluated<Extended> {
+fn normalised(linkage: &Linkage, kept: &NodeValues<Extended>) -> NodeValues<Extended> {
     let mut unit = kept.clone();
     let node = |name: String| linkage.plan.pose.iter().find(|kept| kept.name == name).map(|kept| kept.node);
     for link in linkage.model.moving_links() {
@@ -193,7 +193,7 @@ fn normalised(linkage: &Linkage, kept: &Evaluated<Extended>) -> Evaluated<Extend
 pub fn from_kept<T: Number>(
     linkage: &Linkage,
     name: &str,
-    kept: &Evaluated<T>,
+    kept: &NodeValues<T>,
     arguments: &Arguments,
 ) -> Result<HashMap<String, T>, Fault> {
     let (paths, values) = values_from_kept(linkage, name, kept, arguments)?;
@@ -204,7 +204,7 @@ pub fn from_kept<T: Number>(
 pub fn values_from_kept<T: Number>(
     linkage: &Linkage,
     name: &str,
-    kept: &Evaluated<T>,
+    kept: &NodeValues<T>,
     arguments: &Arguments,
 ) -> Result<(Vec<String>, Vec<T>), Fault> {
     let index = index_of(linkage, name);
@@ -213,7 +213,7 @@ pub fn values_from_kept<T: Number>(
     Ok((program.outputs.iter().map(|(path, _)| path.clone()).collect(), values))
 }
 
-fn direction_error(linkage: &Linkage, kept: &Evaluated<Extended>) -> f64 {
+fn direction_error(linkage: &Linkage, kept: &NodeValues<Extended>) -> f64 {
     let value = |name: String| {
         let found = linkage.plan.pose.iter().find(|kept| kept.name == name);
         found.map(|found| kept[&found.node].clone())
@@ -403,7 +403,7 @@ fn free_body(
         let value = arguments.loads[case.load.index()];
         let [Action::Force { at, .. }] = actions.as_slice() else { continue };
         let known = |symbol| arguments.of(symbol);
-        let mut done = Evaluated::default();
+        let mut done = NodeValues::default();
         let local = [at.x, at.y].map(|node| linkage.model.graph.evaluate::<f64>(node, &known, &mut done));
         let force = value[0].hypot(value[1]);
         forces += force;

@@ -16,7 +16,7 @@ use std::collections::HashMap;
 
 use linkage_codegen::Linkage;
 use linkage_codegen::graph::real::Real;
-use linkage_codegen::graph::{Evaluated, Order, Sought, Symbol};
+use linkage_codegen::graph::{NodeValues, Order, Sought, Symbol};
 use linkage_codegen::model::ids::{DriveId, ParamId};
 use linkage_codegen::program::{Fault, Input, Program, Run};
 
@@ -87,7 +87,7 @@ pub trait Number: Real {
 }
 
 /// What the parameters alone determine.
-pub fn prepared<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<Evaluated<T>, Fault> {
+pub fn prepared<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<NodeValues<T>, Fault> {
     let program = &linkage.functions.prepare;
     let values = Run { program, graph: &linkage.model.graph }.with(&|input| match input {
         Input::Symbol(symbol) => T::exactly(arguments.of(symbol)),
@@ -97,19 +97,19 @@ pub fn prepared<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<E
 }
 
 /// `Linkage::new`, which first asks for all parameters, those that nothing depends on as well.
-pub fn checked_prepared<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<Evaluated<T>, Fault> {
+pub fn checked_prepared<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<NodeValues<T>, Fault> {
     let mut all = (0..linkage.model.params.len()).map(|param| Symbol::Parameter(ParamId::new(param)));
     if all.all(|param| arguments.of(param).is_finite()) { prepared(linkage, arguments) } else { Err(Fault::NotFinite) }
 }
 
 /// What a pose keeps.
-pub fn pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<Evaluated<T>, Fault> {
+pub fn pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<NodeValues<T>, Fault> {
     let values = direct(linkage, &linkage.functions.pose, arguments)?;
     Ok(linkage.plan.pose.iter().map(|kept| kept.node).zip(values).collect())
 }
 
 /// `Pose::at`, which also asks for the drives that nothing of a pose depends on.
-pub fn checked_pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<Evaluated<T>, Fault> {
+pub fn checked_pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Result<NodeValues<T>, Fault> {
     let read: Vec<Input> = linkage.functions.pose.inputs().map(|(_, input)| input).collect();
     let drives = (0..linkage.model.drives.len()).map(|drive| Symbol::Drive(DriveId::new(drive)));
     let mut unread = drives.filter(|drive| !read.contains(&Input::Symbol(*drive)));
@@ -119,9 +119,9 @@ pub fn checked_pose<T: Number>(linkage: &Linkage, arguments: &Arguments) -> Resu
 /// A pose near another one: `moved_to`.
 pub fn moved<T: Number>(
     linkage: &Linkage,
-    (from, before): (&Evaluated<T>, &Arguments),
+    (from, before): (&NodeValues<T>, &Arguments),
     arguments: &Arguments,
-) -> Result<Evaluated<T>, Fault> {
+) -> Result<NodeValues<T>, Fault> {
     let program = linkage.functions.near.as_ref().expect("a search");
     let prepared = prepared::<T>(linkage, arguments)?;
     let values = Run { program, graph: &linkage.model.graph }.with(&|input| match input {
@@ -158,7 +158,7 @@ pub fn direct<T: Number>(linkage: &Linkage, program: &Program, arguments: &Argum
 pub fn from_pose<T: Number>(
     linkage: &Linkage,
     program: &Program,
-    pose: &Evaluated<T>,
+    pose: &NodeValues<T>,
     arguments: &Arguments,
 ) -> Result<Vec<T>, Fault> {
     let prepared = prepared::<T>(linkage, arguments)?;
