@@ -488,11 +488,11 @@ fn fused(families: impl Iterator<Item = Family>) -> impl Iterator<Item = Family>
 
 #[test]
 fn fused_arithmetic() {
-    assert!(check(fused(random_four_bars(9, 100, 20)), "fused four-bars") > 1000);
-    assert!(check(fused(random_slider_cranks(10, 60, 20)), "fused slider-cranks") > 600);
-    assert!(check(fused(oscillating_blocks(11, (60, 20))), "fused oscillating blocks") > 600);
-    assert!(check(fused(tangent_mechanisms(12, (60, 20))), "fused tangent mechanisms") > 600);
-    assert!(check(fused(scotch_yokes(13, (60, 20))), "fused Scotch yokes") > 1000);
+    assert!(check(fused(random_four_bars(9, 50, 20)), "fused four-bars") > 500);
+    assert!(check(fused(random_slider_cranks(10, 30, 20)), "fused slider-cranks") > 300);
+    assert!(check(fused(oscillating_blocks(11, (30, 20))), "fused oscillating blocks") > 300);
+    assert!(check(fused(tangent_mechanisms(12, (30, 20))), "fused tangent mechanisms") > 300);
+    assert!(check(fused(scotch_yokes(13, (30, 20))), "fused Scotch yokes") > 500);
 }
 
 #[test]

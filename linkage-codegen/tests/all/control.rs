@@ -186,20 +186,20 @@ fn check(seed: u64) -> Option<Checked> {
 
 #[test]
 fn the_equation_of_motion_of_random_linkages_is_their_equilibrium() {
-    let checked: Vec<Checked> = (8000..8100).filter_map(check).collect();
+    let checked: Vec<Checked> = (8000..8050).filter_map(check).collect();
     let count = |having: &dyn Fn(&Checked) -> bool| checked.iter().filter(|one| having(one)).count();
     let (several, elsewhere) = (count(&|one| one.drives > 1), count(&|one| !one.at_drives));
     let (forward, forward_several) = (count(&|one| one.forward), count(&|one| one.forward && one.drives > 1));
     println!("{} {several} {elsewhere} {forward} {forward_several}", checked.len());
-    assert!(checked.len() > 50 && several > 4 && elsewhere > 9, "{} {several} {elsewhere}", checked.len());
-    assert!(forward > 40 && forward_several > 2, "forward: {forward}, of several drives {forward_several}");
+    assert!(checked.len() > 25 && several > 2 && elsewhere > 4, "{} {several} {elsewhere}", checked.len());
+    assert!(forward > 20 && forward_several > 1, "forward: {forward}, of several drives {forward_several}");
 }
 
 /// With the coefficients of first and second order every velocity and every acceleration is made of the drives' motion.
 #[test]
 fn kinematic_coefficients_of_random_linkages_make_their_motion() {
     let (mut checked, mut several) = (0, 0);
-    for seed in 8200..8260 {
+    for seed in 8200..8230 {
         let Some((text, _, arguments)) = linkage(seed) else { continue };
         let linkage = compile(&format!("{text} scene gains: coefficients;"));
         let Ok(gains) = scene::<Double>(&linkage, "gains", &arguments) else { continue };
@@ -233,7 +233,7 @@ fn kinematic_coefficients_of_random_linkages_make_their_motion() {
         checked += 1;
         several += usize::from(drives.len() > 1);
     }
-    assert!(checked > 25 && several > 2, "{checked} {several}");
+    assert!(checked > 20 && several > 2, "{checked} {several}");
 }
 
 /// A crank-rocker with masses.

@@ -72,8 +72,8 @@ fn expect_tight(name: &str, mut ratios: Vec<f64>) {
 
 #[test]
 fn of_random_linkages() {
-    random_linkages(0..60, "f64");
-    random_linkages(60..90, "f32");
+    random_linkages(0..30, "f64");
+    random_linkages(30..45, "f32");
 }
 
 #[test]
@@ -178,9 +178,9 @@ fn iterated_among_others(seeds: core::ops::Range<u64>, poses: usize, scalar: &'s
 
 #[test]
 fn of_groups_placed_by_iteration() {
-    iterated(0..12, 5);
-    iterated_among_others(0..30, 2, "f64");
-    iterated_among_others(30..50, 2, "f32");
+    iterated(0..6, 5);
+    iterated_among_others(0..15, 2, "f64");
+    iterated_among_others(15..25, 2, "f32");
 }
 
 #[test]

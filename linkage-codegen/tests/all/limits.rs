@@ -14,7 +14,7 @@ use linkage_codegen::graph::number::Number;
 use linkage_codegen::limits::{Grashof, Inversion, Known, KnownPosition, KnownRange, Loop, Posture, Shape};
 
 /// How many linkages of each kind.
-const SAMPLES: u64 = 250;
+const SAMPLES: u64 = 125;
 /// How many poses of each are looked at.
 const POSES: i32 = 400;
 
@@ -319,7 +319,7 @@ fn random_four_bars() {
         assert_eq!(known.stroke.is_some(), expected == Grashof::CrankRocker, "{text}");
         check_stroke(&linkage, known, &swing, 1.0, &text);
     }
-    assert!(samples > 150 && limited > 60 && sharp * 10 > limited * 8, "{samples} {limited} {sharp}");
+    assert!(samples > 75 && limited > 30 && sharp * 10 > limited * 8, "{samples} {limited} {sharp}");
     assert_eq!(classes.len(), 6, "{classes:?}");
 }
 
@@ -353,7 +353,7 @@ fn limits_where_the_side_is_an_argument() {
             found += 1;
         }
     }
-    assert!(found > 60, "{found}");
+    assert!(found > 30, "{found}");
 }
 
 /// What the driver of a slider-crank turns.
@@ -508,10 +508,10 @@ fn check_slider_cranks(kind: SliderKind) {
         strokes += usize::from(known.stroke.is_some());
         check_stroke(&linkage, known, &output, if kind == SliderKind::Engine { 100.0 } else { 1.0 }, &text);
     }
-    assert!(samples > 120 && limited > 20, "{samples} {limited}");
+    assert!(samples > 60 && limited > 10, "{samples} {limited}");
     assert!(sharp * 10 >= limited * 8, "{samples} {limited} {sharp}");
     let toggles = matches!(kind, SliderKind::Engine | SliderKind::Cylinder | SliderKind::Slot);
-    assert!(dead > 20 && strokes > 20 || !toggles, "{dead} {strokes}");
+    assert!(dead > 10 && strokes > 10 || !toggles, "{dead} {strokes}");
 }
 
 #[test]

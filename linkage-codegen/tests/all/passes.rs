@@ -44,7 +44,7 @@ fn passes_keep_the_results() {
 /// Slides that are driven leave directions that are constants, rates products of these.
 #[test]
 fn passes_keep_the_results_of_motion() {
-    for seed in 3000..3040 {
+    for seed in 3000..3020 {
         let dyads = 1 + usize::try_from(seed % 4).unwrap();
         check_each_pass(&sample(seed, Kind { dyads, joints: seed % 2 == 1, moving: true, ..KIND }));
     }
@@ -135,7 +135,7 @@ fn results_of_moderate_arguments_are_finite() {
 #[test]
 fn results_of_moderate_arguments_at_a_pose_are_finite() {
     let (mut programs, mut poses) = (0, 0);
-    for seed in 0..72 {
+    for seed in 0..36 {
         let scalar = if seed % 3 == 0 { "f32" } else { "f64" };
         let dyads = if seed % 2 == 0 { 1 } else { 2 };
         let kind = Kind { dyads, moving: seed % 5 == 0, params: seed % 7 == 3, scalar, ..KIND };
@@ -157,7 +157,7 @@ fn results_of_moderate_arguments_at_a_pose_are_finite() {
             }
         }
     }
-    assert!(programs > 30 && poses > 6000, "{programs} programs, {poses} poses");
+    assert!(programs > 15 && poses > 3000, "{programs} programs, {poses} poses");
 }
 
 /// At how many poses of many a function has results, all finite, with the largest loads and rates.

@@ -275,7 +275,7 @@ fn survive(each: usize, seed: u64) -> (usize, usize) {
 
 #[test]
 fn broken_declarations_are_refused_in_rust() {
-    let (all, accepted) = survive(250, 0);
+    let (all, accepted) = survive(125, 0);
     // Mutants that are nothing but refused, or never, would show little.
     assert!(accepted * 100 > all && accepted * 2 < all, "{accepted} of {all} accepted");
 }

@@ -1,6 +1,6 @@
 //! The stress suite: kinds of groups in families of poses that break weak implementations, held to the bars, in both scalars; with
 //! `error_bound`, which no error may exceed, and which is within a hundred times the error as a median of each family and scalar. In plain
-//! and in fused arithmetic. A reduced size is among the quick tests; all of it is
+//! and in fused arithmetic. `.ci/run` has a reduced size, of some kinds among the quick tests and of the others after them; all of it is
 //!
 //! ```text
 //! just stress
@@ -1536,11 +1536,12 @@ fn not_finite<T: Scalar>(kind: &Kind, members: usize, fused: bool) {
     assert_compared(kind, "not finite", looked_at, members);
 }
 
-/// One kind: quickly, and at length.
+/// One kind: in the reduced size, and at length.
 macro_rules! kinds {
-    ($($name:ident: $index:literal, $random:literal;)*) => {
-        mod quick {$(
+    ($($(#[$ignored:meta])? $name:ident: $index:literal, $random:literal;)*) => {
+        mod reduced {$(
             #[test]
+            $(#[$ignored])?
             fn $name() {
                 let kind = &super::KINDS[$index];
                 super::all(kind, super::Size::reduced(kind));
@@ -1575,18 +1576,26 @@ fn all(kind: &Kind, size: Size) {
 
 kinds! {
     four_bars: 0, 1_000_000;
+    #[ignore = "long"]
     welded_four_bars: 1, 10_000;
     slider_cranks: 2, 1_000_000;
+    #[ignore = "long"]
     oscillating_blocks: 3, 10_000;
+    #[ignore = "long"]
     booms: 4, 10_000;
     tangent_mechanisms: 5, 10_000;
     scotch_yokes: 6, 10_000;
+    #[ignore = "long"]
     levers_with_slots: 7, 10_000;
     links_in_slots: 8, 10_000;
     yokes_with_slots: 9, 10_000;
     planets: 10, 10_000;
+    #[ignore = "long"]
     cascades: 11, 10_000;
+    #[ignore = "long"]
     triads: 12, 10_000;
+    #[ignore = "long"]
     triads_with_sliders: 13, 10_000;
+    #[ignore = "long"]
     class_four: 14, 10_000;
 }
