@@ -531,6 +531,8 @@ struct Arena {
     directions: BTreeMap<NodeId, Component>,
     /// From which place on nodes count the rounding of values, if any do.
     counted_from: Option<usize>,
+    /// What one group finds and others take up, whose error meets itself again in what is made of it.
+    passed_on: BTreeSet<NodeId>,
     /// What was found not to be negative by its form, which is asked for often.
     non_negative: BTreeSet<NodeId>,
     sections: Vec<String>,
@@ -650,6 +652,16 @@ impl Graph {
     /// Whether there is no pose without this check.
     pub(crate) fn holds_in_poses(&self, guard: GuardId) -> bool {
         self.arena.borrow().hold_in_poses.contains(&guard)
+    }
+
+    /// Notes that groups take up what another has found.
+    pub(crate) fn pass_on(&self, value: Expr<'_>) {
+        self.arena.borrow_mut().passed_on.insert(value.id());
+    }
+
+    /// Whether they do.
+    pub(crate) fn is_passed_on(&self, node: NodeId) -> bool {
+        self.arena.borrow().passed_on.contains(&node)
     }
 
     /// A node's name.

@@ -116,6 +116,14 @@ impl<'g> Deviation<'g> {
         Self { rest: self.rest.graph().zero(), ..self.clone() }
     }
 
+    /// The same with the rest as a share of a source of its own.
+    #[must_use]
+    pub fn from(self, source: Source) -> Self {
+        let zero = self.rest.graph().zero();
+        let rest = Self::of(source, self.rest);
+        Self { rest: zero, ..self }.plus(&rest)
+    }
+
     /// With so much more of a rest.
     #[must_use]
     pub fn and(self, rest: Expr<'g>) -> Self {
@@ -183,8 +191,6 @@ pub struct Rounding<'g> {
     open: HashSet<NodeId>,
     /// What has been found since, where some values are supposed to be exact.
     supposed: Option<Vec<NodeId>>,
-    /// The names of values whose rests are sources of errors too.
-    passed_on: HashSet<String>,
     /// The names of the sources.
     sources: Vec<String>,
     /// Solutions of linear equations that are known better than their operations tell, and which of them a value belongs to.
@@ -215,7 +221,6 @@ impl<'g> Rounding<'g> {
             pairs: FxHashMap::default(),
             open: HashSet::new(),
             supposed: None,
-            passed_on: HashSet::new(),
             sources: Vec::new(),
             solutions,
             solved,
@@ -238,11 +243,6 @@ impl<'g> Rounding<'g> {
     /// Says that two values are a direction.
     pub fn is_direction(&mut self, unit: Vector<'g>) {
         self.pairs.extend([unit.x, unit.y].map(|part| (part.id(), unit)));
-    }
-
-    /// Says that what has this name is passed on, and met again, by much: its rest becomes a source of errors.
-    pub fn is_passed_on(&mut self, name: String) {
-        self.passed_on.insert(name);
     }
 
     /// States the deviation of a direction's angle and the bound of that of its size.
@@ -362,11 +362,30 @@ impl<'g> Rounding<'g> {
         }
     }
 
-    /// The deviation of a direction's angle as the operations of its components tell.
+    /// The deviation of a direction's angle as the operations of its components tell. A factor of both, which brings a vector to unit size,
+    /// does not turn it, whatever it is off.
     pub fn turn_by_operations(&mut self, unit: Vector<'g>) -> Deviation<'g> {
+        if let Some(vector) = self.without_common_factor(unit) {
+            let [x, y] = [vector.x, vector.y].map(|part| self.deviation(part.id()));
+            return self.of_angle(vector, [&x, &y]).and(2 * self.rounded(unit.x * unit.y));
+        }
         let [x, y] = [unit.x, unit.y].map(|part| self.by_operations(part));
         let turn = Deviation::shares_of(&x, &y, |dx, dy| unit.x * dy - unit.y * dx);
         turn.and(unit.x.abs() * y.rest + unit.y.abs() * x.rest)
+    }
+
+    /// The vector whose components, times the same, are these.
+    fn without_common_factor(&self, product: Vector<'g>) -> Option<Vector<'g>> {
+        let factors = |part: Expr<'g>| {
+            let node = if let Op::Quantity(inner) = part.op() { inner } else { part.id() };
+            if let Op::Mul(a, b) = self.graph.op(node) { Some([[a, b], [b, a]]) } else { None }
+        };
+        let (first, second) = (factors(product.x)?, factors(product.y)?);
+        let same = first.into_iter().flat_map(|one| second.map(|other| (one, other)));
+        // A constant may become one of the terms of each, where it is rounded.
+        let common =
+            same.into_iter().find(|([one, _], [other, _])| one == other && self.graph.expr(*one).value().is_none());
+        common.map(|([_, x], [_, y])| Vector::new(self.graph.expr(x), self.graph.expr(y)))
     }
 
     /// The deviation of a value.
@@ -390,10 +409,8 @@ impl<'g> Rounding<'g> {
         }
         let deviation = self.deviation_of(of);
         let mut deviation = self.named(of, deviation);
-        if let Some(label) = self.graph.label(of).filter(|label| self.passed_on.contains(&label.name)) {
-            let rest = core::mem::replace(&mut deviation.rest, self.graph.zero());
-            let source = self.source(&label.name);
-            deviation = deviation.plus(&Deviation::of(source, rest));
+        if let Some(label) = self.graph.label(of).filter(|_| self.graph.is_passed_on(of)) {
+            deviation = deviation.from(self.source(&label.name));
         }
         self.found(of, deviation.clone());
         deviation

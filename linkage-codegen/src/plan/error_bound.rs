@@ -9,8 +9,8 @@
 //! ```
 //!
 //! Near a dead centre, where `c × c'` vanishes, only the first is large, and the second follows it. So y is a source of errors, of which
-//! all that is placed through the loop has a share; where more loops follow, the little beside it in y' is another one, and so are the
-//! errors of the forces that one group passes on to the next.
+//! all that is placed through the loop has a share; where more loops follow, the little beside it in y' is another one. So are the errors of
+//! the forces and the rates of rotation that one group passes on to the next.
 //!
 //! Of a group that was placed by a search, with n unknowns and equations, what stays open of them is known likewise, and the changes of the
 //! equations with the unknowns are the matrix J of its last step. The unknowns are off by `J⁻¹ (ρ − ρ')`, with ρ' what earlier sources and
@@ -28,7 +28,6 @@ use crate::graph::number::Number;
 use crate::graph::rounding::{BoundOf, Deviation, HeldBound, Inverse, Rounding};
 use crate::graph::{Expr, Graph, NodeId, Op, Vector};
 use crate::model::Wanted;
-use crate::model::ids::GROUND;
 
 /// Adds their bounds to the results of the scenes that want them. What a pose has to keep for that comes back.
 pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept]) -> Vec<Kept> {
@@ -43,16 +42,6 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept])
         let Vector { x, y } = assembly.placement.direction(link);
         if let (Op::Held(x), Op::Held(y)) = (x.op(), y.op()) {
             rounding.is_direction(Vector::new(graph.expr(x), graph.expr(y)));
-        }
-    }
-    // Forces from group to group.
-    let between = assembly.topology.forces.iter().flat_map(|group| &group.outer).filter(|joint| {
-        let ends = model.joint(**joint).ends();
-        ends.iter().all(|end| end.link != GROUND)
-    });
-    for joint in between {
-        for part in ["x", "y"] {
-            rounding.is_passed_on(format!("{}_{part}", model.joint(*joint).name));
         }
     }
     for closed in &assembly.closed {
@@ -176,17 +165,31 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, kept: &[Kept]
     });
     let source = rounding.source(&closed.name);
     let one = one.plus(&Deviation::of(source, decisive));
-    let other = other.plus(&Deviation::of(source, follows * decisive));
-    let other = if leads_on {
-        let source = rounding.source(&format!("{}_beside", closed.name));
-        other.plus(&Deviation::of(source, beside))
-    } else {
-        other.and(beside)
+    let other = other.plus(&Deviation::of(source, follows * decisive)).and(beside);
+    let beside = leads_on.then(|| rounding.source(&format!("{}_beside", closed.name)));
+    let deviations = match (own_turns, beside) {
+        ([Some(own), Some(others)], Some(beside)) => {
+            // Both by the same way, so that what comes with a source is the same in both.
+            let by_residual = [one, other.from(beside)];
+            let by_operations = [own.from(source), others.from(beside)];
+            let both = |[one, other]: &[Deviation<'g>; 2]| one.total() + other.total();
+            let second = graph.one().where_above(both(&by_residual), both(&by_operations));
+            let [one, other] = [0, 1].map(|found| either(second, &by_residual[found], &by_operations[found]));
+            [one, other]
+        }
+        (own_turns, beside) => {
+            let other = match beside {
+                Some(beside) => other.from(beside),
+                None => other,
+            };
+            let [own, others] = own_turns;
+            let lesser = |deviation: Deviation<'g>, own: Option<Deviation<'g>>| match own {
+                Some(own) => lesser_deviation(&deviation, &own),
+                None => deviation,
+            };
+            [lesser(one, own), lesser(other, others)]
+        }
     };
-    let deviations = [(one, &own_turns[0]), (other, &own_turns[1])].map(|(deviation, own)| match own {
-        Some(own) => lesser_deviation(&deviation, own),
-        None => deviation,
-    });
     for ((found, deviation), stretch) in closed.found.iter().zip(deviations).zip(stretch) {
         match found {
             Found::Direction { direction, .. } => rounding.state_direction(*direction, deviation, stretch),
@@ -299,9 +302,12 @@ fn lesser<'g>(one: Expr<'g>, other: Expr<'g>) -> Expr<'g> {
 
 /// The deviation with the lesser bound; the first if that of the second is no number.
 fn lesser_deviation<'g>(one: &Deviation<'g>, other: &Deviation<'g>) -> Deviation<'g> {
-    let graph = one.rest.graph();
-    let half = graph.constant(&Number::ratio(1, 2));
-    let second = graph.one().where_above(one.total(), other.total());
+    either(one.rest.graph().one().where_above(one.total(), other.total()), one, other)
+}
+
+/// The first of two deviations where `second` is zero, the second where that is one.
+fn either<'g>(second: Expr<'g>, one: &Deviation<'g>, other: &Deviation<'g>) -> Deviation<'g> {
+    let half = second.graph().constant(&Number::ratio(1, 2));
     let pick = |one: Expr<'g>, other: Expr<'g>| one.where_above(half, second) + other.where_above(second, half);
     Deviation::shares_of(one, other, pick).and(pick(one.rest, other.rest))
 }

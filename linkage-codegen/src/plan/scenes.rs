@@ -231,6 +231,12 @@ impl<'m> Forces<'_, 'm> {
             self.model.graph.begin_section(heading(self.model, index, group, rule.class(), &case));
             self.report(rule.balance(&mut balance, group));
         }
+        for joint in self.groups.iter().flat_map(|group| &group.outer) {
+            if self.model.joint(*joint).ends().iter().all(|end| end.link != GROUND) {
+                let Vector { x, y } = balance.reaction(*joint).force.components;
+                [x, y].into_iter().for_each(|part| self.model.graph.pass_on(part));
+            }
+        }
         balance
     }
 

@@ -205,6 +205,9 @@ impl<'m, 'p> Motion<'m, 'p> {
             }
             let name = &model.link(link).name;
             twist.rate = twist.rate.named(format!("omega_{name}"), format!("rate of rotation of {name}"));
+            if units.iter().any(|unit| graph.is_passed_on(unit.rate(link).id())) {
+                graph.pass_on(twist.rate);
+            }
             sum.found(link, twist);
         }
         let slides = units.first().map(|unit| unit.sliding.keys().copied().collect::<Vec<_>>()).unwrap_or_default();
@@ -254,7 +257,10 @@ impl<'m, 'p> Motion<'m, 'p> {
             if let (Err(error), true) = (rule.follow(&mut self, group), sink.is_clean()) {
                 sink.report(error);
             }
-            group.links.iter().for_each(|link| self.solved[link.index()] = true);
+            for link in &group.links {
+                self.solved[link.index()] = true;
+                self.graph().pass_on(self.rate(*link));
+            }
         }
         self
     }

@@ -294,6 +294,48 @@ fn of_motion() {
     );
 }
 
+/// Three cylinders in a row, each carried by what the one before places, and a four-bar behind them: what one group is off by, all that follow
+/// are off by too, and much of that cancels in them.
+#[test]
+fn of_an_excavator() {
+    let linkage = compile(
+        "pub mod excavator; units { m, kN } ground { B: (0, 0), C1: (0.4m, -0.3m) }
+         link boom { B: (0, 0), A: (5m, 0), J1: (2m, 0.4m), C2: (2.4m, 0.6m) }
+         link stick { A: (0, 0), J2: (-0.6m, 0.3m), H: (2.6m, 0), C3: (0.2m, 0.5m), R: (2.2m, 0.05m) }
+         link bucket { H: (0, 0), K: (0.1m, 0.35m), tip: (1.2m, -0.3m) } link guide { R -> L: 0.45m } link dog { L -> K: 0.5m }
+         link tube1 { C1 -> x: 1m } link rod1 { J1 -> x: 1m } link tube2 { C2 -> x: 1m } link rod2 { J2 -> x: 1m }
+         link tube3 { C3 -> x: 1m } link rod3 { L -> x: 1m }
+         revolute B: ground -> boom; revolute A: boom -> stick; revolute H: stick -> bucket; revolute R: stick -> guide;
+         revolute L: guide -> dog; revolute K: dog -> bucket; revolute C1: ground -> tube1; revolute J1: boom -> rod1;
+         revolute C2: boom -> tube2; revolute J2: stick -> rod2; revolute C3: stick -> tube3; revolute T: guide.L -> rod3.L;
+         prismatic s1: tube1.C1 -> rod1.J1 along 0deg of tube1; prismatic s2: tube2.C2 -> rod2.J2 along 0deg of tube2;
+         prismatic s3: tube3.C3 -> rod3.L along 0deg of tube3; drive x1: s1; drive x2: s2; drive x3: s3;
+         assemble J1: left(C1 -> B); assemble J2: left(C2 -> A); assemble T: left(C3 -> R); assemble K: left(L -> H);
+         mass boom: 1500kg at (2.4m, 0.3m), inertia 3000kg*m^2; mass stick: 700kg at (1m, 0.1m), inertia 600kg*m^2;
+         mass bucket: 500kg at (0.5m, 0), inertia 100kg*m^2; mass tube1: 60kg at (0.5m, 0), inertia 5kg*m^2;
+         load dig: force(bucket.tip) in bucket; load W: gravity = (0, -9.81m/s^2); load I: inertia;
+         scene place: position -> (stick.angle, bucket.angle, guide.angle, bucket.tip, K, error_bound);
+         scene v: velocity -> (stick.angle, bucket.angle, guide.angle, bucket.tip, K, error_bound);
+         scene a: acceleration -> (stick.angle, bucket.angle, guide.angle, bucket.tip, K, error_bound);
+         scene digging: equilibrium(dig) -> (effort_x1, effort_x2, effort_x3, B, A, H, R, L, K, J1, J2, T, error_bound);
+         scene held: equilibrium(dig, W) -> (effort_x1, effort_x2, effort_x3, B, A, H, R, L, K, J1, J2, T, error_bound);
+         scene moved: equilibrium(I) -> (effort_x1, effort_x2, effort_x3, B, A, H, R, L, K, J1, J2, T, error_bound);
+         scene work: virtual_work(dig, W, I) -> (effort_x1, effort_x2, effort_x3, error_bound);
+         scene gains: coefficients -> (stick.angle, bucket.angle, bucket.tip, error_bound); scene m: motion -> (M, h, error_bound);",
+    );
+    let mut random = Random(77);
+    let mut poses = || {
+        let drives = vec![random.range(1.76, 2.3), random.range(2.2, 2.86), random.range(1.8, 2.27)];
+        let motion = (0..3).map(|_| [random.range(-1.0, 1.0), random.range(-1.0, 1.0)]).collect();
+        Arguments { drives, loads: vec![[-30.0, 10.0]], motion, ..Arguments::default() }
+    };
+    let arguments: Vec<Arguments> = (0..60).map(|_| poses()).collect();
+    for name in ["place", "v", "a", "digging", "held", "moved", "work", "gains", "m"] {
+        let ratios = arguments.iter().flat_map(|arguments| ratios_of::<Double>(&linkage, name, arguments, name));
+        expect_tight(&format!("excavator, {name}"), ratios.collect());
+    }
+}
+
 /// Where nothing can be said of errors, the bounds are the largest number, from a pose too: a pose is not refused for what it keeps of
 /// its errors.
 #[test]
