@@ -769,14 +769,23 @@ impl<'a> Dyad<'a> {
         let meaning =
             format!("from {from} to {to}, along and across what {} carries", self.model.link(leg.link()).name);
         let along = way.vector().named(&format!("arm_{name}"), &meaning);
-        let size = if along.y.is_zero() { along.x.abs() } else { along.size() };
+        let on_line = along.y.is_zero();
+        let size = if on_line { along.x.abs() } else { along.size() };
         let size = size.named(format!("length_{name}"), format!("|{from} {to}|"));
         // Joints that meet leave the direction of the body open.
         let (group, joint) = (self.model.link_names(&leg.links), self.joint_name(self.inner).into());
         let failure = Failure::CoincidentPivots { group, joint };
-        let size = size.require_above(size, graph.epsilons(4) * way.length(), failure).known_positive();
-        // What is resolved along the body and back has the square of this direction's size: it must not be far from one.
-        let lean = Vector::new((along.x / size).divided(), (along.y / size).divided());
+        let least = graph.epsilons(4) * way.length();
+        let apart = |value: Expr<'a>| value.require_above(size, least, failure.clone());
+        let size = apart(size).known_positive();
+        let lean = if on_line && !graph.is_non_negative(along.x) {
+            let sense = graph.integer(2).where_above(along.x, graph.zero()) - graph.one();
+            let meaning = format!("1 where {to} lies ahead of {from}, −1 where it lies behind");
+            Vector::new(apart(sense.named(format!("sense_{name}"), meaning)), graph.zero())
+        } else {
+            // What is resolved along the body and back has the square of this direction's size: it must not be far from one.
+            Vector::new((along.x / size).divided(), (along.y / size).divided())
+        };
         Arm { axis, along, size, lean }
     }
 
