@@ -5,8 +5,8 @@
 //! comes from the square root and serves as determinant of its two moment equations, and its reciprocal does not wait
 //! for the positions. What this costs in digits, next to a fold, is seen beside the times.
 //!
-//! The plain expert intersects circles, as for any dyad. For the four-bar another one knows that the two sides of the triangle over the
-//! crank are constants, and takes its third one from the law of cosines.
+//! The plain expert intersects circles, as for any dyad. For the four-bar and the six-bar another one knows that the two sides of the triangle
+//! over the crank are constants, and takes its third one from the law of cosines.
 //!
 //! The careful expert of the four-bar takes half the driver's angle, so that nothing cancels at the fold, and checks
 //! what generated code checks: the angle, the dead centre, and that the results are finite.
@@ -211,7 +211,18 @@ macro_rules! six_bar {
         fn dyad(dx: $scalar, dy: $scalar, four: $scalar, p: $scalar) -> ([$scalar; 2], [$scalar; 2], $scalar) {
             let d2 = dx * dx + dy * dy;
             let sum = d2 + p;
-            let root = (four * d2 - sum * sum).sqrt();
+            closed(dx, dy, d2, sum, (four * d2 - sum * sum).sqrt())
+        }
+
+        /// The same by the square of that vector, by this and the difference of the links' squares, and by four times the triangle's area.
+        #[inline]
+        fn closed(
+            dx: $scalar,
+            dy: $scalar,
+            d2: $scalar,
+            sum: $scalar,
+            root: $scalar,
+        ) -> ([$scalar; 2], [$scalar; 2], $scalar) {
             let half = 0.5 / d2;
             let (along, across) = (sum * half, root * half);
             let (x, y) = (along * dx - across * dy, along * dy + across * dx);
@@ -221,11 +232,32 @@ macro_rules! six_bar {
         /// All forces and the torque.
         #[inline]
         pub(crate) fn statics(theta: $scalar, loads: &Loads, out: &mut Reactions<7, $scalar>) {
-            const G: $scalar = 9.81;
             let (sin, cos) = theta.sin_cos();
             let (ax, ay) = (50.0 * cos, 50.0 * sin);
-            let ([x3, y3], [x4, y4], inverse_b) =
-                dyad(150.0 - ax, -ay, 4.0 * 140.0 * 140.0, 140.0 * 140.0 - 100.0 * 100.0);
+            let inner = dyad(150.0 - ax, -ay, 4.0 * 140.0 * 140.0, 140.0 * 140.0 - 100.0 * 100.0);
+            balanced([ax, ay], inner, loads, out);
+        }
+
+        /// The same with the first dyad closed by the law of cosines: (r₁ + r₂)² − |d|² times |d|² − (r₁ − r₂)² is what the root is taken of.
+        #[inline]
+        pub(crate) fn statics_by_cosine(theta: $scalar, loads: &Loads, out: &mut Reactions<7, $scalar>) {
+            let (sin, cos) = theta.sin_cos();
+            let (ax, ay) = (50.0 * cos, 50.0 * sin);
+            let twice = 15000.0 * cos;
+            let root = ((32600.0 + twice) * (23400.0 - twice)).sqrt();
+            let inner = closed(150.0 - ax, -ay, 25000.0 - twice, 34600.0 - twice, root);
+            balanced([ax, ay], inner, loads, out);
+        }
+
+        /// The outer dyad, and the forces from there inwards.
+        #[inline]
+        fn balanced(
+            [ax, ay]: [$scalar; 2],
+            ([x3, y3], [x4, y4], inverse_b): ([$scalar; 2], [$scalar; 2], $scalar),
+            loads: &Loads,
+            out: &mut Reactions<7, $scalar>,
+        ) {
+            const G: $scalar = 9.81;
             let (cx, cy) = (0.8 * x4 + 0.4 * y4, 0.8 * y4 - 0.4 * x4);
             let ([x5, y5], [x6, y6], inverse_d) =
                 dyad(180.0 - cx, 20.0 - cy, 4.0 * 170.0 * 170.0, 170.0 * 170.0 - 110.0 * 110.0);

@@ -63,11 +63,14 @@ macro_rules! generated_statics_at {
 /// The expert's function as a competitor from the driver's angle.
 macro_rules! expert_at {
     ($name:ident, $scalar:ident, $linkage:ident, $forces:literal) => {
+        expert_at!($name, statics, $scalar, $linkage, $forces);
+    };
+    ($name:ident, $call:ident, $scalar:ident, $linkage:ident, $forces:literal) => {
         pub(crate) fn $name(
             case: &crate::items::Case<$scalar, crate::linkages::$linkage::Loads>,
             out: &mut crate::items::Reactions<$forces, $scalar>,
         ) -> bool {
-            crate::expert::$linkage::statics(case.start, &case.loads, out);
+            crate::expert::$linkage::$call(case.start, &case.loads, out);
             true
         }
     };

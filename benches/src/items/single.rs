@@ -82,6 +82,7 @@ fn of_six_bar(extent: Extent) -> Item {
     let turn = Turn::new(extent, 50.0, |theta, loads| vec![six_bar::exact(theta, loads)]);
     let mut competitors = vec![
         turn.posed("expert", given, six_bar::statics_at_expert_single),
+        turn.posed("expert, law of cosines", given, six_bar::statics_at_by_cosine_single),
         turn.posed("generated", given, six_bar::statics_at_generated_single),
         turn.posed("generated, fused", given, six_bar::statics_at_fused_single),
     ];

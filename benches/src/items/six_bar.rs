@@ -13,6 +13,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     let turn = Turn::new(extent, 50.0, |theta, loads| vec![exact(theta, loads)]);
     let mut competitors = vec![
         turn.competitor("expert", statics_at_expert),
+        turn.competitor("expert, law of cosines", statics_at_by_cosine),
         turn.competitor("generated", statics_at_generated),
         turn.competitor("generated, fused", statics_at_fused),
     ];
@@ -41,6 +42,8 @@ same_loads!(six_bar_single, f32, six_bar_fused_single; F, G);
 
 expert_at!(statics_at_expert, f64, six_bar, 7);
 expert_at!(statics_at_expert_single, f32, six_bar_single, 7);
+expert_at!(statics_at_by_cosine, statics_by_cosine, f64, six_bar, 7);
+expert_at!(statics_at_by_cosine_single, statics_by_cosine, f32, six_bar_single, 7);
 
 /// Each link's mass in kg, and its place in mm.
 const MASSES: [(f64, f64, f64); 5] =
