@@ -207,7 +207,8 @@ macro_rules! six_bar {
     ($scalar:ident) => {
         /// A dyad of three pins: from the vector between its outer joints its links' vectors to the inner joint, which is on
         /// the left, and the reciprocal of their product. The constants are 4r₁² and r₁² − r₂².
-        #[inline]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "a call would cost the expert a twentieth of its instructions")]
         fn dyad(dx: $scalar, dy: $scalar, four: $scalar, p: $scalar) -> ([$scalar; 2], [$scalar; 2], $scalar) {
             let d2 = dx * dx + dy * dy;
             let sum = d2 + p;
@@ -215,7 +216,8 @@ macro_rules! six_bar {
         }
 
         /// The same by the square of that vector, by this and the difference of the links' squares, and by four times the triangle's area.
-        #[inline]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "a call would cost the expert a twentieth of its instructions")]
         fn closed(
             dx: $scalar,
             dy: $scalar,
@@ -250,7 +252,8 @@ macro_rules! six_bar {
         }
 
         /// The outer dyad, and the forces from there inwards.
-        #[inline]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "a call would cost the expert a twentieth of its instructions")]
         fn balanced(
             [ax, ay]: [$scalar; 2],
             ([x3, y3], [x4, y4], inverse_b): ([$scalar; 2], [$scalar; 2], $scalar),
