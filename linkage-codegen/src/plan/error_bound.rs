@@ -174,15 +174,13 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, kept: &[Kept]
             let by_operations = [own.from(source), others.from(beside)];
             let both = |[one, other]: &[Deviation<'g>; 2]| one.total() + other.total();
             let second = graph.one().where_above(both(&by_residual), both(&by_operations));
-            let [one, other] = [0, 1].map(|found| either(second, &by_residual[found], &by_operations[found]));
-            [one, other]
+            [0, 1].map(|found| either(second, &by_residual[found], &by_operations[found]))
         }
-        (own_turns, beside) => {
+        ([own, others], beside) => {
             let other = match beside {
                 Some(beside) => other.from(beside),
                 None => other,
             };
-            let [own, others] = own_turns;
             let lesser = |deviation: Deviation<'g>, own: Option<Deviation<'g>>| match own {
                 Some(own) => lesser_deviation(&deviation, &own),
                 None => deviation,

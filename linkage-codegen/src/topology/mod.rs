@@ -90,12 +90,6 @@ impl Group {
         if self.links.contains(&joint.from.link) { joint.from.link } else { joint.to.link }
     }
 
-    /// The moving links before it that it is joined to.
-    pub fn carriers(&self, model: &Model) -> impl Iterator<Item = LinkId> {
-        let ends = self.outer.iter().flat_map(|joint| model.joint(*joint).ends()).map(|end| end.link);
-        ends.filter(|link| *link != GROUND && !self.links.contains(link))
-    }
-
     /// The drive that an input stands for: itself, or that whose effort is the unknown.
     #[must_use]
     pub fn drive_of(model: &Model, input: Input) -> Option<DriveId> {
