@@ -335,7 +335,7 @@ impl Graph {
             Op::Constant(_) => a.sign() != Some(-1),
             Op::Mul(x, y) if x == y => true,
             Op::Add(x, y) | Op::Mul(x, y) | Op::Div(x, y) | Op::Lesser(x, y) => of(x) && of(y),
-            // A value that is there only where it is more than such a one.
+            // What is there by itself, or where it is more than such a one.
             Op::Where { value, limit, then } => of(then) || value == then && of(limit),
             Op::Quantity(x) | Op::Held(x) | Op::Checked { value: x, .. } => of(x),
             Op::Sqrt(_) | Op::Abs(_) | Op::NonNegative(_) => true,

@@ -654,7 +654,7 @@ impl Graph {
         self.arena.borrow().hold_in_poses.contains(&guard)
     }
 
-    /// Notes that groups take up what another has found.
+    /// Notes that groups take up what another has found, under its name.
     pub(crate) fn pass_on(&self, value: Expr<'_>) {
         self.arena.borrow_mut().passed_on.insert(value.id());
     }

@@ -409,7 +409,8 @@ impl<'g> Rounding<'g> {
         }
         let deviation = self.deviation_of(of);
         let mut deviation = self.named(of, deviation);
-        if let Some(label) = self.graph.label(of).filter(|_| self.graph.is_passed_on(of)) {
+        let is_source = self.graph.is_passed_on(of) && !deviation.rest.is_zero();
+        if let Some(label) = self.graph.label(of).filter(|_| is_source) {
             deviation = deviation.from(self.source(&label.name));
         }
         self.found(of, deviation.clone());

@@ -10,7 +10,8 @@
 //!
 //! Near a dead centre, where `c × c'` vanishes, only the first is large, and the second follows it. So y is a source of errors, of which
 //! all that is placed through the loop has a share; where more loops follow, the little beside it in y' is another one. So are the errors of
-//! the forces and the rates of rotation that one group passes on to the next.
+//! the forces and the rates of rotation that one group passes on to the next. Where the operations of the two directions themselves tell more
+//! than the residual, the two sources stand for what these are off.
 //!
 //! Of a group that was placed by a search, with n unknowns and equations, what stays open of them is known likewise, and the changes of the
 //! equations with the unknowns are the matrix J of its last step. The unknowns are off by `J⁻¹ (ρ − ρ')`, with ρ' what earlier sources and
@@ -181,11 +182,11 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, kept: &[Kept]
                 Some(beside) => other.from(beside),
                 None => other,
             };
-            let lesser = |deviation: Deviation<'g>, own: Option<Deviation<'g>>| match own {
+            let nearer = |deviation: Deviation<'g>, own: Option<Deviation<'g>>| match own {
                 Some(own) => lesser_deviation(&deviation, &own),
                 None => deviation,
             };
-            [lesser(one, own), lesser(other, others)]
+            [nearer(one, own), nearer(other, others)]
         }
     };
     for ((found, deviation), stretch) in closed.found.iter().zip(deviations).zip(stretch) {

@@ -205,9 +205,7 @@ impl<'m, 'p> Motion<'m, 'p> {
             }
             let name = &model.link(link).name;
             twist.rate = twist.rate.named(format!("omega_{name}"), format!("rate of rotation of {name}"));
-            if units.iter().any(|unit| graph.is_passed_on(unit.rate(link).id())) {
-                graph.pass_on(twist.rate);
-            }
+            graph.pass_on(twist.rate);
             sum.found(link, twist);
         }
         let slides = units.first().map(|unit| unit.sliding.keys().copied().collect::<Vec<_>>()).unwrap_or_default();

@@ -779,6 +779,7 @@ impl<'a> Dyad<'a> {
         let apart = |value: Expr<'a>| value.require_above(size, least, failure.clone());
         let size = apart(size).known_positive();
         let lean = if on_line && !graph.is_non_negative(along.x) {
+            // Behind the check the sign is certain: a sum of up to seven parts along the line is off by less than the check's limit.
             let sense = graph.integer(2).where_above(along.x, graph.zero()) - graph.one();
             let meaning = format!("1 where {to} lies ahead of {from}, −1 where it lies behind");
             Vector::new(apart(sense.named(format!("sense_{name}"), meaning)), graph.zero())
