@@ -167,21 +167,21 @@ fn state<'g>(rounding: &mut Rounding<'g>, closed: &ClosedLoop<'g>, kept: &[Kept]
     let source = rounding.source(&closed.name);
     let one = one.plus(&Deviation::of(source, decisive));
     let other = other.plus(&Deviation::of(source, follows * decisive)).and(beside);
-    let beside = leads_on.then(|| rounding.source(&format!("{}_beside", closed.name)));
-    let deviations = match (own_turns, beside) {
-        ([Some(own), Some(others)], Some(beside)) => {
+    let second_source = leads_on.then(|| rounding.source(&format!("{}_beside", closed.name)));
+    let other = match second_source {
+        Some(second_source) => other.from(second_source),
+        None => other,
+    };
+    let deviations = match (own_turns, second_source) {
+        ([Some(own), Some(others)], Some(second_source)) => {
             // Both by the same way, so that what comes with a source is the same in both.
-            let by_residual = [one, other.from(beside)];
-            let by_operations = [own.from(source), others.from(beside)];
+            let by_residual = [one, other];
+            let by_operations = [own.from(source), others.from(second_source)];
             let both = |[one, other]: &[Deviation<'g>; 2]| one.total() + other.total();
             let second = graph.one().where_above(both(&by_residual), both(&by_operations));
             [0, 1].map(|found| either(second, &by_residual[found], &by_operations[found]))
         }
-        ([own, others], beside) => {
-            let other = match beside {
-                Some(beside) => other.from(beside),
-                None => other,
-            };
+        ([own, others], _) => {
             let nearer = |deviation: Deviation<'g>, own: Option<Deviation<'g>>| match own {
                 Some(own) => lesser_deviation(&deviation, &own),
                 None => deviation,

@@ -232,7 +232,7 @@ impl<'m> Forces<'_, 'm> {
             self.report(rule.balance(&mut balance, group));
         }
         for joint in self.groups.iter().flat_map(|group| &group.outer) {
-            if self.model.joint(*joint).ends().iter().all(|end| end.link != GROUND) {
+            if self.model.joint(*joint).end_on(GROUND).is_none() {
                 let Vector { x, y } = balance.reaction(*joint).force.components;
                 [x, y].into_iter().for_each(|part| self.model.graph.pass_on(part));
             }

@@ -778,7 +778,7 @@ impl<'a> Dyad<'a> {
         let least = graph.epsilons(4) * way.length();
         let apart = |value: Expr<'a>| value.require_above(size, least, failure.clone());
         let size = apart(size).known_positive();
-        let lean = if on_line && !graph.is_non_negative(along.x) {
+        let lean = if on_line {
             // Behind the check the sign is certain: a sum of up to seven parts along the line is off by less than the check's limit.
             let sense = graph.integer(2).where_above(along.x, graph.zero()) - graph.one();
             let meaning = format!("1 where {to} lies ahead of {from}, −1 where it lies behind");
