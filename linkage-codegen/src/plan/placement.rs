@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use crate::graph::{Expr, Graph, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, PointId};
-use crate::model::{End, Gear, JointKind, Model, PLACE, Wanted};
+use crate::model::{End, Gear, Joint, JointKind, Model, PLACE, Wanted};
 
 /// The direction that a link carries.
 #[derive(Clone, Copy, Debug)]
@@ -178,7 +178,8 @@ pub struct Placement<'m> {
     angles: BTreeMap<LinkId, Expr<'m>>,
     arms: BTreeMap<[JointId; 2], Expr<'m>>,
     lengths: BTreeMap<LinkId, Expr<'m>>,
-    placed: BTreeSet<JointId>,
+    /// On each link, the joints through which ways may go.
+    placed: Vec<BTreeSet<JointId>>,
 }
 
 impl<'m> Placement<'m> {
@@ -197,7 +198,7 @@ impl<'m> Placement<'m> {
             angles,
             arms: BTreeMap::new(),
             lengths: BTreeMap::new(),
-            placed: BTreeSet::new(),
+            placed: vec![BTreeSet::new(); model.links.len()],
         }
     }
 
@@ -244,7 +245,14 @@ impl<'m> Placement<'m> {
 
     /// From here on, ways may go through this joint.
     pub fn connect(&mut self, joint: JointId) {
-        self.placed.insert(joint);
+        for end in self.model.joint(joint).ends() {
+            self.placed[end.link.index()].insert(joint);
+        }
+    }
+
+    /// The joints of a link through which ways may go.
+    fn placed_on(&self, link: LinkId) -> impl Iterator<Item = (JointId, &'m Joint)> {
+        self.placed[link.index()].iter().map(|joint| (*joint, self.model.joint(*joint)))
     }
 
     /// Lets the travel of a slide or a slot count from where these points of its links lie beside each other; until it is found, it is zero.
@@ -538,7 +546,7 @@ impl<'m> Placement<'m> {
     /// The place of a point in ground axes.
     #[must_use]
     pub fn place(&self, end: End) -> Vector<'m> {
-        let on_ground = self.placed.iter().find_map(|joint| self.model.joint(*joint).end_on(GROUND));
+        let on_ground = self.placed_on(GROUND).find_map(|(_, joint)| joint.end_on(GROUND));
         match on_ground {
             Some(start) if end.link != GROUND => {
                 let mut way = self.way(start, end);
@@ -583,8 +591,8 @@ impl<'m> Placement<'m> {
             if let Some(angle) = self.angles.get(&at) {
                 return Some(*angle + ahead);
             }
-            for (id, joint) in self.placed.iter().map(|joint| (joint, self.model.joint(*joint))) {
-                let (Some((_, turn)), Some(far)) = (self.turn(*id), joint.end_off(at)) else { continue };
+            for (id, joint) in self.placed_on(at) {
+                let (Some((_, turn)), Some(far)) = (self.turn(id), joint.end_off(at)) else { continue };
                 let turn = if joint.to.link == at { turn } else { -turn };
                 reached.entry(far.link).or_insert_with(|| {
                     open.push_back(far.link);
@@ -747,19 +755,14 @@ impl<'m> Placement<'m> {
     /// one through a pin at the place itself does not go away along a link and come back along another one.
     #[must_use]
     pub fn route(&self, from: End, to: End) -> Vec<JointId> {
-        let mut reached = BTreeSet::from([from.link]);
+        let away = self.joints_away(to.link, from.link);
         let mut front: Vec<(End, usize, Vec<JointId>)> = vec![(from, 0, Vec::new())];
-        while !front.is_empty() {
-            let arrived = front.iter().filter(|(at, ..)| at.link == to.link);
-            if let Some((.., route)) = arrived.min_by_key(|(at, parts, _)| parts + self.parts(*at, to)) {
-                return route.clone();
-            }
+        for left in (0..away.get(&from.link).copied().unwrap_or(0)).rev() {
             let mut next: Vec<(End, usize, Vec<JointId>)> = Vec::new();
             for (at, parts, route) in &front {
-                for &joint in &self.placed {
-                    let data = self.model.joint(joint);
+                for (joint, data) in self.placed_on(at.link) {
                     let (Some(near), Some(far)) = (data.end_on(at.link), data.end_off(at.link)) else { continue };
-                    if reached.contains(&far.link) {
+                    if away.get(&far.link) != Some(&left) {
                         continue;
                     }
                     let parts = parts + self.parts(*at, near) + usize::from(data.kind.line().is_some());
@@ -771,15 +774,31 @@ impl<'m> Placement<'m> {
                     }
                 }
             }
-            reached.extend(next.iter().map(|(end, ..)| end.link));
             front = next;
         }
-        Vec::new()
+        let shortest = front.into_iter().min_by_key(|(at, parts, _)| parts + self.parts(*at, to));
+        shortest.map(|(.., route)| route).unwrap_or_default()
+    }
+
+    /// Through how many joints one comes to a link, from those that are no further than another one.
+    fn joints_away(&self, to: LinkId, from: LinkId) -> BTreeMap<LinkId, usize> {
+        let mut away = BTreeMap::from([(to, 0)]);
+        let mut open = VecDeque::from([to]);
+        while let Some(at) = open.pop_front().filter(|_| !away.contains_key(&from)) {
+            let further = away[&at] + 1;
+            for far in self.placed_on(at).filter_map(|(_, joint)| joint.end_off(at)) {
+                away.entry(far.link).or_insert_with(|| {
+                    open.push_back(far.link);
+                    further
+                });
+            }
+        }
+        away
     }
 
     /// None, if two points of a link are one.
     fn parts(&self, from: End, to: End) -> usize {
-        usize::from(!(self.point(to) - self.point(from)).is_zero())
+        usize::from(from != to && !(self.model.local(to) - self.model.local(from)).is_zero())
     }
 }
 

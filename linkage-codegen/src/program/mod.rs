@@ -180,6 +180,18 @@ impl Program {
         uses
     }
 
+    /// By which values each value is read, once for each time.
+    #[must_use]
+    pub fn readers(&self) -> Vec<Vec<ValueId>> {
+        let mut readers = vec![Vec::new(); self.values.len()];
+        for value in self.computed() {
+            for operand in self.op(value).map(Op::operands).unwrap_or_default() {
+                readers[operand.index()].push(value);
+            }
+        }
+        readers
+    }
+
     /// What a step reads.
     #[must_use]
     pub fn operands_of(&self, step: &Step) -> Vec<ValueId> {

@@ -23,25 +23,33 @@ pub(super) fn leave(mut program: Program, graph: &Graph) -> Program {
     let directions = directions(&program);
     let arms: BTreeMap<ValueId, ValueId> = directions.iter().flat_map(Direction::arms).collect();
     let equations = Sizes::of(&program, graph, &arms, &|_| false).settled();
-    let computed: Vec<ValueId> = program.computed().collect();
     let (mut constants, mut replaced) = (BTreeMap::new(), BTreeMap::new());
-    let powers = directions.iter().map(|direction| sizes(&equations, &directions, direction, &computed));
+    let mut given: Powers = BTreeMap::new();
+    directions.iter().for_each(|direction| given.extend(direction.in_power(0)));
+    let powers = directions.iter().map(|direction| {
+        // The components of the others stay as they are.
+        given.extend(direction.in_power(-1));
+        let powers = equations.solve(&given);
+        given.extend(direction.in_power(0));
+        powers
+    });
     let powers: Vec<Option<Powers>> = powers.collect();
     let (resized_ones, divided): (Vec<_>, Vec<_>) =
         directions.iter().zip(powers).partition(|(_, powers)| powers.is_some());
     divided.iter().for_each(|(direction, _)| divide(&mut program, graph, direction));
+    let readers = program.readers();
     for (direction, powers) in resized_ones {
         let Some(powers) = powers else { continue };
         let scale = Scale { factor: direction.reciprocal.clone(), powers };
-        for value in &computed {
-            let constant = constants.get(value).cloned().or_else(|| Constant::of(&program, graph, *value));
+        for value in scale.touched(&readers) {
+            let constant = constants.get(&value).cloned().or_else(|| Constant::of(&program, graph, value));
             if let Some(constant) = constant
                 && let Some(number) = scale.of(&constant)
             {
-                constants.insert(*value, Constant { number, ..constant });
+                constants.insert(value, Constant { number, ..constant });
             }
             if let Some(label) = &mut program.values[value.index()].label {
-                *label = resized(label, -scale.power(*value), &direction.length);
+                *label = resized(label, -scale.power(value), &direction.length);
             }
         }
         replaced.extend(direction.arms());
@@ -61,6 +69,11 @@ struct Direction {
 }
 
 impl Direction {
+    /// All components in one power of the reciprocal of the length.
+    fn in_power(&self, power: i32) -> impl Iterator<Item = (ValueId, i32)> {
+        self.components.keys().map(move |component| (*component, power))
+    }
+
     /// The components that other values serve for.
     fn arms(&self) -> impl Iterator<Item = (ValueId, ValueId)> {
         self.components.iter().filter_map(|(component, arm)| Some((*component, (*arm)?)))
@@ -87,14 +100,6 @@ fn directions(program: &Program) -> Vec<Direction> {
     let is_result = |value: &ValueId| program.outputs.iter().any(|(_, output)| output == value);
     directions.retain(|direction| !direction.components.keys().any(is_result));
     directions
-}
-
-/// The sizes of all values, in powers of the reciprocal of the length of one direction, by which its components are divided; nothing if the others
-/// cannot have theirs then.
-fn sizes(sizes: &Sizes, directions: &[Direction], own: &Direction, computed: &[ValueId]) -> Option<Powers> {
-    let components = directions.iter().flat_map(|direction| direction.components.keys());
-    let powers = components.map(|component| (*component, -i32::from(own.components.contains_key(component))));
-    sizes.solve(powers, computed)
 }
 
 /// The name of a value that is found in another size.

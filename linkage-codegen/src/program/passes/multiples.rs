@@ -49,17 +49,11 @@ struct Search<'p> {
 impl<'p> Search<'p> {
     fn of(program: &'p Program, graph: &'p Graph) -> Self {
         let scalar = graph.scalar();
-        let count = program.values.len();
-        let (mut readers, mut constants) = (vec![Vec::new(); count], vec![None; count]);
-        for value in program.computed() {
-            for operand in program.op(value).map(Op::operands).unwrap_or_default() {
-                readers[operand.index()].push(value);
-            }
-            constants[value.index()] = Constant::of(program, graph, value);
-        }
+        let mut constants = vec![None; program.values.len()];
+        program.computed().for_each(|value| constants[value.index()] = Constant::of(program, graph, value));
         let ways = [sizes_by_exact(program, graph, &constants), sizes(program, graph, &|_| false)];
         let (changed, found) = (BTreeMap::new(), Multiples::default());
-        let uses = program.uses();
+        let (readers, uses) = (program.readers(), program.uses());
         Self { program, graph, scalar, ways, readers, uses, constants, changed, found }
     }
 
@@ -97,10 +91,8 @@ impl<'p> Search<'p> {
 
     /// How many products are spared, if any are, and the constants that change, if they may.
     fn changed_by(&self, scale: &Scale) -> Option<(usize, Vec<(ValueId, Constant)>)> {
-        let made_of = |value: &ValueId| self.readers[value.index()].iter().copied().chain([*value]);
-        let reached: BTreeSet<ValueId> = scale.powers.keys().flat_map(made_of).collect();
         let (mut changed, mut spares) = (Vec::new(), 0);
-        for value in reached {
+        for value in scale.touched(&self.readers) {
             let Some(before) = &self.constants[value.index()] else { continue };
             let Some(number) = scale.of(before) else { continue };
             let is_product = matches!(self.program.op(value), Some(Op::Mul(..)));
@@ -211,11 +203,17 @@ impl Multiples {
         for rest in self.renamed.keys() {
             program.values[rest.index()].label = program.value(self.named(*rest)).label.clone();
         }
+        let spared: BTreeMap<&str, usize> =
+            self.spared.iter().enumerate().map(|(index, (name, _))| (&**name, index)).collect();
+        let spared_in = |text: &str| words(text).filter_map(|word| spared.get(word).copied()).collect::<BTreeSet<_>>();
         for (index, value) in program.values.iter_mut().enumerate() {
             let Some(Label { name, equation }) = &mut value.label else { continue };
-            // What stands for one may have the name of another that was spared before.
-            for (spared, product) in self.spared.iter().rev() {
-                *equation = with_word(equation, spared, product);
+            let mut met = spared_in(equation);
+            while let Some(last) = met.pop_last() {
+                let (name, product) = &self.spared[last];
+                *equation = with_word(equation, name, product);
+                // What stands for one may have the name of another that was spared before.
+                met.extend(spared_in(product).range(..last));
             }
             let named = self.named(ValueId::new(index));
             if let Some(factor) = self.factors.get(&named).filter(|factor| !factor.is_one()) {
@@ -239,9 +237,18 @@ fn in_words(factor: &Number) -> String {
     }
 }
 
+/// Whether a character may be one of a name.
+fn is_inside(c: char) -> bool {
+    c == '_' || c.is_ascii_alphanumeric() || (!c.is_ascii() && c.is_alphabetic())
+}
+
+/// The names in a text.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c| !is_inside(c))
+}
+
 /// A text with a product in the place of a word, in brackets where it is divided by or raised to a power.
 fn with_word(text: &str, word: &str, product: &str) -> String {
-    let is_inside = |c: char| c == '_' || c.is_ascii_alphanumeric() || (!c.is_ascii() && c.is_alphabetic());
     let is_power = |c: char| matches!(c, '²' | '³' | '^');
     let (mut changed, mut end) = (String::new(), 0);
     for (at, _) in text.match_indices(word) {

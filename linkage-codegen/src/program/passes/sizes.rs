@@ -21,9 +21,11 @@ pub(super) struct Sizes {
     fixed: Vec<bool>,
     /// Of what each value is made, but constants.
     operands: Vec<Vec<ValueId>>,
+    /// Behind how many others each value is computed.
+    order: Vec<usize>,
 }
 
-/// The powers that are not zero.
+/// Powers of values, as a rule those that are not zero.
 pub(super) type Powers = BTreeMap<ValueId, i32>;
 
 impl Sizes {
@@ -37,7 +39,9 @@ impl Sizes {
     ) -> Self {
         let count = program.values.len();
         let (sums_of, operands) = (vec![Vec::new(); count], vec![Vec::new(); count]);
-        let mut sizes = Self { sums: Vec::new(), sums_of, fixed: vec![false; count], operands };
+        let mut order = vec![0; count];
+        program.computed().enumerate().for_each(|(place, value)| order[value.index()] = place);
+        let mut sizes = Self { sums: Vec::new(), sums_of, fixed: vec![false; count], operands, order };
         program.inputs().for_each(|(value, _)| sizes.fix(value));
         program.outputs.iter().for_each(|(_, value)| sizes.fix(*value));
         replaced.values().for_each(|value| sizes.fix(*value));
@@ -116,20 +120,27 @@ impl Sizes {
         }
     }
 
-    /// The sizes of all values, some being given; nothing if these contradict each other. What they leave open stays as it is, first of all these
-    /// values in their order, then what is computed first before what is made of it.
-    pub(super) fn solve(
-        &self,
-        given: impl IntoIterator<Item = (ValueId, i32)>,
-        first_of_all: &[ValueId],
-    ) -> Option<Powers> {
+    /// The sizes of all values, some being given; nothing if these contradict each other. What they leave open stays as it is, what is computed
+    /// first before what comes later. All that has nothing to do with what is given another size stays as it is too, and is not looked at.
+    pub(super) fn solve(&self, given: &Powers) -> Option<Powers> {
+        let stays = |value: ValueId| self.fixed[value.index()] || given.get(&value) == Some(&0);
+        let changed = given.iter().filter(|(_, power)| **power != 0).map(|(value, _)| *value);
+        let terms = |sum: &usize| self.sums[*sum].iter().map(|(value, _)| *value);
+        let beside = |value: ValueId| {
+            if stays(value) { Vec::new() } else { self.sums_of[value.index()].iter().flat_map(terms).collect() }
+        };
+        let mut near: Vec<ValueId> = super::reached(changed, beside).into_iter().collect();
+        near.sort_by_key(|value| self.order[value.index()]);
+
         let mut solution = Solution::of(self);
-        for (value, power) in given {
-            solution.set(value, power)?;
+        for value in &near {
+            if let Some(power) = given.get(value) {
+                solution.set(*value, *power)?;
+            }
         }
         solution.conclude()?;
-        first_of_all.iter().try_for_each(|value| solution.leave(*value))?;
-        solution.leave_the_rest()
+        near.iter().try_for_each(|value| solution.stay(*value))?;
+        Some(solution.powers())
     }
 
     /// The same of one value that is found the factor times as large, if that has to do with a few values only, and with no power of the factor
@@ -141,10 +152,7 @@ impl Sizes {
         solution.conclude()?;
         if let Order::LastMade = order {
             while let Some(value) = solution.undecided.pop_last() {
-                if solution.of_value(value).is_none() {
-                    solution.set(value, 0)?;
-                    solution.conclude()?;
-                }
+                solution.stay(value)?;
             }
         }
         solution.leave_the_rest()
@@ -201,10 +209,23 @@ impl<'s> Solution<'s> {
         while let Some(value) = self.undecided.pop_first() {
             self.leave(value)?;
         }
-        Some(self.known.into_iter().filter(|(_, power)| *power != 0).collect())
+        Some(self.powers())
     }
 
-    /// Leaves a value as it is, if nothing speaks against it, and first of all what it is made of.
+    fn powers(self) -> Powers {
+        self.known.into_iter().filter(|(_, power)| *power != 0).collect()
+    }
+
+    /// Leaves a value as it is, if nothing speaks against it.
+    fn stay(&mut self, value: ValueId) -> Option<()> {
+        if self.of_value(value).is_none() {
+            self.set(value, 0)?;
+            self.conclude()?;
+        }
+        Some(())
+    }
+
+    /// The same, and first of all of what it is made of.
     fn leave(&mut self, value: ValueId) -> Option<()> {
         let sizes = self.sizes;
         let mut waiting = vec![(value, false)];
@@ -213,8 +234,7 @@ impl<'s> Solution<'s> {
                 continue;
             }
             if operands_are_left {
-                self.set(value, 0)?;
-                self.conclude()?;
+                self.stay(value)?;
             } else {
                 waiting.push((value, true));
                 waiting.extend(sizes.operands[value.index()].iter().rev().map(|operand| (*operand, false)));
@@ -270,6 +290,11 @@ pub(super) struct Scale {
 }
 
 impl Scale {
+    /// The values of another size, and what reads them: where constants change.
+    pub(super) fn touched(&self, readers: &[Vec<ValueId>]) -> BTreeSet<ValueId> {
+        self.powers.keys().flat_map(|value| readers[value.index()].iter().chain([value])).copied().collect()
+    }
+
     pub(super) fn power(&self, value: ValueId) -> i32 {
         self.powers.get(&value).copied().unwrap_or(0)
     }
