@@ -148,40 +148,6 @@ pub(super) fn unknowns(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink)
         let kind = kind.unwrap_or(nowhere);
         model.unknowns.push(Unknown { name: unknown.name.text.clone(), place: unknown.place, kind });
     }
-    let (found, wanted) = (given.len(), model.drives.len());
-    let unsure =
-        lost || names.may_be(Role::Drive) || model.drives.iter().any(|d| d.joint.index() >= model.joints.len());
-    // Without any drive, that is the error; the mobility tells it.
-    if found != wanted && wanted > 0 && !unsure {
-        let last = given.last().map_or(ast.name.place(), |u| u.place);
-        let problem = format!(
-            "{} {} needed to hold the linkage, and {found} {} declared",
-            count(wanted, "unknown"),
-            are(wanted),
-            are(found)
-        );
-        let help = if found > wanted {
-            format!("take {} out, or drive as many joints more", count(found - wanted, "unknown"))
-        } else {
-            format!(
-                "declare {} more, or none: then the effort at each drive is unknown",
-                count(wanted - found, "unknown")
-            )
-        };
-        sink.report(
-            Diagnostic::new(last, problem)
-                .note("one for each drive: a drive fixes one freedom, in which one effort, wherever it acts, holds the linkage against its loads")
-                .help(help),
-        );
-    }
-}
-
-fn are(n: usize) -> &'static str {
-    if n == 1 { "is" } else { "are" }
-}
-
-fn count(n: usize, noun: &str) -> String {
-    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
 /// What to write in place of a torque or a torsion spring of a link on itself.

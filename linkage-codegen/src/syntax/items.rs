@@ -24,6 +24,9 @@ pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let mut keyword = name(input)?;
     if !ITEMS.contains(&keyword.text.as_str()) {
         let problem = format!("there is no item `{keyword}`");
+        if let Some(example) = loads::example(&keyword.text) {
+            return Err(Error::new(begin.span(), format!("{problem}\nhelp: it is a load, as in `{example}`")));
+        }
         let Some(meant) = closest(&keyword.text, ITEMS) else {
             return Err(Error::new(
                 begin.span(),

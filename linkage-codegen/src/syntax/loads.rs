@@ -13,6 +13,20 @@ use crate::diagnostics::{Diagnostic, Sink, closest};
 
 const KINDS: [&str; 7] = ["force", "moment", "gravity", "thrust", "spring", "torsion", "inertia"];
 
+/// A load of a kind.
+pub(super) fn example(kind: &str) -> Option<&'static str> {
+    Some(match kind {
+        "force" => "load F: force(coupler.C) = 100N @ 200deg;",
+        "moment" => "load M: moment(rocker) = -4N*m;",
+        "gravity" => "load W: gravity = 9.81m/s^2 @ -90deg;",
+        "thrust" => "load S: thrust(ground.P, rocker.D) = 250N;",
+        "spring" => "load K: spring(ground.P, rocker.D) { rate: 2N/mm, free: 60mm };",
+        "torsion" => "load K: torsion(ground -> crank) { rate: 3N*m/rad, free: 20deg };",
+        "inertia" => "load I: inertia;",
+        _ => return None,
+    })
+}
+
 pub(super) fn load(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let name_ = name(input)?;
     input.parse::<Token![:]>()?;

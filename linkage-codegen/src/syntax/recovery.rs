@@ -7,6 +7,7 @@ use syn::{Error, Token};
 
 use super::ITEMS;
 use super::ast::{Broken, Item, Name};
+use super::loads;
 use super::tokens::{name, peek_word, place_of, take};
 use crate::diagnostics::{Diagnostic, closest};
 
@@ -30,10 +31,17 @@ fn example(keyword: &str) -> Option<&'static str> {
         "drive" => "drive theta: A0;",
         "assemble" => "assemble B: left(A -> B0);",
         "unknown" => "unknown T12: torque(ground -> crank);",
-        "load" => "load F: force(coupler.C) = 100N @ 200deg;",
         "scene" => "scene torque: virtual_work(F) -> (T12);",
         _ => return None,
     })
+}
+
+/// A load of the kind that is written, else a force.
+fn example_of_load(item: &[TokenTree]) -> Option<&'static str> {
+    let kind = item
+        .iter()
+        .find_map(|token| if let TokenTree::Ident(word) = token { loads::example(&word.to_string()) } else { None });
+    kind.or_else(|| loads::example("force"))
 }
 
 /// The error of an item, with an example of one if it has no other help.
@@ -44,7 +52,8 @@ pub(super) fn unread(error: Error, keyword: Option<&Name>, passed: &[TokenTree],
         // The end of the declaration has no place of its own.
         found = found.moved(place_of(core::slice::from_ref(last)));
     }
-    let example = keyword.and_then(|word| example(&word.text));
+    let example =
+        keyword.and_then(|word| if word.text == "load" { example_of_load(passed) } else { example(&word.text) });
     match example {
         Some(example) if !found.message().contains("\nhelp:") => found.help(format!("as in `{example}`")),
         _ => found,

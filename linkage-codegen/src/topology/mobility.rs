@@ -71,6 +71,33 @@ pub(super) fn check(model: &Model, sink: &Sink) -> bool {
     false
 }
 
+/// Reports more or fewer unknowns than drives, which are as many as the freedoms.
+pub(super) fn check_unknowns(model: &Model, sink: &Sink) -> bool {
+    let (found, wanted) = (model.unknowns.len(), model.drives.len());
+    if found == wanted {
+        return true;
+    }
+    let are = |n: usize| if n == 1 { "is" } else { "are" };
+    let problem = format!(
+        "{} {} needed to hold the linkage, and {found} {} declared",
+        count(wanted, "unknown"),
+        are(wanted),
+        are(found)
+    );
+    let help = if found > wanted {
+        format!("take {} out, or drive as many joints more", count(found - wanted, "unknown"))
+    } else {
+        format!("declare {} more, or none: then the effort at each drive is unknown", count(wanted - found, "unknown"))
+    };
+    let last = model.unknowns.last().map_or(model.name.place(), |unknown| unknown.place);
+    sink.report(
+        Diagnostic::new(last, problem)
+            .note("one for each drive: a drive fixes one freedom, in which one effort, wherever it acts, holds the linkage against its loads")
+            .help(help),
+    );
+    false
+}
+
 fn is_driven(model: &Model, joint: usize) -> bool {
     model.drives.iter().any(|drive| drive.joint.index() == joint)
 }

@@ -212,7 +212,7 @@ impl Topology {
     /// Splits a linkage into groups. `None` if that is not possible; why is reported.
     pub fn of(model: &Model, sink: &Sink) -> Option<Self> {
         let drives: Vec<Input> = (0..model.drives.len()).map(|d| Input::Drive(DriveId::new(d))).collect();
-        if !mobility::check(model, sink) {
+        if !mobility::check(model, sink) || !mobility::check_unknowns(model, sink) {
             return None;
         }
         let motion = decompose(model, &drives, sink)?;
