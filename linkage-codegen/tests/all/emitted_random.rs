@@ -266,7 +266,8 @@ fn write_crate(cases: &[Case]) -> PathBuf {
     let _ = std::fs::remove_dir_all(at.join("src"));
     std::fs::create_dir_all(at.join("src/bin")).expect("a directory");
     let manifest = format!(
-        "[package]\nname = \"emitted_random\"\nedition = \"2024\"\n\n[dependencies]\nlinkage-runtime = {{ path = {:?} }}\n\n[workspace]\n",
+        "[package]\nname = \"emitted_random\"\nedition = \"2024\"\n\n[dependencies]\nlinkage-runtime = {{ path = {:?} }}\n\n\
+         [workspace]\n\n[profile.dev]\ndebug = false\nincremental = false\n",
         workspace.join("linkage-runtime").to_string_lossy()
     );
     std::fs::write(at.join("Cargo.toml"), manifest).expect("a manifest");
