@@ -11,30 +11,31 @@ use super::quantity::{magnitude, value};
 use super::tokens::{comma_list, eat_word, name, peek_word, take};
 use crate::diagnostics::{Diagnostic, Sink, closest};
 
-const KINDS: [&str; 7] = ["force", "moment", "gravity", "thrust", "spring", "torsion", "inertia"];
+/// The kinds, with a load of each.
+const KINDS: [(&str, &str); 7] = [
+    ("force", "load F: force(coupler.C) = 100N @ 200deg;"),
+    ("moment", "load M: moment(rocker) = -4N*m;"),
+    ("gravity", "load W: gravity = 9.81m/s^2 @ -90deg;"),
+    ("thrust", "load S: thrust(ground.P, rocker.D) = 250N;"),
+    ("spring", "load K: spring(ground.P, rocker.D) { rate: 2N/mm, free: 60mm };"),
+    ("torsion", "load K: torsion(ground -> crank) { rate: 3N*m/rad, free: 20deg };"),
+    ("inertia", "load I: inertia;"),
+];
 
 /// A load of a kind.
 pub(super) fn example(kind: &str) -> Option<&'static str> {
-    Some(match kind {
-        "force" => "load F: force(coupler.C) = 100N @ 200deg;",
-        "moment" => "load M: moment(rocker) = -4N*m;",
-        "gravity" => "load W: gravity = 9.81m/s^2 @ -90deg;",
-        "thrust" => "load S: thrust(ground.P, rocker.D) = 250N;",
-        "spring" => "load K: spring(ground.P, rocker.D) { rate: 2N/mm, free: 60mm };",
-        "torsion" => "load K: torsion(ground -> crank) { rate: 3N*m/rad, free: 20deg };",
-        "inertia" => "load I: inertia;",
-        _ => return None,
-    })
+    KINDS.iter().find(|(known, _)| *known == kind).map(|(_, example)| *example)
 }
 
 pub(super) fn load(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let name_ = name(input)?;
     input.parse::<Token![:]>()?;
     let mut word = name(input)?;
-    if !KINDS.contains(&word.text.as_str()) {
+    if example(&word.text).is_none() {
         let problem = format!("there is no kind of load `{word}`");
-        let Some(meant) = closest(&word.text, KINDS) else {
-            return Err(Error::new(word.span, format!("{problem}\nhelp: a load is one of {}", KINDS.join(", "))));
+        let kinds = KINDS.map(|(kind, _)| kind);
+        let Some(meant) = closest(&word.text, kinds) else {
+            return Err(Error::new(word.span, format!("{problem}\nhelp: a load is one of {}", kinds.join(", "))));
         };
         slips.report(Diagnostic::new(word.place(), problem).help(format!("did you mean `{meant}`?")));
         meant.clone_into(&mut word.text);

@@ -36,11 +36,10 @@ fn example(keyword: &str) -> Option<&'static str> {
     })
 }
 
-/// A load of the kind that is written, else a force.
+/// A load of the kind that is written behind the load's name, else a force.
 fn example_of_load(item: &[TokenTree]) -> Option<&'static str> {
-    let kind = item
-        .iter()
-        .find_map(|token| if let TokenTree::Ident(word) = token { loads::example(&word.to_string()) } else { None });
+    let behind_name = item.iter().skip(2);
+    let kind = behind_name.map(ToString::to_string).find_map(|word| loads::example(&word));
     kind.or_else(|| loads::example("force"))
 }
 

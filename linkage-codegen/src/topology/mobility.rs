@@ -77,7 +77,6 @@ pub(super) fn check_unknowns(model: &Model, sink: &Sink) -> bool {
     if found == wanted {
         return true;
     }
-    let are = |n: usize| if n == 1 { "is" } else { "are" };
     let problem = format!(
         "{} {} needed to hold the linkage, and {found} {} declared",
         count(wanted, "unknown"),
@@ -134,8 +133,8 @@ pub(super) fn unbalanced(model: &Model, all: &[Constraint], inputs: &[Input], fo
     let freedoms = |links: &BTreeSet<LinkId>| count(3 * links.len(), "freedom");
     let problem = format!(
         "the count is right on the whole, but {tight} {} held twice, and {loose} {} loose",
-        are(&found.overdetermined),
-        are(&found.loose)
+        are(found.overdetermined.len()),
+        are(found.loose.len())
     );
     let drive = model.drives.iter().rev().find(|drive| {
         let ends = model.joint(drive.joint).ends();
@@ -164,6 +163,6 @@ pub(super) fn unbalanced(model: &Model, all: &[Constraint], inputs: &[Input], fo
     }
 }
 
-fn are(links: &BTreeSet<LinkId>) -> &'static str {
-    if links.len() == 1 { "is" } else { "are" }
+fn are(n: usize) -> &'static str {
+    if n == 1 { "is" } else { "are" }
 }

@@ -21,8 +21,6 @@ pub(super) struct Sizes {
     fixed: Vec<bool>,
     /// Of what each value is made, but constants.
     operands: Vec<Vec<ValueId>>,
-    /// Behind how many others each value is computed.
-    order: Vec<usize>,
 }
 
 /// Powers of values, as a rule those that are not zero.
@@ -39,9 +37,7 @@ impl Sizes {
     ) -> Self {
         let count = program.values.len();
         let (sums_of, operands) = (vec![Vec::new(); count], vec![Vec::new(); count]);
-        let mut order = vec![0; count];
-        program.computed().enumerate().for_each(|(place, value)| order[value.index()] = place);
-        let mut sizes = Self { sums: Vec::new(), sums_of, fixed: vec![false; count], operands, order };
+        let mut sizes = Self { sums: Vec::new(), sums_of, fixed: vec![false; count], operands };
         program.inputs().for_each(|(value, _)| sizes.fix(value));
         program.outputs.iter().for_each(|(_, value)| sizes.fix(*value));
         replaced.values().for_each(|value| sizes.fix(*value));
@@ -120,8 +116,8 @@ impl Sizes {
         }
     }
 
-    /// The sizes of all values, some being given; nothing if these contradict each other. What they leave open stays as it is, what is computed
-    /// first before what comes later. All that has nothing to do with what is given another size stays as it is too, and is not looked at.
+    /// The sizes of all values, some being given; nothing if these contradict each other. What they leave open stays as it is, in the
+    /// order of the values. All that has nothing to do with what is given another size stays as it is too, and is not looked at.
     pub(super) fn solve(&self, given: &Powers) -> Option<Powers> {
         let stays = |value: ValueId| self.fixed[value.index()] || given.get(&value) == Some(&0);
         let changed = given.iter().filter(|(_, power)| **power != 0).map(|(value, _)| *value);
@@ -129,8 +125,7 @@ impl Sizes {
         let beside = |value: ValueId| {
             if stays(value) { Vec::new() } else { self.sums_of[value.index()].iter().flat_map(terms).collect() }
         };
-        let mut near: Vec<ValueId> = super::reached(changed, beside).into_iter().collect();
-        near.sort_by_key(|value| self.order[value.index()]);
+        let near = super::reached(changed, beside);
 
         let mut solution = Solution::of(self);
         for value in &near {

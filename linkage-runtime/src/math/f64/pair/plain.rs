@@ -61,7 +61,7 @@ struct Turn {
     coefficients: [Halves; 6],
     /// All bits of a half that is ± the sine of the reduced angle, none of one that is ± its cosine.
     is_sine: Halves,
-    /// ±0 for a sine, which takes the sign of y from it, ±1 for a cosine.
+    /// ±0 for a sine, whose sign that of y is multiplied by, ±1 for a cosine.
     at_zero: Halves,
     /// 0 for a sine, ±½ for a cosine.
     half: Halves,
