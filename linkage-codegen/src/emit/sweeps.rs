@@ -199,7 +199,7 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
     });
     let put = fields.iter().map(|field| {
         let column = column(field);
-        quote!(math::put(self.results.#field, first, lanes.clone(), #column);)
+        quote!(math::put(self.results.#field, first, lanes, #column);)
     });
     let (given_count, results_count) =
         (Literal::usize_unsuffixed(given.len()), Literal::usize_unsuffixed(fields.len()));
@@ -229,25 +229,27 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
         _ => None,
     });
     let kept_count = Literal::usize_unsuffixed(kept.max().unwrap_or(0));
-    let loops = loops(stages);
+    let loops = stages.into_iter().map(loop_over);
     let doc = format!(" The positions of the sweep `{}`, of which several are computed at once.", sweep.name);
     let items = quote! {
         #[doc = #doc]
         struct #ty<'s, 'a> { #(#members,)* }
         impl math::Lanes<#given_count, #kept_count, #results_count> for #ty<'_, '_> {
             #[inline(always)]
-            fn solve(&self, block: &mut math::Block<#given_count, #kept_count, #results_count>, lanes: usize) {
+            fn solve(&self, block: &mut math::Block<#given_count, #kept_count, #results_count>, lanes: usize) -> bool {
                 let lanes = lanes.min(math::BLOCK);
                 #shared
                 #bindings
-                #loops
+                let mut failed: math::Count = 0;
+                #(#loops)*
+                failed == 0
             }
             #[inline(always)]
             fn give(&self, first: usize, [#(#given_columns),*]: &mut [math::Column; #given_count]) {
                 #(#laid)*
             }
             #[inline(always)]
-            fn take(&mut self, first: usize, lanes: ::core::ops::Range<usize>, [#(#result_columns),*]: &[math::Column; #results_count]) {
+            fn take(&mut self, first: usize, lanes: usize, [#(#result_columns),*]: &[math::Column; #results_count]) {
                 #(#put)*
             }
             fn point(&mut self, index: usize) -> Result<(), Error> {
@@ -259,8 +261,8 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
     Lanes { items, call: quote!(math::sweep(count, &mut #ty { #(#names),* })) }
 }
 
-/// A loop over the positions of a block for each stage.
-fn loops(stages: Vec<Stage>) -> TokenStream {
+/// A loop over the positions of a block.
+fn loop_over(Stage { reads, statements, conditions, keeps }: Stage) -> TokenStream {
     let of = |column: Column| {
         let (kind, place) = match column {
             Column::Given(place) => (quote!(given), place),
@@ -270,34 +272,25 @@ fn loops(stages: Vec<Stage>) -> TokenStream {
         let place = Literal::usize_unsuffixed(place);
         quote!(block.#kind[#place])
     };
-    let mut checked = false;
-    let loops = stages.into_iter().map(|Stage { reads, statements, conditions, keeps }| {
-        let statements = with_notes(&statements);
-        let reads = reads.into_iter().map(|(name, column)| {
-            let column = of(column);
-            quote!(let #name = #column[lane];)
-        });
-        let keeps = keeps.into_iter().map(|(column, value)| {
-            let column = of(column);
-            quote!(#column[lane] = #value;)
-        });
-        // All conditions so far, those of the stages before among them.
-        let before = (checked && !conditions.is_empty()).then(|| quote!((block.holds[lane] > 0.0)));
-        checked |= !conditions.is_empty();
-        let holds = before.into_iter().chain(conditions).reduce(|all, one| quote!(#all & #one));
-        let holds = holds.map(|all| quote!(block.holds[lane] = if #all { 1.0 } else { 0.0 };));
-        quote! {
-            for lane in 0..lanes {
-                #(#reads)*
-                #statements
-                #(#keeps)*
-                #holds
-            }
-        }
+    let statements = with_notes(&statements);
+    let reads = reads.into_iter().map(|(name, column)| {
+        let column = of(column);
+        quote!(let #name = #column[lane];)
     });
-    let loops: Vec<TokenStream> = loops.collect();
-    let always = (!checked).then(|| quote!(block.holds = [1.0; math::BLOCK];));
-    quote!(#always #(#loops)*)
+    let keeps = keeps.into_iter().map(|(column, value)| {
+        let column = of(column);
+        quote!(#column[lane] = #value;)
+    });
+    let holds = conditions.into_iter().reduce(|all, one| quote!(#all & #one));
+    let counted = holds.map(|all| quote!(failed = failed.wrapping_add(math::failed(#all));));
+    quote! {
+        for lane in 0..lanes {
+            #(#reads)*
+            #statements
+            #(#keeps)*
+            #counted
+        }
+    }
 }
 
 /// A sweep with its types.
