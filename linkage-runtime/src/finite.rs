@@ -89,12 +89,11 @@ pub(crate) use in_fours;
 #[allow(unsafe_code, reason = "a function that uses instructions beyond the oldest processors' is unsafe to call")]
 pub(crate) mod registers {
     use core::arch::x86_64::{
-        __m128, __m128i, _mm_and_ps, _mm_and_si128, _mm_castpd_ps, _mm_castps_si128, _mm_castsi128_ps, _mm_cmpeq_epi32,
-        _mm_cmpnlt_ps, _mm_movemask_ps, _mm_or_si128, _mm_set_pd, _mm_set_ps, _mm_set1_epi32, _mm_setzero_si128,
-        _mm_shuffle_ps,
+        __m128, __m128i, _mm_add_epi32, _mm_and_si128, _mm_castpd_ps, _mm_castps_si128, _mm_movemask_epi8,
+        _mm_or_si128, _mm_set_pd, _mm_set_ps, _mm_set1_epi32, _mm_setzero_si128, _mm_shuffle_ps,
     };
 
-    /// Which places of four numbers, of several times four, have held one with the exponent of those that are not finite.
+    /// The places of four numbers, of several times four: a sign where one was marked.
     type Marks = __m128i;
 
     #[inline(always)]
@@ -109,7 +108,7 @@ pub(crate) mod registers {
     #[allow(clippy::inline_always, reason = "a few instructions")]
     pub(crate) fn four_f64(marks: Marks, a: f64, b: f64, c: f64, d: f64) -> Marks {
         // SAFETY: as above.
-        unsafe { marked(marks, upper_halves(a, b, c, d), 0x7FF0_0000) }
+        unsafe { marked_from(marks, upper_halves(a, b, c, d), 0x7FF0_0000) }
     }
 
     /// The same in single precision.
@@ -117,7 +116,7 @@ pub(crate) mod registers {
     #[allow(clippy::inline_always, reason = "a few instructions")]
     pub(crate) fn four_f32(marks: Marks, a: f32, b: f32, c: f32, d: f32) -> Marks {
         // SAFETY: as above.
-        unsafe { marked(marks, _mm_set_ps(d, c, b, a), 0x7F80_0000) }
+        unsafe { marked_from(marks, _mm_set_ps(d, c, b, a), 0x7F80_0000) }
     }
 
     /// Marks the places of those of four more that are not moderate.
@@ -136,28 +135,22 @@ pub(crate) mod registers {
         unsafe { marked_from(marks, _mm_set_ps(d, c, b, a), 0x5000_0000) }
     }
 
+    /// By the signs of bytes, of which each fourth is that of a number: a mask of the numbers' own signs that is compared with zero becomes an
+    /// instruction of newer sets that takes longer.
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "a few instructions")]
     pub(crate) fn is_unmarked(marks: Marks) -> bool {
         // SAFETY: as above.
-        unsafe { _mm_movemask_ps(_mm_castsi128_ps(marks)) == 0 }
+        unsafe { _mm_movemask_epi8(marks) & 0b1000_1000_1000_1000 == 0 }
     }
 
-    #[inline]
-    #[target_feature(enable = "sse2")]
-    fn marked(marks: Marks, numbers: __m128, exponent: i32) -> Marks {
-        let exponent = _mm_set1_epi32(exponent);
-        _mm_or_si128(marks, _mm_cmpeq_epi32(_mm_and_si128(_mm_castps_si128(numbers), exponent), exponent))
-    }
-
+    /// Marks the places of numbers whose patterns of bits, without the sign, are no less than another one: by a sum that is negative from
+    /// there on. Such patterns grow with the numbers, halves of patterns too; those of what is no number are the largest.
     #[inline]
     #[target_feature(enable = "sse2")]
     fn marked_from(marks: Marks, numbers: __m128, least: i32) -> Marks {
-        // Patterns of bits grow with the numbers, halves of patterns too: as numbers of single precision they are compared by one instruction
-        // of every set, and what is none by its pattern is marked.
-        let [sizes, least] = [0x7FFF_FFFF, least].map(|bits| _mm_castsi128_ps(_mm_set1_epi32(bits)));
-        let moderate = _mm_cmpnlt_ps(_mm_and_ps(numbers, sizes), least);
-        _mm_or_si128(marks, _mm_castps_si128(moderate))
+        let sizes = _mm_and_si128(_mm_castps_si128(numbers), _mm_set1_epi32(i32::MAX));
+        _mm_or_si128(marks, _mm_add_epi32(sizes, _mm_set1_epi32(i32::MIN.wrapping_sub(least))))
     }
 
     /// The halves of the numbers that hold their exponents.
