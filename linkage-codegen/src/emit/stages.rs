@@ -2,9 +2,9 @@
 //!
 //! The processor works on as many positions at once as its window of instructions has room for. One loop over all of a scene fills it with
 //! a single position, whose operations wait for each other; loops over a few dozen operations let the next positions fill the gaps. Between
-//! stages numbers are kept in columns. A cut is made in front of what waits for sines, roots and quotients: an angle is reduced in one stage,
-//! its sine is found in another, the next roots in a third, and what reads them has no longer to stand and wait. Elsewhere it is made where
-//! few numbers have to be kept.
+//! stages numbers are kept in columns. A cut is made in front of what waits for roots and quotients: an angle is reduced in one stage, its
+//! sine and the next root found in another, and what reads them has no longer to stand and wait. Elsewhere it is made where few numbers have
+//! to be kept. A sine stays with the root that it leads to: a processor that finds one root at a time has the other's sums to do meanwhile.
 
 use std::collections::BTreeMap;
 
@@ -32,7 +32,7 @@ struct Task<'a> {
     reads: Names,
     operations: usize,
     reduces_an_angle: bool,
-    /// Whether what reads it waits for as long as dozens of other operations take: for a sine, a root, a quotient, or the rest of an angle.
+    /// Whether what reads it waits for as long as dozens of other operations take: for a root, a quotient, or the rest of an angle.
     is_long: bool,
     /// How many tasks that are long are in front of it, one behind the other.
     level: usize,
@@ -71,7 +71,7 @@ pub(super) struct Stage<'a> {
 }
 
 /// Operations that a stage has, about.
-const LENGTH: usize = 40;
+const LENGTH: usize = 36;
 
 /// A function that is called, and about how many operations it has.
 struct Function {
@@ -96,7 +96,7 @@ impl Function {
             "unit" => (15, Kind::Long),
             "atan2" => (50, Kind::Long),
             "short_angle" | "short_angle_sum" | "short_fused_angle" | "short_fused_angle_sum" => (10, Kind::Reduction),
-            "short_sin_cos" | "short_fused_sin_cos" => (30, Kind::Long),
+            "short_sin_cos" | "short_fused_sin_cos" => (30, Kind::Quick),
             _ => return None,
         };
         Some(Self { operations, kind })
@@ -318,7 +318,7 @@ impl Levels {
     }
 }
 
-/// For each stage, how many tasks are before its end. It ends in front of what waits for its sines, roots and quotients, or else, near the length
+/// For each stage, how many tasks are before its end. It ends in front of what waits for its roots and quotients, or else, near the length
 /// that a stage should have, where the fewest names are read later. Angles that are reduced always end it.
 fn cuts(tasks: &[Task]) -> Vec<usize> {
     let length: Vec<usize> = tasks.iter().map(|task| task.operations).collect();
@@ -332,7 +332,9 @@ fn cuts(tasks: &[Task]) -> Vec<usize> {
             sum += length[end - 1];
             reduces |= tasks[end - 1].reduces_an_angle;
             let waits = tasks[end].level > tasks[end - 1].level;
-            let parts = sum >= LENGTH / 2 && rest - sum >= LENGTH / 2;
+            // In front of what would wait a stage may be shorter.
+            let least = if waits { LENGTH / 3 } else { LENGTH / 2 };
+            let parts = sum >= least && rest - sum >= least;
             if waits && (reduces || parts) {
                 best = Some((kept[end], end));
                 break;
