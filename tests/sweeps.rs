@@ -526,8 +526,8 @@ fn what_is_the_same_at_every_position_may_be_a_result() {
 linkage! {
     /// Parameters, links and drives whose names are those of a sweep's columns, or that it makes of other ones.
     mod namesakes;
-    param kept: length = 0.5m; param holds: length = 0.25m;
-    ground { O: (0, 0) } link a { O -> P: kept } link a_cos { P -> Q: holds } link a_sin { Q -> R: 0.125m }
+    param kept: length = 0.5m; param given: length = 0.25m;
+    ground { O: (0, 0) } link a { O -> P: kept } link a_cos { P -> Q: given } link a_sin { Q -> R: 0.125m }
     revolute O: ground -> a; revolute P: a -> a_cos; revolute Q: a_cos -> a_sin;
     drive a_quarters: O; drive a_rest: P; drive a_tail: Q;
     load W: gravity = 9.81m/s^2 @ -90deg; mass a: 1kg at (0.25m, 0); mass a_cos: 1kg at (0.125m, 0); mass a_sin: 1kg at (0.1m, 0);

@@ -84,7 +84,7 @@ macro_rules! in_fours {
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 pub(crate) use in_fours;
 
-/// By the registers of x86-64, in which the exponents of four numbers are compared at once.
+/// By the registers of x86-64, in which the exponents of four numbers are looked at at once.
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 #[allow(unsafe_code, reason = "a function that uses instructions beyond the oldest processors' is unsafe to call")]
 pub(crate) mod registers {
@@ -135,8 +135,8 @@ pub(crate) mod registers {
         unsafe { marked_from(marks, _mm_set_ps(d, c, b, a), 0x5000_0000) }
     }
 
-    /// By the signs of bytes, of which each fourth is that of a number: a mask of the numbers' own signs that is compared with zero becomes an
-    /// instruction of newer sets that takes longer.
+    /// By the signs of bytes, of which each fourth is that of a number: a mask of the numbers' own signs that is compared with zero
+    /// becomes an instruction of newer sets that takes longer.
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "a few instructions")]
     pub(crate) fn is_unmarked(marks: Marks) -> bool {

@@ -2,8 +2,8 @@
 //!
 //! A position is computed without a branch: all results, and whether all checks hold. Loops over the positions of a block are then
 //! straight-line code, which the compiler turns into vector instructions; each of their operations is rounded as the scalar one is, so
-//! that the results have the same bits. Where a check fails, the function for a single position solves the block's, one by one, and says
-//! why.
+//! that the results have the same bits. Where a check fails, the function for a single position solves the whole block, one by one, and
+//! says why.
 
 /// The functions for a scalar; `$bits` are as many as it has.
 macro_rules! lanes {
@@ -49,7 +49,7 @@ macro_rules! lanes {
 
         /// A sweep of a scene that reads `GIVEN` numbers, has `RESULTS` numbers, and keeps `KEPT` between its stages.
         pub trait Lanes<const GIVEN: usize, const KEPT: usize, const RESULTS: usize> {
-            /// Lays out what is given from a position on, and behind the last what is given there.
+            /// Lays out what is given from a position on; behind the last one its values once more, up to a whole register.
             fn give(&self, first: usize, given: &mut [Column; GIVEN]);
 
             /// The first positions of a block, as many as are asked for: whether all checks hold. Otherwise the results mean nothing.

@@ -19,7 +19,7 @@ use quote::quote;
 
 use crate::Linkage;
 use crate::graph::{NodeId, Op, Symbol};
-use crate::model::{Method, Model};
+use crate::model::{Method, Model, SWEPT};
 pub use equations::text as equations;
 pub use fallback::module as fallback;
 use formula::{Formula, Nodes};
@@ -164,7 +164,7 @@ pub fn operations(linkage: &Linkage) -> String {
     text
 }
 
-/// Name and formula of everything that is prepared from the parameters.
+/// Name and formula of everything that is prepared from the parameters. Sweeps bind them by these names beside their own.
 fn prepared_names(linkage: &Linkage) -> Vec<(String, String)> {
     let model = &linkage.model;
     let mut names: Vec<(String, String)> = Vec::new();
@@ -173,7 +173,9 @@ fn prepared_names(linkage: &Linkage) -> Vec<(String, String)> {
         let own = name_of(model, *node).unwrap_or_else(|| "prepared".to_owned());
         let mut name = own.clone();
         let mut number = 2;
-        while names.iter().any(|(other, _)| *other == name) {
+        while names.iter().any(|(other, _)| *other == name)
+            || !model.sweeps.is_empty() && SWEPT.contains(&name.as_str())
+        {
             name = format!("{own}_{number}");
             number += 1;
         }

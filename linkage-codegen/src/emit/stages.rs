@@ -4,7 +4,8 @@
 //! a single position, whose operations wait for each other; loops over a few dozen operations let the next positions fill the gaps. Between
 //! stages numbers are kept in columns. A cut is made in front of what waits for roots and quotients: an angle is reduced in one stage, its
 //! sine and the next root found in another, and what reads them has no longer to stand and wait. Elsewhere it is made where few numbers have
-//! to be kept. A sine stays with the root that it leads to: a processor that finds one root at a time has the other's sums to do meanwhile.
+//! to be kept. A sine stays with the root that it leads to: while a processor finds the root of one position it has
+//! the sums of other positions' sines to do.
 
 use std::collections::BTreeMap;
 
@@ -332,9 +333,9 @@ fn cuts(tasks: &[Task]) -> Vec<usize> {
             sum += length[end - 1];
             reduces |= tasks[end - 1].reduces_an_angle;
             let waits = tasks[end].level > tasks[end - 1].level;
-            // In front of what would wait a stage may be shorter.
-            let least = if waits { LENGTH / 3 } else { LENGTH / 2 };
-            let parts = sum >= least && rest - sum >= least;
+            // In front of what would wait a stage may be shorter, and what is left behind it.
+            let short = if waits { LENGTH / 3 } else { LENGTH / 2 };
+            let parts = sum >= short && rest - sum >= short;
             if waits && (reduces || parts) {
                 best = Some((kept[end], end));
                 break;
@@ -454,13 +455,15 @@ mod tests {
             let names: Vec<Ident> = std::iter::once(from.clone()).chain(names).collect();
             names.windows(2).map(|pair| (pair[0].clone(), pair[1].clone())).collect::<Vec<_>>()
         };
-        let mut statements = vec![quote!(let aside = early1 + a;), quote!(let root = math::sqrt(early40);)];
-        let early = sums(&ident("a"), "early").into_iter().map(|(from, to)| quote!(let #to = #from + a;));
-        statements.splice(0..0, early);
+        let [early, late] = ["early", "late"].map(|name| format_ident!("{name}{LENGTH}"));
+        let before = sums(&ident("a"), "early").into_iter().map(|(from, to)| quote!(let #to = #from + a;));
+        let mut statements: Vec<TokenStream> = before.collect();
+        statements.push(quote!(let aside = early1 + a;));
+        statements.push(quote!(let root = math::sqrt(#early);));
         statements.push(quote!(let beside = a + aside;));
-        let late = sums(&ident("root"), "late").into_iter().map(|(from, to)| quote!(let #to = #from + beside;));
-        statements.extend(late);
-        let stages = staged(statements, Vec::new(), vec![quote!(early40), quote!(late40)], &[ident("a")]);
+        let behind = sums(&ident("root"), "late").into_iter().map(|(from, to)| quote!(let #to = #from + beside;));
+        statements.extend(behind);
+        let stages = staged(statements, Vec::new(), vec![quote!(#early), quote!(#late)], &[ident("a")]);
         let names = |stage: &Stage| stage.reads.iter().map(|(name, _)| name.to_string()).collect::<Vec<_>>();
         assert_eq!(stages.len(), 2);
         assert_eq!(names(&stages[0]), ["a"]);

@@ -229,6 +229,10 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
         _ => None,
     });
     let kept_count = Literal::usize_unsuffixed(kept.max().unwrap_or(0));
+    // What reads neither drives nor loads has no checks.
+    let checked = stages.iter().any(|stage| !stage.conditions.is_empty());
+    let count = checked.then(|| quote!(let mut failed: math::Count = 0;));
+    let holds = if checked { quote!(failed == 0) } else { quote!(true) };
     let loops = stages.into_iter().map(loop_over);
     let doc = format!(" The positions of the sweep `{}`, of which several are computed at once.", sweep.name);
     let items = quote! {
@@ -240,9 +244,9 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
                 let lanes = lanes.min(math::BLOCK);
                 #shared
                 #bindings
-                let mut failed: math::Count = 0;
+                #count
                 #(#loops)*
-                failed == 0
+                #holds
             }
             #[inline(always)]
             fn give(&self, first: usize, [#(#given_columns),*]: &mut [math::Column; #given_count]) {

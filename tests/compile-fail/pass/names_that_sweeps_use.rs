@@ -25,9 +25,29 @@ macro_rules! crank {
 }
 crank!(lanes, lane);
 crank!(blocks, block);
-crank!(checks, holds);
+crank!(checks, failed);
 crank!(results, Ok);
 crank!(nothing, None);
+
+// What depends on parameters alone is prepared under the name of the unknown.
+linkage! {
+    mod weights;
+    units { m, N }
+    param load: mass = 2kg;
+
+    ground { O: (0, 0) }
+    link block { P }
+    mass block: load at P;
+
+    prismatic S: ground.O -> block.P along 90deg;
+
+    drive s: S;
+    unknown failed: effort(s);
+
+    load W: gravity = 9.81m/s^2 @ -90deg;
+    scene held: equilibrium -> (failed);
+    scene all:  sweep(held);
+}
 
 fn main() -> Result<(), SweepError> {
     let force = Vector2::new(0.0, 1.0);
@@ -36,5 +56,8 @@ fn main() -> Result<(), SweepError> {
     lanes::all(&lanes::AllInputs { theta, r#gen: force.into() }, lanes::All { lane: &mut found })?;
     results::all(&results::AllInputs { theta, r#gen: force.into() }, results::All { Ok: &mut found })?;
     assert_eq!(found, [-1.0, -1f64.cos()]);
+    let linkage = weights::Linkage::new(&weights::Params::default()).expect("a mass");
+    weights::all(&linkage, &weights::AllInputs { s: theta }, weights::All { failed: &mut found })?;
+    assert_eq!(found, [2.0 * 9.81; 2]);
     Ok(())
 }
