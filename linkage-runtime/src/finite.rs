@@ -1,17 +1,17 @@
 //! Whether numbers are finite, or far from the largest: none of them waits for another, and one jump serves for all.
 
-/// The functions for a scalar; `$four` and `$four_moderate` look at the exponents of four numbers at once. What is moderate is less than two
-/// to the 257th power, in single precision to the 33rd: `$moderate` is that in bits.
+/// The functions for a scalar; `$four` looks at the exponents of four numbers at once. The pattern of infinity begins with `$infinite`.
+/// What is moderate is less than two to the 257th power, in single precision to the 33rd: `$moderate` is that in bits.
 ///
 /// By patterns: neither an index nor an iterator, which keep a way to panic in unoptimised builds.
 macro_rules! finite {
-    ($scalar:ident, $four:ident, $four_moderate:ident, $moderate:literal) => {
+    ($scalar:ident, $four:ident, $infinite:literal, $moderate:literal) => {
         /// Whether none is infinite or NaN.
         #[inline]
         #[must_use]
         pub fn all_finite<const N: usize>(values: [$scalar; N]) -> bool {
             #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
-            return $crate::finite::in_fours!(values, $four, value => value.abs() <= $scalar::MAX);
+            return $crate::finite::in_fours!(values, $four, $infinite, value => value.abs() <= $scalar::MAX);
             #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
             each_finite(values)
         }
@@ -30,7 +30,7 @@ macro_rules! finite {
         #[must_use]
         pub fn all_moderate<const N: usize>(values: [$scalar; N]) -> bool {
             #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
-            return $crate::finite::in_fours!(values, $four_moderate, value => value.abs() < $scalar::from_bits($moderate));
+            return $crate::finite::in_fours!(values, $four, 0x5000_0000, value => value.abs() < $scalar::from_bits($moderate));
             // As integers: where floating point is software, a comparison of such numbers would be a call.
             #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
             $crate::finite::in_each!(values, value => value.abs().to_bits() < $moderate)
@@ -59,12 +59,12 @@ macro_rules! in_each {
 }
 pub(crate) use in_each;
 
-/// Whether something holds for all of some numbers: `$four` marks those of four for which it does not.
+/// Whether something holds for all of some numbers: `$four` marks those of four for which it does not, from `$least` on.
 ///
 /// More than two together, which takes fewer instructions; two each by itself, which is known sooner.
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 macro_rules! in_fours {
-    ($values:expr, $four:ident, $value:ident => $holds:expr) => {
+    ($values:expr, $four:ident, $least:literal, $value:ident => $holds:expr) => {
         if $values.len() <= 2 {
             $crate::finite::in_each!($values, $value => $holds)
         } else {
@@ -74,7 +74,7 @@ macro_rules! in_fours {
                 let (b, others) = if let [b, others @ ..] = others { (b, others) } else { (a, others) };
                 let (c, others) = if let [c, others @ ..] = others { (c, others) } else { (b, others) };
                 let (d, others) = if let [d, others @ ..] = others { (d, others) } else { (c, others) };
-                marks = $crate::finite::registers::$four(marks, *a, *b, *c, *d);
+                marks = $crate::finite::registers::$four(marks, $least, [*a, *b, *c, *d]);
                 rest = others;
             }
             $crate::finite::registers::is_unmarked(marks)
@@ -103,36 +103,20 @@ pub(crate) mod registers {
         unsafe { _mm_setzero_si128() }
     }
 
-    /// Marks the places of those of four more that are not finite.
+    /// Marks the places of those of four more whose patterns begin with no less.
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "a few instructions")]
-    pub(crate) fn four_f64(marks: Marks, a: f64, b: f64, c: f64, d: f64) -> Marks {
+    pub(crate) fn four_f64(marks: Marks, least: i32, [a, b, c, d]: [f64; 4]) -> Marks {
         // SAFETY: as above.
-        unsafe { marked_from(marks, upper_halves(a, b, c, d), 0x7FF0_0000) }
+        unsafe { marked_from(marks, upper_halves(a, b, c, d), least) }
     }
 
     /// The same in single precision.
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "a few instructions")]
-    pub(crate) fn four_f32(marks: Marks, a: f32, b: f32, c: f32, d: f32) -> Marks {
+    pub(crate) fn four_f32(marks: Marks, least: i32, [a, b, c, d]: [f32; 4]) -> Marks {
         // SAFETY: as above.
-        unsafe { marked_from(marks, _mm_set_ps(d, c, b, a), 0x7F80_0000) }
-    }
-
-    /// Marks the places of those of four more that are not moderate.
-    #[inline(always)]
-    #[allow(clippy::inline_always, reason = "a few instructions")]
-    pub(crate) fn four_moderate_f64(marks: Marks, a: f64, b: f64, c: f64, d: f64) -> Marks {
-        // SAFETY: as above.
-        unsafe { marked_from(marks, upper_halves(a, b, c, d), 0x5000_0000) }
-    }
-
-    /// The same in single precision.
-    #[inline(always)]
-    #[allow(clippy::inline_always, reason = "a few instructions")]
-    pub(crate) fn four_moderate_f32(marks: Marks, a: f32, b: f32, c: f32, d: f32) -> Marks {
-        // SAFETY: as above.
-        unsafe { marked_from(marks, _mm_set_ps(d, c, b, a), 0x5000_0000) }
+        unsafe { marked_from(marks, _mm_set_ps(d, c, b, a), least) }
     }
 
     /// By the signs of bytes, of which each fourth is that of a number: a mask of the numbers' own signs that is compared with zero

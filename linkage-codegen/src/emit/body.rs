@@ -145,7 +145,7 @@ impl<'a> Body<'a> {
                 || program.outputs.iter().any(|(_, output)| output == value);
             if own {
                 let name = new_name(&mut used, &body.wanted_name(*value, &readers));
-                body.names.insert(*value, name);
+                body.names.insert(*value, ident(&name));
             }
         }
         body
@@ -402,7 +402,8 @@ impl<'a> Body<'a> {
             {
                 let name = self.names.get(value).map(ToString::to_string).unwrap_or_default();
                 let name = ["_sin", "_cos"].into_iter().find_map(|part| name.strip_suffix(part)).unwrap_or(&name);
-                let parts = ["quarters", "rest", "tail"].map(|part| new_name(&mut used, &format!("{name}_{part}")));
+                let parts =
+                    ["quarters", "rest", "tail"].map(|part| ident(&new_name(&mut used, &format!("{name}_{part}"))));
                 angles.insert((*kernel, args.clone()), parts);
             }
         }
@@ -638,14 +639,14 @@ fn asked(name: &TokenStream, is_finite: &TokenStream) -> TokenStream {
 }
 
 /// The wanted name, or with a number the first of that kind that is not used yet.
-fn new_name(used: &mut BTreeSet<String>, wanted: &str) -> Ident {
+pub(super) fn new_name(used: &mut BTreeSet<String>, wanted: &str) -> String {
     let mut name = wanted.to_owned();
     let mut number = 2;
     while !used.insert(name.clone()) {
         name = format!("{wanted}_{number}");
         number += 1;
     }
-    ident(&name)
+    name
 }
 
 /// A constant as an unevaluated sum of two numbers of the scalar.

@@ -16,9 +16,12 @@ use crate::model::{LoadKind, Method, Model, SWEPT, type_name};
 use crate::plan::{Comparison, Output};
 use crate::program::{Input, Program, ValueId};
 
-/// Names that a function's own values cannot have, beside those of what a sweep runs over.
-const TAKEN: [&str; 9] =
-    ["motion", "loads", "linkage", "params", "closures", "EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"];
+/// Names that a function's own values cannot have, nor what is prepared, of which functions make values: those of what they are given and of
+/// constants of the module, and those by which a sweep computes.
+pub(super) fn taken() -> Vec<&'static str> {
+    let own = ["motion", "loads", "linkage", "params", "closures", "EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"];
+    own.into_iter().chain(SWEPT).collect()
+}
 
 /// The name of an input.
 pub(super) fn input_name(linkage: &Linkage, input: Input) -> String {
@@ -54,8 +57,7 @@ pub(super) fn input_name(linkage: &Linkage, input: Input) -> String {
 
 /// The body of a function.
 pub(super) fn body<'a>(linkage: &'a Linkage, program: &'a Program) -> Body<'a> {
-    let taken: Vec<&str> = TAKEN.into_iter().chain(SWEPT).collect();
-    Body::new(program, &linkage.model.graph, &|input| input_name(linkage, input), &taken)
+    Body::new(program, &linkage.model.graph, &|input| input_name(linkage, input), &taken())
 }
 
 /// Where a function has the coordinates of the drives from.

@@ -14,12 +14,14 @@ mod stages;
 mod sweeps;
 mod types;
 
+use std::collections::BTreeSet;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::Linkage;
 use crate::graph::{NodeId, Op, Symbol};
-use crate::model::{Method, Model, SWEPT};
+use crate::model::{Method, Model, OWN_PATTERNS};
 pub use equations::text as equations;
 pub use fallback::module as fallback;
 use formula::{Formula, Nodes};
@@ -164,24 +166,16 @@ pub fn operations(linkage: &Linkage) -> String {
     text
 }
 
-/// Name and formula of everything that is prepared from the parameters. Sweeps bind them by these names beside their own.
+/// Name and formula of everything that is prepared from the parameters.
 fn prepared_names(linkage: &Linkage) -> Vec<(String, String)> {
     let model = &linkage.model;
-    let mut names: Vec<(String, String)> = Vec::new();
-    for node in &linkage.functions.prepared {
+    let mut used: BTreeSet<String> = functions::taken().into_iter().chain(OWN_PATTERNS).map(str::to_owned).collect();
+    let named = linkage.functions.prepared.iter().map(|node| {
         let formula = Formula { model, terms: Nodes(&model.graph) }.of(*node);
         let own = name_of(model, *node).unwrap_or_else(|| "prepared".to_owned());
-        let mut name = own.clone();
-        let mut number = 2;
-        while names.iter().any(|(other, _)| *other == name)
-            || !model.sweeps.is_empty() && SWEPT.contains(&name.as_str())
-        {
-            name = format!("{own}_{number}");
-            number += 1;
-        }
-        names.push((name, formula));
-    }
-    names
+        (body::new_name(&mut used, &own), formula)
+    });
+    named.collect()
 }
 
 /// The name of a quantity, of a parameter, or of what is a multiple of one.

@@ -1,9 +1,11 @@
 //! The functions that place groups by Newton's method.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 
-use super::body::Body;
+use super::body::{Body, new_name};
 use super::literals::{ident, signed_literal};
 use super::{docs, name_of};
 use crate::Linkage;
@@ -44,17 +46,8 @@ struct Names {
 
 fn names(linkage: &Linkage, search: &Search) -> Names {
     let model = &linkage.model;
-    let mut taken: Vec<String> = TAKEN.iter().map(|name| (*name).to_owned()).chain(numbers(search)).collect();
-    let mut distinct = |own: Option<String>, other: &str| {
-        let own = own.unwrap_or_else(|| other.to_owned());
-        let (mut name, mut number) = (own.clone(), 2);
-        while taken.contains(&name) {
-            name = format!("{own}_{number}");
-            number += 1;
-        }
-        taken.push(name.clone());
-        name
-    };
+    let mut used: BTreeSet<String> = TAKEN.iter().map(|name| (*name).to_owned()).chain(numbers(search)).collect();
+    let mut distinct = |own: Option<String>, other: &str| new_name(&mut used, own.as_deref().unwrap_or(other));
     let own_name = |node: &crate::graph::NodeId| match model.graph.op(*node) {
         Op::Symbol(Symbol::Drive(drive)) => Some(model.drive(drive).name.text.clone()),
         Op::Symbol(Symbol::Start(other, number)) => {

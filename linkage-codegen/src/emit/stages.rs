@@ -4,8 +4,8 @@
 //! a single position, whose operations wait for each other; loops over a few dozen operations let the next positions fill the gaps. Between
 //! stages numbers are kept in columns. A cut is made in front of what waits for roots and quotients: an angle is reduced in one stage, its
 //! sine and the next root found in another, and what reads them has no longer to stand and wait. Elsewhere it is made where few numbers have
-//! to be kept. A sine stays with the root that it leads to: while a processor finds the root of one position it has
-//! the sums of other positions' sines to do.
+//! to be kept. A sine stays with the root that it leads to: while a processor finds the root of one position it has the sums of other
+//! positions' sines to do.
 
 use std::collections::BTreeMap;
 

@@ -30,24 +30,30 @@ crank!(results, Ok);
 crank!(nothing, None);
 
 // What depends on parameters alone is prepared under the name of the unknown.
-linkage! {
-    mod weights;
-    units { m, N }
-    param load: mass = 2kg;
+macro_rules! weight {
+    ($name:ident, $unknown:ident) => {
+        linkage! {
+            mod $name;
+            units { m, N }
+            param load: mass = 2kg;
 
-    ground { O: (0, 0) }
-    link block { P }
-    mass block: load at P;
+            ground { O: (0, 0) }
+            link block { P }
+            mass block: load at P;
 
-    prismatic S: ground.O -> block.P along 90deg;
+            prismatic S: ground.O -> block.P along 90deg;
 
-    drive s: S;
-    unknown failed: effort(s);
+            drive s: S;
+            unknown $unknown: effort(s);
 
-    load W: gravity = 9.81m/s^2 @ -90deg;
-    scene held: equilibrium -> (failed);
-    scene all:  sweep(held);
+            load W: gravity = 9.81m/s^2 @ -90deg;
+            scene held: equilibrium -> ($unknown);
+            scene all:  sweep(held);
+        }
+    };
 }
+weight!(weights, failed);
+weight!(scales, Ok);
 
 fn main() -> Result<(), SweepError> {
     let force = Vector2::new(0.0, 1.0);
@@ -58,6 +64,9 @@ fn main() -> Result<(), SweepError> {
     assert_eq!(found, [-1.0, -1f64.cos()]);
     let linkage = weights::Linkage::new(&weights::Params::default()).expect("a mass");
     weights::all(&linkage, &weights::AllInputs { s: theta }, weights::All { failed: &mut found })?;
+    assert_eq!(found, [2.0 * 9.81; 2]);
+    let linkage = scales::Linkage::new(&scales::Params::default()).expect("a mass");
+    scales::all(&linkage, &scales::AllInputs { s: theta }, scales::All { Ok: &mut found })?;
     assert_eq!(found, [2.0 * 9.81; 2]);
     Ok(())
 }
