@@ -38,22 +38,29 @@ macro_rules! lanes {
         /// the cache, so that no register is read out of two.
         #[derive(Debug)]
         #[repr(align(64))]
-        pub struct Block<const GIVEN: usize, const KEPT: usize, const RESULTS: usize> {
-            /// What the scene reads.
-            pub given: [Column; GIVEN],
+        pub struct Block<const KEPT: usize, const RESULTS: usize> {
             /// What a stage of the computation leaves for later ones.
             pub kept: [Column; KEPT],
             /// What the scene finds; later stages read it too.
             pub results: [Column; RESULTS],
         }
 
-        /// A sweep of a scene that reads `GIVEN` numbers, has `RESULTS` numbers, and keeps `KEPT` between its stages.
-        pub trait Lanes<const GIVEN: usize, const KEPT: usize, const RESULTS: usize> {
-            /// Lays out what is given from a position on; behind the last one its values once more, up to a whole register.
-            fn give(&self, first: usize, given: &mut [Column; GIVEN]);
+        /// A sweep of a scene that has `RESULTS` numbers, and keeps `KEPT` between its stages.
+        pub trait Lanes<const KEPT: usize, const RESULTS: usize> {
+            /// What the scene reads: the series, by blocks.
+            type Given;
 
-            /// The first positions of a block, as many as are asked for: whether all checks hold. Otherwise the results mean nothing.
-            fn solve(&self, block: &mut Block<GIVEN, KEPT, RESULTS>, lanes: usize) -> bool;
+            /// The same, of all positions.
+            fn given(&self) -> Self::Given;
+
+            /// So many positions from the first one on: whether all checks hold. Otherwise the results mean nothing.
+            fn solve(
+                &self,
+                given: &mut Self::Given,
+                first: usize,
+                block: &mut Block<KEPT, RESULTS>,
+                lanes: usize,
+            ) -> bool;
 
             /// Takes the first results of the block that begins at a position.
             fn take(&mut self, first: usize, lanes: usize, results: &[Column; RESULTS]);
@@ -65,32 +72,32 @@ macro_rules! lanes {
         /// Solves one position after the other, up to the first without an answer.
         #[cfg(not(feature = "std"))]
         #[inline]
-        pub fn sweep<const GIVEN: usize, const KEPT: usize, const RESULTS: usize>(
+        pub fn sweep<const KEPT: usize, const RESULTS: usize>(
             count: usize,
-            sweep: &mut impl Lanes<GIVEN, KEPT, RESULTS>,
+            sweep: &mut impl Lanes<KEPT, RESULTS>,
         ) -> Result<(), crate::SweepError> {
             crate::sweep::sweep(count, |index| sweep.point(index))
         }
 
         /// Solves blocks of positions by the widest instructions that the processor has, up to the first position without an answer.
         #[cfg(feature = "std")]
-        pub fn sweep<const GIVEN: usize, const KEPT: usize, const RESULTS: usize>(
+        pub fn sweep<const KEPT: usize, const RESULTS: usize>(
             count: usize,
-            sweep: &mut impl Lanes<GIVEN, KEPT, RESULTS>,
+            sweep: &mut impl Lanes<KEPT, RESULTS>,
         ) -> Result<(), crate::SweepError> {
             crate::processor::instructions().dispatch(Blocks { count, sweep })
         }
 
         /// All blocks of a sweep.
         #[cfg(feature = "std")]
-        struct Blocks<'a, S, const GIVEN: usize, const KEPT: usize, const RESULTS: usize> {
+        struct Blocks<'a, S, const KEPT: usize, const RESULTS: usize> {
             count: usize,
             sweep: &'a mut S,
         }
 
         #[cfg(feature = "std")]
-        impl<S: Lanes<GIVEN, KEPT, RESULTS>, const GIVEN: usize, const KEPT: usize, const RESULTS: usize> pulp::WithSimd
-            for Blocks<'_, S, GIVEN, KEPT, RESULTS>
+        impl<S: Lanes<KEPT, RESULTS>, const KEPT: usize, const RESULTS: usize> pulp::WithSimd
+            for Blocks<'_, S, KEPT, RESULTS>
         {
             type Output = Result<(), crate::SweepError>;
 
@@ -98,11 +105,11 @@ macro_rules! lanes {
             fn with_simd<I: pulp::Simd>(self, _: I) -> Self::Output {
                 let Self { count, sweep } = self;
                 let empty = [0.0; BLOCK];
-                let mut block = Block { given: [empty; GIVEN], kept: [empty; KEPT], results: [empty; RESULTS] };
+                let mut block = Block { kept: [empty; KEPT], results: [empty; RESULTS] };
+                let mut given = sweep.given();
                 for first in (0..count).step_by(BLOCK) {
-                    sweep.give(first, &mut block.given);
                     let lanes = BLOCK.min(count - first);
-                    if sweep.solve(&mut block, computed(lanes)) {
+                    if sweep.solve(&mut given, first, &mut block, computed(lanes)) {
                         sweep.take(first, lanes, &block.results);
                     } else {
                         one_by_one(first..first + lanes, sweep)?;
@@ -116,9 +123,9 @@ macro_rules! lanes {
         #[cfg(feature = "std")]
         #[cold]
         #[inline(never)]
-        fn one_by_one<const GIVEN: usize, const KEPT: usize, const RESULTS: usize>(
+        fn one_by_one<const KEPT: usize, const RESULTS: usize>(
             positions: core::ops::Range<usize>,
-            sweep: &mut impl Lanes<GIVEN, KEPT, RESULTS>,
+            sweep: &mut impl Lanes<KEPT, RESULTS>,
         ) -> Result<(), crate::SweepError> {
             for index in positions {
                 sweep.point(index).map_err(|error| crate::SweepError::Position { index, error })?;
@@ -126,47 +133,87 @@ macro_rules! lanes {
             Ok(())
         }
 
-        /// Lays out the parts of a series, each in a column of its own. What is the same everywhere stays where it is after the first
-        /// block.
-        #[inline(always)]
-        pub fn lay<T: Copy, const PARTS: usize>(
-            series: &crate::Series<'_, T>,
-            first: usize,
-            mut columns: [&mut Column; PARTS],
-            parts: impl Fn(T) -> [$scalar; PARTS],
-        ) {
-            match series {
-                crate::Series::Constant(value) => {
-                    if first == 0 {
-                        columns.into_iter().zip(parts(*value)).for_each(|(column, part)| column.fill(part));
-                    }
-                }
-                crate::Series::Each(values) => {
-                    let values = values.get(first..).unwrap_or_default();
-                    // A whole block has a length that the compiler knows.
-                    match (values.first_chunk::<BLOCK>(), columns.as_mut_slice()) {
-                        // All is read before anything is written: the compiler need not know that the values lie elsewhere.
-                        (Some(values), [column]) => **column = values.map(|value| parts(value)[0]),
-                        (Some(values), _) => lay_each(values, &mut columns, parts),
-                        (None, _) => lay_each(values, &mut columns, parts),
+        /// A series by blocks, which are read where they lie.
+        #[derive(Clone, Copy, Debug)]
+        pub struct Given<'a, T> {
+            /// Whole blocks, and what is behind them.
+            values: &'a [T],
+            /// The block behind those: what remains, and behind the last position its value once more, as what is computed there counts for
+            /// the checks. Of a series that is the same everywhere, any block.
+            rest: [T; BLOCK],
+        }
+
+        impl<'a, T: Copy + Default> Given<'a, T> {
+            /// All of a series.
+            #[inline(always)]
+            #[must_use]
+            pub fn new(series: &crate::Series<'a, T>) -> Self {
+                match *series {
+                    crate::Series::Constant(value) => Self { values: &[], rest: [value; BLOCK] },
+                    crate::Series::Each(values) => {
+                        let mut rest = [values.last().copied().unwrap_or_default(); BLOCK];
+                        rest.iter_mut()
+                            .zip(values.chunks_exact(BLOCK).remainder())
+                            .for_each(|(place, value)| *place = *value);
+                        Self { values, rest }
                     }
                 }
             }
+
+            /// The block that begins at a position.
+            #[inline(always)]
+            #[must_use]
+            pub fn block(&self, first: usize) -> &[T; BLOCK] {
+                self.values.get(first..).and_then(<[T]>::first_chunk).unwrap_or(&self.rest)
+            }
         }
 
-        /// Lays out the parts of values, as far as a block has room for them, and of the last one once more behind it, up to a whole
-        /// register: what is computed there counts for the checks.
+        /// The parts of a series by blocks, each copied into a column of its own: of values of which not all is read at once, parts lie too
+        /// far from each other for a register.
+        #[derive(Clone, Copy, Debug)]
+        #[repr(align(64))]
+        pub struct Parts<'a, T, const PARTS: usize> {
+            columns: [Column; PARTS],
+            of: Given<'a, T>,
+        }
+
+        impl<'a, T: Copy + Default, const PARTS: usize> Parts<'a, T, PARTS> {
+            /// All of a series, of which nothing is copied yet.
+            #[inline(always)]
+            #[must_use]
+            pub fn new(series: &crate::Series<'a, T>) -> Self {
+                Self { columns: [[0.0; BLOCK]; PARTS], of: Given::new(series) }
+            }
+
+            /// Those of the block that begins at a position. What is the same everywhere stays where it is after the first block.
+            #[inline(always)]
+            pub fn block(&mut self, first: usize, parts: impl Fn(&T) -> [$scalar; PARTS]) -> &[Column; PARTS] {
+                let Self { columns, of: Given { values, rest } } = self;
+                // What lies behind the whole blocks lies beside the columns, but what is outside does not: the compiler sees that.
+                match values.get(first..).and_then(<[T]>::first_chunk) {
+                    Some(values) => copy(values, columns, parts),
+                    None if first == 0 || !values.is_empty() => copy(rest, columns, parts),
+                    None => {}
+                }
+                columns
+            }
+        }
+
+        /// Copies the parts of values into columns.
         #[inline(always)]
-        fn lay_each<T: Copy, const PARTS: usize>(
-            values: &[T],
-            columns: &mut [&mut Column; PARTS],
-            parts: impl Fn(T) -> [$scalar; PARTS],
+        fn copy<T: Copy, const PARTS: usize>(
+            values: &[T; BLOCK],
+            columns: &mut [Column; PARTS],
+            parts: impl Fn(&T) -> [$scalar; PARTS],
         ) {
-            for lane in 0..computed(values.len()) {
-                let Some(value) = values.get(lane).or(values.last()) else { return };
-                let parts = parts(*value);
-                for which in 0..PARTS {
-                    columns[which][lane] = parts[which];
+            if let [column] = columns.as_mut_slice() {
+                // The compiler packs what is read as a whole.
+                *column = values.map(|value| parts(&value)[0]);
+                return;
+            }
+            for (lane, value) in values.iter().enumerate() {
+                for (column, part) in columns.iter_mut().zip(parts(value)) {
+                    column[lane] = part;
                 }
             }
         }
@@ -187,7 +234,7 @@ pub(crate) use lanes;
 
 #[cfg(all(test, feature = "std"))]
 mod tests {
-    use crate::__private::f64::{BLOCK, Block, Column, Count, Lanes, failed, lay, put, sweep};
+    use crate::__private::f64::{BLOCK, Block, Column, Count, Given, Lanes, Parts, failed, put, sweep};
     use crate::{Error, Series};
 
     /// Two blocks, and one more.
@@ -199,15 +246,18 @@ mod tests {
         results: &'a mut [f64],
     }
 
-    impl Lanes<1, 0, 1> for Reciprocals<'_> {
-        fn give(&self, first: usize, [column]: &mut [Column; 1]) {
-            lay(&Series::Each(self.of), first, [column], |value| [value]);
+    impl<'a> Lanes<0, 1> for Reciprocals<'a> {
+        type Given = Given<'a, f64>;
+
+        fn given(&self) -> Self::Given {
+            Given::new(&Series::Each(self.of))
         }
 
-        fn solve(&self, block: &mut Block<1, 0, 1>, lanes: usize) -> bool {
+        fn solve(&self, given: &mut Self::Given, first: usize, block: &mut Block<0, 1>, lanes: usize) -> bool {
             let mut count: Count = 0;
+            let given = given.block(first);
             for lane in 0..lanes {
-                let given = block.given[0][lane];
+                let given = given[lane];
                 block.results[0][lane] = 1.0 / given;
                 count += failed(given != 0.0);
             }
@@ -249,6 +299,30 @@ mod tests {
             for (part, expected) in parts.into_iter().zip([0.5, -1.0, 0.0]) {
                 assert_eq!(part, &[expected; COUNT][..part.len()]);
             }
+        }
+    }
+
+    #[test]
+    fn blocks_are_the_series_and_its_last_value_once_more() {
+        let values: [f64; COUNT] = core::array::from_fn(|index| index as f64);
+        for count in 1..=COUNT {
+            let series = Series::Each(&values[..count]);
+            let (given, mut both) = (Given::new(&series), Parts::new(&series));
+            for first in (0..count).step_by(BLOCK) {
+                let expected: [f64; BLOCK] = core::array::from_fn(|lane| values[(first + lane).min(count - 1)]);
+                assert_eq!(given.block(first), &expected);
+                assert_eq!(both.block(first, |value| [-value, *value]), &[expected.map(|value| -value), expected]);
+            }
+        }
+    }
+
+    #[test]
+    fn blocks_of_what_is_the_same_everywhere() {
+        let series = Series::Constant(2.0);
+        let (given, mut more) = (Given::new(&series), Parts::new(&series));
+        for first in [0, BLOCK] {
+            assert_eq!(given.block(first), &[2.0; BLOCK]);
+            assert_eq!(more.block(first, |value| [value + 1.0]), &[[3.0; BLOCK]]);
         }
     }
 }

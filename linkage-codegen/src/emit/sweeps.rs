@@ -1,6 +1,7 @@
 //! Sweeps: a scene at many positions, from slices into slices.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -12,7 +13,7 @@ use super::stages::{self, Column, Stage, Work};
 use super::types::{drive_doc, given_motion, has_params, load_doc, motion_doc, motion_type, run_time_loads, scalar};
 use crate::Linkage;
 use crate::graph::{Kernel, Op, Symbol};
-use crate::model::{LoadKind, Model, Sweep};
+use crate::model::{Load, LoadKind, Model, Sweep};
 use crate::plan::{Output, slice_name};
 use crate::program::{Input, Program, Step};
 
@@ -36,14 +37,7 @@ fn inputs(model: &Model, sweep: &Sweep, runtime: &TokenStream, whole: bool) -> T
         let load = model.load(load);
         let (name, doc) =
             (ident(&load.name.text), if whole { format!(" {}", load_doc(model, load)) } else { String::new() });
-        let value = match load.kind {
-            LoadKind::Moment { .. } | LoadKind::Thrust { .. } | LoadKind::Inertia => quote!(#scalar),
-            LoadKind::Force { .. } | LoadKind::Gravity { .. } => quote!(Vector2<#scalar>),
-            LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
-                let ty = ident(&load.type_name());
-                quote!(#ty)
-            }
-        };
+        let value = load_value(model, load);
         quote!(#[doc = #doc] pub #name: #runtime::Series<'a, #value>)
     });
     let doc = format!(" What is given at each position of the sweep `{}`.", sweep.name);
@@ -151,35 +145,85 @@ fn has_lanes(program: &Program, output: &Output) -> bool {
     !program.steps.iter().any(branches) && !matches!(output, Output::Verification(_))
 }
 
-/// What a lane reads: each series with the parts of its values, and the names under which the lane has them.
-fn columns(linkage: &Linkage, program: &Program) -> Vec<(Ident, Vec<(TokenStream, Ident)>)> {
+/// What a sweep reads of a series.
+struct Given {
+    series: Ident,
+    /// What its values are.
+    ty: TokenStream,
+    /// Each number that is read, with the field that it is of a value which has such.
+    numbers: Vec<(Ident, Option<Ident>)>,
+    /// Whether values are read where they lie. Otherwise their fields are copied into columns.
+    in_place: bool,
+}
+
+/// Everything that is read, in columns.
+fn given(linkage: &Linkage, program: &Program) -> Vec<Given> {
     let model = &linkage.model;
-    let mut columns: Vec<(Ident, Vec<(TokenStream, Ident)>)> = Vec::new();
+    let scalar = scalar(model);
+    let mut all: Vec<Given> = Vec::new();
     for (_, input) in program.inputs() {
         let name = ident(&input_name(linkage, input));
-        let (series, part) = match input {
-            Input::Symbol(Symbol::Drive(_) | Symbol::Driven(..)) => (name.clone(), quote!(value)),
+        let (series, ty, field) = match input {
+            Input::Symbol(Symbol::Drive(_) | Symbol::Driven(..)) => (name.clone(), quote!(#scalar), ""),
             Input::Symbol(Symbol::Load(load, part)) => {
                 let load = model.load(load);
-                let part = match load.kind {
-                    LoadKind::Moment { .. } | LoadKind::Thrust { .. } | LoadKind::Inertia => quote!(value),
-                    LoadKind::Force { .. } | LoadKind::Gravity { .. } if part == 0 => quote!(value.x),
-                    LoadKind::Force { .. } | LoadKind::Gravity { .. } => quote!(value.y),
-                    LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
-                        let field = ident(load.kind.value_name(part));
-                        quote!(value.#field)
-                    }
-                };
-                (ident(&load.name.text), part)
+                (ident(&load.name.text), load_value(model, load), load.kind.value_name(part))
             }
             _ => continue,
         };
-        match columns.iter_mut().find(|(other, _)| *other == series) {
-            Some((_, parts)) => parts.push((part, name)),
-            None => columns.push((series, vec![(part, name)])),
+        let number = (name, (!field.is_empty()).then(|| ident(field)));
+        match all.iter_mut().find(|other| other.series == series) {
+            Some(other) => other.numbers.push(number),
+            None => all.push(Given { series, ty, numbers: vec![number], in_place: false }),
         }
     }
-    columns
+    all
+}
+
+impl Given {
+    fn ty(&self) -> TokenStream {
+        let ty = &self.ty;
+        let count = Literal::usize_unsuffixed(self.numbers.len());
+        if self.in_place { quote!(math::Given<'a, #ty>) } else { quote!(math::Parts<'a, #ty, #count>) }
+    }
+
+    /// All of it.
+    fn whole(&self) -> TokenStream {
+        let series = &self.series;
+        let ty = if self.in_place { quote!(Given) } else { quote!(Parts) };
+        quote!(math::#ty::new(&self.inputs.#series))
+    }
+
+    /// What a block has of that in this place.
+    fn block(&self, place: usize) -> TokenStream {
+        let place = Literal::usize_unsuffixed(place);
+        let fields = self.numbers.iter().flat_map(|(_, field)| field);
+        let parts = (!self.in_place).then(|| quote!(, |value| [#(value.#fields),*]));
+        quote!(given.#place.block(first #parts))
+    }
+
+    /// How its numbers are read there.
+    fn lanes(&self, place: usize) -> impl Iterator<Item = TokenStream> {
+        let place = Literal::usize_unsuffixed(place);
+        self.numbers.iter().enumerate().map(move |(part, (_, field))| {
+            let part = Literal::usize_unsuffixed(part);
+            let field = field.iter();
+            if self.in_place { quote!(given.#place[lane] #(.#field)*) } else { quote!(given.#place[#part][lane]) }
+        })
+    }
+}
+
+/// What is given of a load at each position.
+fn load_value(model: &Model, load: &Load) -> TokenStream {
+    let scalar = scalar(model);
+    match load.kind {
+        LoadKind::Moment { .. } | LoadKind::Thrust { .. } | LoadKind::Inertia => quote!(#scalar),
+        LoadKind::Force { .. } | LoadKind::Gravity { .. } => quote!(Vector2<#scalar>),
+        LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
+            let ty = ident(&load.type_name());
+            quote!(#ty)
+        }
+    }
 }
 
 /// The positions of a sweep beside each other, and one by one.
@@ -188,21 +232,14 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
     let program = &linkage.functions.scenes[sweep.scene].direct;
     let [inputs_ty, results_ty] = sweep.types().map(|ty| ident(&ty));
     let ty = ident(&format!("{}Lanes", sweep.types()[1]));
-    let columns = columns(linkage, program);
-    let given: Vec<Ident> = columns.iter().flat_map(|(_, parts)| parts.iter().map(|(_, name)| name.clone())).collect();
+    let mut given = given(linkage, program);
     let column = |name: &Ident| ident(&format!("{name}_lanes"));
-    let (given_columns, result_columns) = (given.iter().map(column), fields.iter().map(column));
-    let laid = columns.iter().map(|(series, parts)| {
-        let names = parts.iter().map(|(_, name)| column(name));
-        let parts = parts.iter().map(|(part, _)| part);
-        quote!(math::lay(&self.inputs.#series, first, [#(#names),*], |value| [#(#parts),*]);)
-    });
+    let result_columns = fields.iter().map(column);
     let put = fields.iter().map(|field| {
         let column = column(field);
         quote!(math::put(self.results.#field, first, lanes, #column);)
     });
-    let (given_count, results_count) =
-        (Literal::usize_unsuffixed(given.len()), Literal::usize_unsuffixed(fields.len()));
+    let results_count = Literal::usize_unsuffixed(fields.len());
     let (prepared, closures) = (has_params(linkage), model.given_closures().next().is_some());
     let members = [
         prepared.then(|| quote!(linkage: &'s Linkage)),
@@ -223,7 +260,19 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
     let bindings = lane_bindings(linkage, program);
     let (statements, conditions, body) = body(linkage, program).straight();
     let results = outputs(&body, program);
-    let stages = stages::stages(Work { statements, conditions, results }, &given);
+    let numbers: Vec<Ident> =
+        given.iter().flat_map(|given| given.numbers.iter().map(|(name, _)| name.clone())).collect();
+    let stages = stages::stages(Work { statements, conditions, results }, &numbers);
+    let mut first = 0;
+    for given in &mut given {
+        let places = first..first + given.numbers.len();
+        given.in_place = is_read_in_place(given, places.clone(), &stages);
+        first = places.end;
+    }
+    let lanes_given: Vec<_> = given.iter().enumerate().flat_map(|(place, given)| given.lanes(place)).collect();
+    let (given_types, given_whole) = (given.iter().map(Given::ty), given.iter().map(Given::whole));
+    let given_blocks = given.iter().enumerate().map(|(place, given)| given.block(place));
+    let given_blocks = (!given.is_empty()).then(|| quote!(let given = (#(#given_blocks,)*);));
     let kept = stages.iter().flat_map(|stage| &stage.keeps).filter_map(|(column, _)| match column {
         Column::Kept(place) => Some(place + 1),
         _ => None,
@@ -233,24 +282,32 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
     let checked = stages.iter().any(|stage| !stage.conditions.is_empty());
     let count = checked.then(|| quote!(let mut failed: math::Count = 0;));
     let holds = if checked { quote!(failed == 0) } else { quote!(true) };
-    let loops = stages.into_iter().map(loop_over);
+    let loops = stages.into_iter().map(|stage| loop_over(stage, &lanes_given));
     let doc = format!(" The positions of the sweep `{}`, of which several are computed at once.", sweep.name);
     let items = quote! {
         #[doc = #doc]
         struct #ty<'s, 'a> { #(#members,)* }
-        impl math::Lanes<#given_count, #kept_count, #results_count> for #ty<'_, '_> {
+        impl<'a> math::Lanes<#kept_count, #results_count> for #ty<'_, 'a> {
+            type Given = (#(#given_types,)*);
             #[inline(always)]
-            fn solve(&self, block: &mut math::Block<#given_count, #kept_count, #results_count>, lanes: usize) -> bool {
+            fn given(&self) -> Self::Given {
+                (#(#given_whole,)*)
+            }
+            #[inline(always)]
+            fn solve(
+                &self,
+                given: &mut Self::Given,
+                first: usize,
+                block: &mut math::Block<#kept_count, #results_count>,
+                lanes: usize,
+            ) -> bool {
                 let lanes = lanes.min(math::BLOCK);
+                #given_blocks
                 #shared
                 #bindings
                 #count
                 #(#loops)*
                 #holds
-            }
-            #[inline(always)]
-            fn give(&self, first: usize, [#(#given_columns),*]: &mut [math::Column; #given_count]) {
-                #(#laid)*
             }
             #[inline(always)]
             fn take(&mut self, first: usize, lanes: usize, [#(#result_columns),*]: &[math::Column; #results_count]) {
@@ -265,25 +322,42 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
     Lanes { items, call: quote!(math::sweep(count, &mut #ty { #(#names),* })) }
 }
 
-/// A loop over the positions of a block.
-fn loop_over(Stage { reads, statements, conditions, keeps }: Stage) -> TokenStream {
-    let of = |column: Column| {
-        let (kind, place) = match column {
-            Column::Given(place) => (quote!(given), place),
-            Column::Kept(place) => (quote!(kept), place),
-            Column::Result(place) => (quote!(results), place),
-        };
-        let place = Literal::usize_unsuffixed(place);
-        quote!(block.#kind[#place])
+/// Whether values are numbers, or vectors of which each stage that reads a component reads the other one too: then registers are full of what
+/// is read.
+fn is_read_in_place(given: &Given, places: Range<usize>, stages: &[Stage]) -> bool {
+    let reads = |stage: &Stage, place| stage.reads.iter().any(|(_, column)| *column == Column::Given(place));
+    let all_or_none = |stage: &Stage| {
+        let count = places.clone().filter(|place| reads(stage, *place)).count();
+        count == 0 || count == places.len()
+    };
+    match given.numbers.as_slice() {
+        [(_, None)] => true,
+        [(_, Some(x)), (_, Some(y))] if x == "x" && y == "y" => stages.iter().all(all_or_none),
+        _ => false,
+    }
+}
+
+/// A loop over the positions of a block, for which numbers are given so.
+fn loop_over(Stage { reads, statements, conditions, keeps }: Stage, given: &[TokenStream]) -> TokenStream {
+    let of = |column: Column| match column {
+        Column::Given(place) => given[place].clone(),
+        Column::Kept(place) => {
+            let place = Literal::usize_unsuffixed(place);
+            quote!(block.kept[#place][lane])
+        }
+        Column::Result(place) => {
+            let place = Literal::usize_unsuffixed(place);
+            quote!(block.results[#place][lane])
+        }
     };
     let statements = with_notes(&statements);
     let reads = reads.into_iter().map(|(name, column)| {
-        let column = of(column);
-        quote!(let #name = #column[lane];)
+        let value = of(column);
+        quote!(let #name = #value;)
     });
     let keeps = keeps.into_iter().map(|(column, value)| {
-        let column = of(column);
-        quote!(#column[lane] = #value;)
+        let place = of(column);
+        quote!(#place = #value;)
     });
     let holds = conditions.into_iter().reduce(|all, one| quote!(#all & #one));
     let counted = holds.map(|all| quote!(failed = failed.wrapping_add(math::failed(#all));));
