@@ -5,7 +5,7 @@
 //! stages numbers are kept in columns. A cut is made in front of what waits for roots and quotients: an angle is reduced in one stage, its
 //! sine and the next root found in another, and what reads them has no longer to stand and wait. Elsewhere it is made where few numbers have
 //! to be kept. A sine stays with the root that it leads to: while a processor finds the root of one position it has the sums of other
-//! positions' sines to do.
+//! positions' sines to do. A quotient may be found later, in a stage that would have neither.
 
 use std::collections::BTreeMap;
 
@@ -35,6 +35,8 @@ struct Task<'a> {
     reduces_an_angle: bool,
     /// Whether what reads it waits for as long as dozens of other operations take: for a root, a quotient, or the rest of an angle.
     is_long: bool,
+    /// Whether it is a quotient, and no more than that.
+    is_quotient: bool,
     /// How many tasks that are long are in front of it, one behind the other.
     level: usize,
 }
@@ -46,9 +48,10 @@ impl<'a> Task<'a> {
         let defines = names(&pattern.collect());
         let words = Words::of(&statement.code);
         let (operations, reduces_an_angle, is_long) = (words.operations(), words.reduce_an_angle(), words.are_long());
+        let is_quotient = is_long && words.functions.iter().all(|function| function.kind == Kind::Quick);
         let mut reads = words.names;
         reads.retain(|name, _| !defines.contains_key(name));
-        Self { statement, defines, reads, operations, reduces_an_angle, is_long, level: 0 }
+        Self { statement, defines, reads, operations, reduces_an_angle, is_long, is_quotient, level: 0 }
     }
 }
 
@@ -274,7 +277,8 @@ fn find_levels(tasks: &mut [Task]) {
     }
 }
 
-/// Lets tasks stand at the level where their results are read, if no more numbers have to be kept till there than they have results.
+/// Lets tasks stand at the level where their results are read, if no more numbers have to be kept till there than they have results. A
+/// quotient does so only where nothing else takes long: what divides is busy with one quotient or root at a time.
 fn sink(tasks: &mut [Task], conditions: &[TokenStream]) {
     let level_of: BTreeMap<String, usize> =
         tasks.iter().flat_map(|task| task.defines.keys().map(|name| (name.clone(), task.level))).collect();
@@ -289,19 +293,21 @@ fn sink(tasks: &mut [Task], conditions: &[TokenStream]) {
     while sunk {
         sunk = false;
         let mut read = read.clone();
-        for task in tasks.iter_mut().rev() {
+        for index in (0..tasks.len()).rev() {
+            let task = &tasks[index];
             let first = task.defines.keys().filter_map(|name| Some(read.0.get(name)?.0)).min();
             if let Some(first) = first
                 && first > task.level
-                && !task.is_long
+                && (!task.is_long
+                    || task.is_quotient && !tasks.iter().any(|other| other.is_long && other.level == first))
             {
                 let computed = task.reads.keys().filter(|name| level_of.contains_key(*name));
                 let not_kept = computed.filter(|name| read.0.get(*name).is_none_or(|(_, last)| *last < first));
                 if not_kept.count() <= task.defines.len() {
-                    (task.level, sunk) = (first, true);
+                    (tasks[index].level, sunk) = (first, true);
                 }
             }
-            read.at(task.level, &task.reads);
+            read.at(tasks[index].level, &tasks[index].reads);
         }
     }
 }
@@ -470,6 +476,31 @@ mod tests {
         // What nothing waits for stands where it is read, as one number is kept for it as well as another.
         assert_eq!(names(&stages[1]), ["a", "early1", "root"]);
         assert_eq!(stages[1].statements.len(), 2 + LENGTH);
+    }
+
+    /// The stage that begins behind a sine and a root finds the quotient that it reads, unless it has a root of its own.
+    #[test]
+    fn a_quotient_is_found_where_nothing_else_takes_long() {
+        let stage_of_the_quotient = |own: TokenStream| {
+            let mut statements = vec![
+                quote!(let (quarters, rest, tail) = math::short_angle(angle);),
+                quote!(let (sine, _) = math::short_sin_cos(quarters, rest, tail);),
+                quote!(let root = math::sqrt(sine);),
+                quote!(let quotient = 1.0 / sine;),
+                quote!(let x0 = root + quotient;),
+            ];
+            for link in 0..LENGTH {
+                let (from, to) = (format_ident!("x{link}"), format_ident!("x{}", link + 1));
+                statements.push(quote!(let #to = #from + angle;));
+            }
+            statements.push(quote!(let own = #own;));
+            let last = format_ident!("x{LENGTH}");
+            let stages = staged(statements, Vec::new(), vec![quote!(#last), quote!(own)], &[ident("angle")]);
+            let is_the_quotient = |one: &Statement| one.code.to_string().starts_with("let quotient");
+            stages.iter().position(|stage| stage.statements.iter().any(is_the_quotient))
+        };
+        assert_eq!(stage_of_the_quotient(quote!(root + angle)), Some(2));
+        assert_eq!(stage_of_the_quotient(quote!(math::sqrt(root))), Some(1));
     }
 
     #[test]
