@@ -323,18 +323,20 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
 }
 
 /// Whether values are numbers, or vectors of which each stage that reads a component reads the other one too: then registers are full of what
-/// is read.
+/// is read. The numbers have these places.
 fn is_read_in_place(given: &Given, places: Range<usize>, stages: &[Stage]) -> bool {
-    let reads = |stage: &Stage, place| stage.reads.iter().any(|(_, column)| *column == Column::Given(place));
+    let is_component = |field: &Ident| field == "x" || field == "y";
+    let is_whole = match given.numbers.as_slice() {
+        [(_, field)] => field.is_none(),
+        [(_, Some(one)), (_, Some(other))] => is_component(one) && is_component(other),
+        _ => false,
+    };
     let all_or_none = |stage: &Stage| {
-        let count = places.clone().filter(|place| reads(stage, *place)).count();
+        let is_read = |place: &usize| stage.reads.iter().any(|(_, column)| *column == Column::Given(*place));
+        let count = places.clone().filter(is_read).count();
         count == 0 || count == places.len()
     };
-    match given.numbers.as_slice() {
-        [(_, None)] => true,
-        [(_, Some(x)), (_, Some(y))] if x == "x" && y == "y" => stages.iter().all(all_or_none),
-        _ => false,
-    }
+    is_whole && stages.iter().all(all_or_none)
 }
 
 /// A loop over the positions of a block, for which numbers are given so.
