@@ -34,15 +34,39 @@ macro_rules! lanes {
         /// A number at each position of a block.
         pub type Column = [$scalar; BLOCK];
 
-        /// Positions that are computed at once. One piece of memory: the compiler sees that columns do not overlap. It begins with a line of
-        /// the cache, so that no register is read out of two.
+        /// What is computed at the positions of a block. One piece of memory: the compiler sees that columns do not overlap. It begins with a
+        /// line of the cache, so that no register is read out of two.
         #[derive(Debug)]
         #[repr(align(64))]
-        pub struct Block<const KEPT: usize, const RESULTS: usize> {
+        pub struct Columns<const KEPT: usize, const RESULTS: usize> {
+            kept: [Column; KEPT],
+            results: [Column; RESULTS],
+        }
+
+        impl<const KEPT: usize, const RESULTS: usize> Columns<KEPT, RESULTS> {
+            /// Nothing yet.
+            #[cfg(feature = "std")]
+            #[inline(always)]
+            const fn new() -> Self {
+                Self { kept: [[0.0; BLOCK]; KEPT], results: [[0.0; BLOCK]; RESULTS] }
+            }
+
+            /// The block at which so much is given.
+            #[inline(always)]
+            pub const fn block<G>(&mut self, given: G) -> Block<'_, G, KEPT, RESULTS> {
+                Block { given, kept: &mut self.kept, results: &mut self.results }
+            }
+        }
+
+        /// Positions that are computed at once.
+        #[derive(Debug)]
+        pub struct Block<'a, G, const KEPT: usize, const RESULTS: usize> {
+            /// What the scene reads.
+            pub given: G,
             /// What a stage of the computation leaves for later ones.
-            pub kept: [Column; KEPT],
+            pub kept: &'a mut [Column; KEPT],
             /// What the scene finds; later stages read it too.
-            pub results: [Column; RESULTS],
+            pub results: &'a mut [Column; RESULTS],
         }
 
         /// A sweep of a scene that has `RESULTS` numbers, and keeps `KEPT` between its stages.
@@ -53,12 +77,12 @@ macro_rules! lanes {
             /// The same, of all positions.
             fn given(&self) -> Self::Given;
 
-            /// So many positions from the first one on: whether all checks hold. Otherwise the results mean nothing.
+            /// Computes so many positions from the first one on: whether all checks hold. Otherwise the results mean nothing.
             fn solve(
                 &self,
                 given: &mut Self::Given,
                 first: usize,
-                block: &mut Block<KEPT, RESULTS>,
+                columns: &mut Columns<KEPT, RESULTS>,
                 lanes: usize,
             ) -> bool;
 
@@ -104,13 +128,11 @@ macro_rules! lanes {
             #[inline(always)]
             fn with_simd<I: pulp::Simd>(self, _: I) -> Self::Output {
                 let Self { count, sweep } = self;
-                let empty = [0.0; BLOCK];
-                let mut block = Block { kept: [empty; KEPT], results: [empty; RESULTS] };
-                let mut given = sweep.given();
+                let (mut given, mut columns) = (sweep.given(), Columns::new());
                 for first in (0..count).step_by(BLOCK) {
                     let lanes = BLOCK.min(count - first);
-                    if sweep.solve(&mut given, first, &mut block, computed(lanes)) {
-                        sweep.take(first, lanes, &block.results);
+                    if sweep.solve(&mut given, first, &mut columns, computed(lanes)) {
+                        sweep.take(first, lanes, &columns.results);
                     } else {
                         one_by_one(first..first + lanes, sweep)?;
                     }
@@ -234,7 +256,7 @@ pub(crate) use lanes;
 
 #[cfg(all(test, feature = "std"))]
 mod tests {
-    use crate::__private::f64::{BLOCK, Block, Column, Count, Given, Lanes, Parts, failed, put, sweep};
+    use crate::__private::f64::{BLOCK, Column, Columns, Count, Given, Lanes, Parts, failed, put, sweep};
     use crate::{Error, Series};
 
     /// Two blocks, and one more.
@@ -253,11 +275,11 @@ mod tests {
             Given::new(&Series::Each(self.of))
         }
 
-        fn solve(&self, given: &mut Self::Given, first: usize, block: &mut Block<0, 1>, lanes: usize) -> bool {
+        fn solve(&self, given: &mut Self::Given, first: usize, columns: &mut Columns<0, 1>, lanes: usize) -> bool {
             let mut count: Count = 0;
-            let given = given.block(first);
+            let block = columns.block(given.block(first));
             for lane in 0..lanes {
-                let given = given[lane];
+                let given = block.given[lane];
                 block.results[0][lane] = 1.0 / given;
                 count += failed(given != 0.0);
             }
@@ -304,13 +326,13 @@ mod tests {
 
     #[test]
     fn blocks_are_the_series_and_its_last_value_once_more() {
-        let values: [f64; COUNT] = core::array::from_fn(|index| index as f64);
+        let values: [f64; COUNT] = core::array::from_fn(|index| f64::from(u8::try_from(index).expect("few")));
         for count in 1..=COUNT {
             let series = Series::Each(&values[..count]);
             let (given, mut both) = (Given::new(&series), Parts::new(&series));
             for first in (0..count).step_by(BLOCK) {
                 let expected: [f64; BLOCK] = core::array::from_fn(|lane| values[(first + lane).min(count - 1)]);
-                assert_eq!(given.block(first), &expected);
+                assert_eq!(given.block(first).as_slice(), expected.as_slice());
                 assert_eq!(both.block(first, |value| [-value, *value]), &[expected.map(|value| -value), expected]);
             }
         }
@@ -321,7 +343,7 @@ mod tests {
         let series = Series::Constant(2.0);
         let (given, mut more) = (Given::new(&series), Parts::new(&series));
         for first in [0, BLOCK] {
-            assert_eq!(given.block(first), &[2.0; BLOCK]);
+            assert_eq!(given.block(first).as_slice(), [2.0; BLOCK].as_slice());
             assert_eq!(more.block(first, |value| [value + 1.0]), &[[3.0; BLOCK]]);
         }
     }

@@ -208,7 +208,11 @@ impl Given {
         self.numbers.iter().enumerate().map(move |(part, (_, field))| {
             let part = Literal::usize_unsuffixed(part);
             let field = field.iter();
-            if self.in_place { quote!(given.#place[lane] #(.#field)*) } else { quote!(given.#place[#part][lane]) }
+            if self.in_place {
+                quote!(block.given.#place[lane] #(.#field)*)
+            } else {
+                quote!(block.given.#place[#part][lane])
+            }
         })
     }
 }
@@ -272,7 +276,6 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
     let lanes_given: Vec<_> = given.iter().enumerate().flat_map(|(place, given)| given.lanes(place)).collect();
     let (given_types, given_whole) = (given.iter().map(Given::ty), given.iter().map(Given::whole));
     let given_blocks = given.iter().enumerate().map(|(place, given)| given.block(place));
-    let given_blocks = (!given.is_empty()).then(|| quote!(let given = (#(#given_blocks,)*);));
     let kept = stages.iter().flat_map(|stage| &stage.keeps).filter_map(|(column, _)| match column {
         Column::Kept(place) => Some(place + 1),
         _ => None,
@@ -298,11 +301,11 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
                 &self,
                 given: &mut Self::Given,
                 first: usize,
-                block: &mut math::Block<#kept_count, #results_count>,
+                columns: &mut math::Columns<#kept_count, #results_count>,
                 lanes: usize,
             ) -> bool {
                 let lanes = lanes.min(math::BLOCK);
-                #given_blocks
+                let block = columns.block((#(#given_blocks,)*));
                 #shared
                 #bindings
                 #count

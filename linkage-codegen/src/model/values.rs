@@ -10,7 +10,7 @@ use crate::syntax::ast::Name;
 pub(crate) const OWN_PATTERNS: [&str; 4] = ["Ok", "Err", "Some", "None"];
 
 /// Names by which a sweep computes its positions.
-pub(crate) const SWEPT: [&str; 5] = ["lane", "lanes", "block", "given", "failed"];
+pub(crate) const SWEPT: [&str; 4] = ["lane", "lanes", "block", "failed"];
 
 /// What a place on a link is called at which no point is.
 pub(crate) const PLACE: &str = "place";

@@ -25,7 +25,6 @@ macro_rules! crank {
 }
 crank!(lanes, lane);
 crank!(blocks, block);
-crank!(values, given);
 crank!(checks, failed);
 crank!(results, Ok);
 crank!(nothing, None);
