@@ -94,6 +94,31 @@ fn every_stage_of_every_example() {
     }
 }
 
+/// All functions for a single pose, so that a caller in another crate gets what they find in registers: those that are told to be so. What is
+/// prepared once, and a sweep, whose callers have nothing to gain, are calls.
+#[test]
+fn functions_of_a_pose_can_be_inlined() {
+    let examples = every_example().into_iter().map(|example| without_source(declaration(&example)));
+    for tokens in examples.chain(OTHERS.map(|(_, text)| text.parse().expect("tokens"))) {
+        let sweeps: Vec<String> = {
+            let linkage =
+                linkage_codegen::analyse(tokens.clone()).unwrap_or_else(|refusal| panic!("{:?}", refusal.errors));
+            linkage.model.sweeps.iter().map(|sweep| sweep.name.text.clone()).collect()
+        };
+        let code = linkage_codegen::formatted(linkage_codegen::expand(tokens)).expect("Rust");
+        let mut is_inline = false;
+        for line in code.lines().map(str::trim) {
+            is_inline |= line == "#[inline]";
+            let Some((name, _)) = line.strip_prefix("pub fn ").and_then(|rest| rest.split_once(['(', '<'])) else {
+                continue;
+            };
+            let is_called = ["new", "of"].contains(&name) || sweeps.iter().any(|sweep| sweep == name);
+            assert_eq!(is_inline, !is_called, "{line}");
+            is_inline = false;
+        }
+    }
+}
+
 /// The function that the first page shows is the one that is emitted for the declaration above it.
 #[test]
 fn the_first_page_shows_what_is_emitted() {
