@@ -11,14 +11,8 @@ macro_rules! lanes {
         /// How many positions a block has.
         pub const BLOCK: usize = 64;
 
-        /// Of the last block, positions up to a multiple of this are computed: no instruction computes more at once.
+        /// Of the last block, as many positions as are left are computed, or more up to a multiple of this: no instruction computes more at once.
         const STEP: usize = 64 / size_of::<$scalar>();
-
-        /// How many positions are computed of a block that ends behind so many.
-        #[inline(always)]
-        fn computed(lanes: usize) -> usize {
-            lanes.next_multiple_of(STEP).min(BLOCK)
-        }
 
         /// How many checks have failed. A sum, as such a loop becomes vector instructions whatever is checked; by numbers of the scalar's
         /// size, so that a register counts as many positions as it computes.
@@ -77,17 +71,17 @@ macro_rules! lanes {
             /// The same, of all positions.
             fn given(&self) -> Self::Given;
 
-            /// Computes so many positions from the first one on: whether all checks hold. Otherwise the results mean nothing.
+            /// Computes the block that ends at a position, from this lane on: whether all checks hold. Otherwise the results mean nothing.
             fn solve(
                 &self,
                 given: &mut Self::Given,
-                first: usize,
+                end: usize,
                 columns: &mut Columns<KEPT, RESULTS>,
-                lanes: usize,
+                from: usize,
             ) -> bool;
 
-            /// Takes the first results of the block that begins at a position.
-            fn take(&mut self, first: usize, lanes: usize, results: &[Column; RESULTS]);
+            /// Takes the results of as many positions in front of one.
+            fn take(&mut self, end: usize, lanes: usize, results: &[Column; RESULTS]);
 
             /// Solves a single position.
             fn point(&mut self, index: usize) -> Result<(), crate::Error>;
@@ -131,10 +125,11 @@ macro_rules! lanes {
                 let (mut given, mut columns) = (sweep.given(), Columns::new());
                 for first in (0..count).step_by(BLOCK) {
                     let lanes = BLOCK.min(count - first);
-                    if sweep.solve(&mut given, first, &mut columns, computed(lanes)) {
-                        sweep.take(first, lanes, &columns.results);
+                    let (end, from) = (first + lanes, BLOCK - lanes.next_multiple_of(STEP).min(BLOCK));
+                    if sweep.solve(&mut given, end, &mut columns, from) {
+                        sweep.take(end, lanes, &columns.results);
                     } else {
-                        one_by_one(first..first + lanes, sweep)?;
+                        one_by_one(first..end, sweep)?;
                     }
                 }
                 Ok(())
@@ -155,14 +150,20 @@ macro_rules! lanes {
             Ok(())
         }
 
-        /// A series by blocks, which are read where they lie.
+        /// A series by blocks. One ends at each multiple of their length, and the last one at the end of the series: of that one the last lanes
+        /// are left.
         #[derive(Clone, Copy, Debug)]
-        pub struct Given<'a, T> {
-            /// Whole blocks, and what is behind them.
-            values: &'a [T],
-            /// The block behind those: what remains, and behind the last position its value once more, as what is computed there counts for
-            /// the checks. Of a series that is the same everywhere, any block.
-            rest: [T; BLOCK],
+        pub enum Given<'a, T> {
+            /// One for each position, read where it lies.
+            Each {
+                /// All of them.
+                values: &'a [T],
+                /// The first block.
+                first: &'a [T; BLOCK],
+            },
+            /// The only block there is: the same everywhere; or the values of a few positions, and in front of them the first one once more, as
+            /// what is computed there counts for the checks.
+            Few([T; BLOCK]),
         }
 
         impl<'a, T: Copy + Default> Given<'a, T> {
@@ -171,22 +172,30 @@ macro_rules! lanes {
             #[must_use]
             pub fn new(series: &crate::Series<'a, T>) -> Self {
                 match *series {
-                    crate::Series::Constant(value) => Self { values: &[], rest: [value; BLOCK] },
-                    crate::Series::Each(values) => {
-                        let mut rest = [values.last().copied().unwrap_or_default(); BLOCK];
-                        rest.iter_mut()
-                            .zip(values.chunks_exact(BLOCK).remainder())
-                            .for_each(|(place, value)| *place = *value);
-                        Self { values, rest }
-                    }
+                    crate::Series::Constant(value) => Self::Few([value; BLOCK]),
+                    crate::Series::Each(values) => match values.first_chunk() {
+                        Some(first) => Self::Each { values, first },
+                        None => Self::few(values),
+                    },
                 }
             }
 
-            /// The block that begins at a position.
+            #[cold]
+            #[inline(never)]
+            fn few(values: &[T]) -> Self {
+                let mut block = [values.first().copied().unwrap_or_default(); BLOCK];
+                block.iter_mut().rev().zip(values.iter().rev()).for_each(|(place, value)| *place = *value);
+                Self::Few(block)
+            }
+
+            /// The block that ends at a position.
             #[inline(always)]
             #[must_use]
-            pub fn block(&self, first: usize) -> &[T; BLOCK] {
-                self.values.get(first..).and_then(<[T]>::first_chunk).unwrap_or(&self.rest)
+            pub fn block(&self, end: usize) -> &[T; BLOCK] {
+                match self {
+                    Self::Each { values, first } => values.get(..end).and_then(<[T]>::last_chunk).unwrap_or(first),
+                    Self::Few(block) => block,
+                }
             }
         }
 
@@ -207,15 +216,15 @@ macro_rules! lanes {
                 Self { columns: [[0.0; BLOCK]; PARTS], of: Given::new(series) }
             }
 
-            /// Those of the block that begins at a position. What is the same everywhere stays where it is after the first block.
+            /// Those of the block that ends at a position. The only block there is is copied once.
             #[inline(always)]
-            pub fn block(&mut self, first: usize, parts: impl Fn(&T) -> [$scalar; PARTS]) -> &[Column; PARTS] {
-                let Self { columns, of: Given { values, rest } } = self;
-                // What lies behind the whole blocks lies beside the columns, but what is outside does not: the compiler sees that.
-                match values.get(first..).and_then(<[T]>::first_chunk) {
-                    Some(values) => copy(values, columns, parts),
-                    None if first == 0 || !values.is_empty() => copy(rest, columns, parts),
-                    None => {}
+            pub fn block(&mut self, end: usize, parts: impl Fn(&T) -> [$scalar; PARTS]) -> &[Column; PARTS] {
+                let Self { columns, of } = self;
+                // A block lies beside the columns or elsewhere: the compiler sees that in the one case they do not overlap, and in the other.
+                match of {
+                    Given::Each { .. } => copy(of.block(end), columns, parts),
+                    Given::Few(block) if end <= BLOCK => copy(block, columns, parts),
+                    Given::Few(_) => {}
                 }
                 columns
             }
@@ -240,13 +249,13 @@ macro_rules! lanes {
             }
         }
 
-        /// Copies the results of so many positions to where they go.
+        /// Copies the results of so many positions to where they go, in front of a position.
         #[inline(always)]
-        pub fn put(to: &mut [$scalar], first: usize, lanes: usize, column: &Column) {
-            let to = to.get_mut(first..).unwrap_or_default();
-            if let (BLOCK, Some(to)) = (lanes, to.first_chunk_mut::<BLOCK>()) {
+        pub fn put(to: &mut [$scalar], end: usize, lanes: usize, column: &Column) {
+            let to = to.get_mut(end.saturating_sub(lanes)..end).unwrap_or_default();
+            if let Some(to) = to.first_chunk_mut::<BLOCK>() {
                 *to = *column;
-            } else if let (Some(to), Some(from)) = (to.get_mut(..lanes), column.get(..lanes)) {
+            } else if let Some(from) = column.get(BLOCK - to.len()..) {
                 to.copy_from_slice(from);
             }
         }
@@ -275,10 +284,10 @@ mod tests {
             Given::new(&Series::Each(self.of))
         }
 
-        fn solve(&self, given: &mut Self::Given, first: usize, columns: &mut Columns<0, 1>, lanes: usize) -> bool {
+        fn solve(&self, given: &mut Self::Given, end: usize, columns: &mut Columns<0, 1>, from: usize) -> bool {
             let mut count: Count = 0;
-            let block = columns.block(given.block(first));
-            for lane in 0..lanes {
+            let block = columns.block(given.block(end));
+            for lane in from..BLOCK {
                 let given = block.given[lane];
                 block.results[0][lane] = 1.0 / given;
                 count += failed(given != 0.0);
@@ -286,8 +295,8 @@ mod tests {
             count == 0
         }
 
-        fn take(&mut self, first: usize, lanes: usize, [column]: &[Column; 1]) {
-            put(self.results, first, lanes, column);
+        fn take(&mut self, end: usize, lanes: usize, [column]: &[Column; 1]) {
+            put(self.results, end, lanes, column);
         }
 
         fn point(&mut self, index: usize) -> Result<(), Error> {
@@ -299,9 +308,9 @@ mod tests {
         }
     }
 
-    /// What is computed behind the last position, up to a whole register, is no position: its checks hold if those of the last one do.
+    /// What is computed in front of the first position, up to a whole register, is no position: its checks hold if those of the first one do.
     #[test]
-    fn no_block_is_solved_one_by_one_for_what_is_behind_its_end() {
+    fn no_block_is_solved_one_by_one_for_what_is_in_front_of_it() {
         for count in 0..=COUNT {
             let (of, mut results) = ([2.0; COUNT], [0.0; COUNT]);
             let (of, results) = (&of[..count], &mut results[..count]);
@@ -325,15 +334,15 @@ mod tests {
     }
 
     #[test]
-    fn blocks_are_the_series_and_its_last_value_once_more() {
+    fn blocks_end_at_multiples_of_their_length_and_at_the_end_of_a_series() {
         let values: [f64; COUNT] = core::array::from_fn(|index| f64::from(u8::try_from(index).expect("few")));
         for count in 1..=COUNT {
             let series = Series::Each(&values[..count]);
             let (given, mut both) = (Given::new(&series), Parts::new(&series));
-            for first in (0..count).step_by(BLOCK) {
-                let expected: [f64; BLOCK] = core::array::from_fn(|lane| values[(first + lane).min(count - 1)]);
-                assert_eq!(given.block(first).as_slice(), expected.as_slice());
-                assert_eq!(both.block(first, |value| [-value, *value]), &[expected.map(|value| -value), expected]);
+            for end in (BLOCK..count).step_by(BLOCK).chain([count]) {
+                let expected: [f64; BLOCK] = core::array::from_fn(|lane| values[(end + lane).saturating_sub(BLOCK)]);
+                assert_eq!(given.block(end).as_slice(), expected.as_slice());
+                assert_eq!(both.block(end, |value| [-value, *value]), &[expected.map(|value| -value), expected]);
             }
         }
     }
@@ -342,9 +351,9 @@ mod tests {
     fn blocks_of_what_is_the_same_everywhere() {
         let series = Series::Constant(2.0);
         let (given, mut more) = (Given::new(&series), Parts::new(&series));
-        for first in [0, BLOCK] {
-            assert_eq!(given.block(first).as_slice(), [2.0; BLOCK].as_slice());
-            assert_eq!(more.block(first, |value| [value + 1.0]), &[[3.0; BLOCK]]);
+        for end in [BLOCK, 2 * BLOCK] {
+            assert_eq!(given.block(end).as_slice(), [2.0; BLOCK].as_slice());
+            assert_eq!(more.block(end, |value| [value + 1.0]), &[[3.0; BLOCK]]);
         }
     }
 }

@@ -199,7 +199,7 @@ impl Given {
         let place = Literal::usize_unsuffixed(place);
         let fields = self.numbers.iter().flat_map(|(_, field)| field);
         let parts = (!self.in_place).then(|| quote!(, |value| [#(value.#fields),*]));
-        quote!(given.#place.block(first #parts))
+        quote!(given.#place.block(end #parts))
     }
 
     /// How its numbers are read there.
@@ -241,7 +241,7 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
     let result_columns = fields.iter().map(column);
     let put = fields.iter().map(|field| {
         let column = column(field);
-        quote!(math::put(self.results.#field, first, lanes, #column);)
+        quote!(math::put(self.results.#field, end, lanes, #column);)
     });
     let results_count = Literal::usize_unsuffixed(fields.len());
     let (prepared, closures) = (has_params(linkage), model.given_closures().next().is_some());
@@ -300,12 +300,12 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
             fn solve(
                 &self,
                 given: &mut Self::Given,
-                first: usize,
+                end: usize,
                 columns: &mut math::Columns<#kept_count, #results_count>,
-                lanes: usize,
+                from: usize,
             ) -> bool {
-                let lanes = lanes.min(math::BLOCK);
                 let block = columns.block((#(#given_blocks,)*));
+                let lanes = from..math::BLOCK;
                 #shared
                 #bindings
                 #count
@@ -313,7 +313,7 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
                 #holds
             }
             #[inline(always)]
-            fn take(&mut self, first: usize, lanes: usize, [#(#result_columns),*]: &[math::Column; #results_count]) {
+            fn take(&mut self, end: usize, lanes: usize, [#(#result_columns),*]: &[math::Column; #results_count]) {
                 #(#put)*
             }
             fn point(&mut self, index: usize) -> Result<(), Error> {
@@ -367,7 +367,7 @@ fn loop_over(Stage { reads, statements, conditions, keeps }: Stage, given: &[Tok
     let holds = conditions.into_iter().reduce(|all, one| quote!(#all & #one));
     let counted = holds.map(|all| quote!(failed = failed.wrapping_add(math::failed(#all));));
     quote! {
-        for lane in 0..lanes {
+        for lane in lanes.clone() {
             #(#reads)*
             #statements
             #(#keeps)*
