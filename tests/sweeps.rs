@@ -556,3 +556,94 @@ fn names_that_meet_are_kept_apart() {
         }
     });
 }
+
+/// Some values, or the last one everywhere.
+fn of<T: Copy>(values: &[T], is_same: bool) -> Series<'_, T> {
+    match values {
+        [.., last] if is_same => Series::Constant(*last),
+        values => Series::Each(values),
+    }
+}
+
+/// A crank with a spring of which all is given, a slide along which only one component of its force counts, and a force of which both count: what
+/// is read in place, and what is copied, of few positions and of many.
+macro_rules! given {
+    ($name:ident, $scalar:ident, $test:ident) => {
+        linkage! {
+            mod $name;
+            scalar $scalar;
+            units { mm, N }
+            ground     { O: (0, 0), K: (0, 150mm) }
+            link crank { O -> A: 40mm }
+            link rod   { A -> B: 140mm, C: (45mm, 8mm) }
+            link ram   { B }
+            revolute O: ground -> crank;
+            revolute A: crank -> rod;
+            revolute B: rod -> ram;
+            prismatic S: ground.O -> ram.B along 0deg;
+            drive theta: O;
+            assemble B: ahead(A);
+            load spring: spring(ground.K, rod.C) { rate: _, free: _, preload: _ };
+            load along:  force(ram.B);
+            load across: force(rod.C);
+            load turning: moment(crank);
+            scene held:  equilibrium -> (effort_theta, B);
+            scene push:  virtual_work(along) -> (effort_theta);
+            scene all:   sweep(held);
+            scene pushed: sweep(push);
+        }
+
+        #[test]
+        fn $test() {
+            use $name::*;
+            /// What lies around the results of a sweep.
+            const AROUND: $scalar = 12345.0;
+            const COUNTS: [usize; 14] = [0, 1, 2, 7, 8, 9, 16, 17, 63, 64, 65, 127, 128, 200];
+            let each =
+                |part: fn($scalar) -> $scalar| -> [$scalar; COUNT] { core::array::from_fn(|at| part(at as $scalar)) };
+            let angles = each(|at| 0.03 + 0.031 * at);
+            let vector = |at: $scalar| Vector2::new(7.0 - at, 2.0 * at - 90.0);
+            let vectors = each(|at| at).map(vector);
+            let springs =
+                each(|at| at).map(|at| LoadsSpring { rate: 0.3 + at, free: 60.0 + 0.1 * at, preload: 0.5 * at });
+            let moments = each(|at| 11.0 - at);
+            at_each_width(|| {
+                // Each of four series is one of values, or the same everywhere.
+                for (count, same) in COUNTS.into_iter().flat_map(|count| (0..16).map(move |same| (count, same))) {
+                    let is_same = |series: u8| same >> series & 1 == 1;
+                    let inputs = AllInputs {
+                        theta: Series::Each(&angles[..count]),
+                        spring: of(&springs[..count], is_same(0)),
+                        along: of(&vectors[..count], is_same(1)),
+                        across: of(&vectors[..count], is_same(2)),
+                        turning: of(&moments[..count], is_same(3)),
+                    };
+                    let mut rows: [Vec<$scalar>; 4] = core::array::from_fn(|_| vec![AROUND; count + 2]);
+                    let [torque, x, y, pushed] = rows.each_mut().map(|row| &mut row[1..=count]);
+                    all(&inputs, All { effort_theta: torque, B_x: x, B_y: y }).expect("regular");
+                    let AllInputs { theta, spring, along, across, turning } = inputs;
+                    self::$name::pushed(&PushedInputs { theta, along }, Pushed { effort_theta: pushed })
+                        .expect("regular");
+                    for row in &rows {
+                        assert_eq!([row[0], row[count + 1]], [AROUND; 2]);
+                    }
+                    for at in 0..count {
+                        let loads = Loads {
+                            spring: spring.at(at),
+                            along: along.at(at),
+                            across: across.at(at),
+                            turning: turning.at(at),
+                        };
+                        let held = held_at(theta.at(at), &loads).expect("regular");
+                        let push = push_at(theta.at(at), &loads).expect("regular");
+                        let expected = [held.effort_theta, held.B.x, held.B.y, push.effort_theta];
+                        let found = rows.each_ref().map(|row| row[at + 1].to_bits());
+                        assert_eq!(found, expected.map($scalar::to_bits), "position {at} of {count}, {same:b}");
+                    }
+                }
+            });
+        }
+    };
+}
+given!(clamp, f64, whatever_is_given_has_the_bits_of_the_point_function);
+given!(small_clamp, f32, whatever_is_given_has_the_bits_of_the_point_function_in_single_precision);

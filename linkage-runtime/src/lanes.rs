@@ -12,6 +12,7 @@ macro_rules! lanes {
         pub const BLOCK: usize = 64;
 
         /// Of the last block, as many positions as are left are computed, or more up to a multiple of this: no instruction computes more at once.
+        #[cfg(feature = "std")]
         const STEP: usize = 64 / size_of::<$scalar>();
 
         /// How many checks have failed. A sum, as such a loop becomes vector instructions whatever is checked; by numbers of the scalar's
@@ -45,7 +46,7 @@ macro_rules! lanes {
                 Self { kept: [[0.0; BLOCK]; KEPT], results: [[0.0; BLOCK]; RESULTS] }
             }
 
-            /// The block at which so much is given.
+            /// These columns beside what is given.
             #[inline(always)]
             pub const fn block<G>(&mut self, given: G) -> Block<'_, G, KEPT, RESULTS> {
                 Block { given, kept: &mut self.kept, results: &mut self.results }
@@ -68,10 +69,11 @@ macro_rules! lanes {
             /// What the scene reads: the series, by blocks.
             type Given;
 
-            /// The same, of all positions.
+            /// The same, made once for a sweep.
             fn given(&self) -> Self::Given;
 
-            /// Computes the block that ends at a position, from this lane on: whether all checks hold. Otherwise the results mean nothing.
+            /// Computes the block that ends at a position, from this lane on: whether all checks hold. Otherwise the results mean nothing. Blocks
+            /// follow each other from the first one on.
             fn solve(
                 &self,
                 given: &mut Self::Given,
@@ -80,8 +82,8 @@ macro_rules! lanes {
                 from: usize,
             ) -> bool;
 
-            /// Takes the results of as many positions in front of one.
-            fn take(&mut self, end: usize, lanes: usize, results: &[Column; RESULTS]);
+            /// Writes the results of some positions, those of a block's last lanes.
+            fn take(&mut self, positions: core::ops::Range<usize>, results: &[Column; RESULTS]);
 
             /// Solves a single position.
             fn point(&mut self, index: usize) -> Result<(), crate::Error>;
@@ -125,11 +127,15 @@ macro_rules! lanes {
                 let (mut given, mut columns) = (sweep.given(), Columns::new());
                 for first in (0..count).step_by(BLOCK) {
                     let lanes = BLOCK.min(count - first);
-                    let (end, from) = (first + lanes, BLOCK - lanes.next_multiple_of(STEP).min(BLOCK));
-                    if sweep.solve(&mut given, end, &mut columns, from) {
-                        sweep.take(end, lanes, &columns.results);
+                    let positions = first..first + lanes;
+                    // Of the last block the lanes in front are positions of the block before, which have their results already. The minimum
+                    // changes nothing, but keeps from the compiler that lanes fill whole registers: it would have each turn of a loop
+                    // compute two of them, for which there are too few.
+                    let from = BLOCK - lanes.next_multiple_of(STEP).min(BLOCK);
+                    if sweep.solve(&mut given, positions.end, &mut columns, from) {
+                        sweep.take(positions, &columns.results);
                     } else {
-                        one_by_one(first..end, sweep)?;
+                        one_by_one(positions, sweep)?;
                     }
                 }
                 Ok(())
@@ -150,20 +156,19 @@ macro_rules! lanes {
             Ok(())
         }
 
-        /// A series by blocks. One ends at each multiple of their length, and the last one at the end of the series: of that one the last lanes
-        /// are left.
-        #[derive(Clone, Copy, Debug)]
+        /// A series by blocks, which end at the multiples of their length, and the last one where the series ends: it overlaps the one before.
+        #[derive(Debug)]
         pub enum Given<'a, T> {
             /// One for each position, read where it lies.
             Each {
                 /// All of them.
                 values: &'a [T],
-                /// The first block.
+                /// The first block: there is one, and it stands for those that end behind the series, of which none is asked for.
                 first: &'a [T; BLOCK],
             },
-            /// The only block there is: the same everywhere; or the values of a few positions, and in front of them the first one once more, as
-            /// what is computed there counts for the checks.
-            Few([T; BLOCK]),
+            /// The only block there is, wherever one ends: of what is the same everywhere; or of fewer values than a block has, at its end, and in
+            /// front of them the first one once more, as what is computed there counts for the checks.
+            Only([T; BLOCK]),
         }
 
         impl<'a, T: Copy + Default> Given<'a, T> {
@@ -172,7 +177,7 @@ macro_rules! lanes {
             #[must_use]
             pub fn new(series: &crate::Series<'a, T>) -> Self {
                 match *series {
-                    crate::Series::Constant(value) => Self::Few([value; BLOCK]),
+                    crate::Series::Constant(value) => Self::Only([value; BLOCK]),
                     crate::Series::Each(values) => match values.first_chunk() {
                         Some(first) => Self::Each { values, first },
                         None => Self::few(values),
@@ -185,7 +190,7 @@ macro_rules! lanes {
             fn few(values: &[T]) -> Self {
                 let mut block = [values.first().copied().unwrap_or_default(); BLOCK];
                 block.iter_mut().rev().zip(values.iter().rev()).for_each(|(place, value)| *place = *value);
-                Self::Few(block)
+                Self::Only(block)
             }
 
             /// The block that ends at a position.
@@ -194,14 +199,14 @@ macro_rules! lanes {
             pub fn block(&self, end: usize) -> &[T; BLOCK] {
                 match self {
                     Self::Each { values, first } => values.get(..end).and_then(<[T]>::last_chunk).unwrap_or(first),
-                    Self::Few(block) => block,
+                    Self::Only(block) => block,
                 }
             }
         }
 
         /// The parts of a series by blocks, each copied into a column of its own: of values of which not all is read at once, parts lie too
         /// far from each other for a register.
-        #[derive(Clone, Copy, Debug)]
+        #[derive(Debug)]
         #[repr(align(64))]
         pub struct Parts<'a, T, const PARTS: usize> {
             columns: [Column; PARTS],
@@ -216,15 +221,15 @@ macro_rules! lanes {
                 Self { columns: [[0.0; BLOCK]; PARTS], of: Given::new(series) }
             }
 
-            /// Those of the block that ends at a position. The only block there is is copied once.
+            /// Those of the block that ends at a position. The only block there is, is copied once, with the first one that is asked for.
             #[inline(always)]
             pub fn block(&mut self, end: usize, parts: impl Fn(&T) -> [$scalar; PARTS]) -> &[Column; PARTS] {
                 let Self { columns, of } = self;
-                // A block lies beside the columns or elsewhere: the compiler sees that in the one case they do not overlap, and in the other.
+                // Two calls: only so the compiler sees, in either case, that what is read and the columns do not overlap.
                 match of {
                     Given::Each { .. } => copy(of.block(end), columns, parts),
-                    Given::Few(block) if end <= BLOCK => copy(block, columns, parts),
-                    Given::Few(_) => {}
+                    Given::Only(block) if end <= BLOCK => copy(block, columns, parts),
+                    Given::Only(_) => {}
                 }
                 columns
             }
@@ -249,10 +254,10 @@ macro_rules! lanes {
             }
         }
 
-        /// Copies the results of so many positions to where they go, in front of a position.
+        /// Writes the results of some positions, those of a block's last lanes.
         #[inline(always)]
-        pub fn put(to: &mut [$scalar], end: usize, lanes: usize, column: &Column) {
-            let to = to.get_mut(end.saturating_sub(lanes)..end).unwrap_or_default();
+        pub fn put(to: &mut [$scalar], positions: core::ops::Range<usize>, column: &Column) {
+            let to = to.get_mut(positions).unwrap_or_default();
             if let Some(to) = to.first_chunk_mut::<BLOCK>() {
                 *to = *column;
             } else if let Some(from) = column.get(BLOCK - to.len()..) {
@@ -265,6 +270,8 @@ pub(crate) use lanes;
 
 #[cfg(all(test, feature = "std"))]
 mod tests {
+    use core::ops::Range;
+
     use crate::__private::f64::{BLOCK, Column, Columns, Count, Given, Lanes, Parts, failed, put, sweep};
     use crate::{Error, Series};
 
@@ -295,8 +302,8 @@ mod tests {
             count == 0
         }
 
-        fn take(&mut self, end: usize, lanes: usize, [column]: &[Column; 1]) {
-            put(self.results, end, lanes, column);
+        fn take(&mut self, positions: Range<usize>, [column]: &[Column; 1]) {
+            put(self.results, positions, column);
         }
 
         fn point(&mut self, index: usize) -> Result<(), Error> {
@@ -308,7 +315,7 @@ mod tests {
         }
     }
 
-    /// What is computed in front of the first position, up to a whole register, is no position: its checks hold if those of the first one do.
+    /// To fill a register, the first position is computed once more in front of it, or what the block before has there: their checks hold.
     #[test]
     fn no_block_is_solved_one_by_one_for_what_is_in_front_of_it() {
         for count in 0..=COUNT {

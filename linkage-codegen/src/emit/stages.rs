@@ -35,7 +35,7 @@ struct Task<'a> {
     reduces_an_angle: bool,
     /// Whether what reads it waits for as long as dozens of other operations take: for a root, a quotient, or the rest of an angle.
     is_long: bool,
-    /// Whether it is a quotient, and no more than that.
+    /// Whether it takes long for a quotient alone, without a root or an angle.
     is_quotient: bool,
     /// How many tasks that are long are in front of it, one behind the other.
     level: usize,

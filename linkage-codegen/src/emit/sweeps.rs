@@ -150,13 +150,13 @@ struct Given {
     series: Ident,
     /// What its values are.
     ty: TokenStream,
-    /// Each number that is read, with the field that it is of a value which has such.
+    /// Each number that is read, and, of a vector or a spring, which field it is.
     numbers: Vec<(Ident, Option<Ident>)>,
     /// Whether values are read where they lie. Otherwise their fields are copied into columns.
     in_place: bool,
 }
 
-/// Everything that is read, in columns.
+/// Every series of which something is read. Whether it is read in place is seen when stages are known.
 fn given(linkage: &Linkage, program: &Program) -> Vec<Given> {
     let model = &linkage.model;
     let scalar = scalar(model);
@@ -241,7 +241,7 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
     let result_columns = fields.iter().map(column);
     let put = fields.iter().map(|field| {
         let column = column(field);
-        quote!(math::put(self.results.#field, end, lanes, #column);)
+        quote!(math::put(self.results.#field, positions.clone(), #column);)
     });
     let results_count = Literal::usize_unsuffixed(fields.len());
     let (prepared, closures) = (has_params(linkage), model.given_closures().next().is_some());
@@ -313,7 +313,7 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
                 #holds
             }
             #[inline(always)]
-            fn take(&mut self, end: usize, lanes: usize, [#(#result_columns),*]: &[math::Column; #results_count]) {
+            fn take(&mut self, positions: ::core::ops::Range<usize>, [#(#result_columns),*]: &[math::Column; #results_count]) {
                 #(#put)*
             }
             fn point(&mut self, index: usize) -> Result<(), Error> {
