@@ -494,7 +494,6 @@ fn total(base: &str, ty: &Ident, output: &Output) -> TokenStream {
             /// # Errors
             ///
             /// [`Error::NotFinite`]: a sum is too large for a number.
-            #[inline]
             pub fn total(&self) -> Result<#contribution, Error> {
                 let total = #contribution { #(#members),* };
                 if !math::all_finite([#(#numbers),*]) {
