@@ -150,10 +150,7 @@ macro_rules! lanes {
             positions: core::ops::Range<usize>,
             sweep: &mut impl Lanes<KEPT, RESULTS>,
         ) -> Result<(), crate::SweepError> {
-            for index in positions {
-                sweep.point(index).map_err(|error| crate::SweepError::Position { index, error })?;
-            }
-            Ok(())
+            crate::sweep::one_by_one(positions, |index| sweep.point(index))
         }
 
         /// A series by blocks, which end at the multiples of their length, and the last one where the series ends: it overlaps the one before.

@@ -1,6 +1,7 @@
 //! Sweeps over many positions: what is given at each of them, and what may go wrong.
 
 use core::fmt;
+use core::ops::Range;
 
 use crate::Error;
 
@@ -146,13 +147,22 @@ pub fn store<T>(results: &mut [T], index: usize, value: T) {
     }
 }
 
+/// Solves so many positions, up to the first without an answer.
+#[inline]
+pub fn sweep(count: usize, position: impl FnMut(usize) -> Result<(), Error>) -> Result<(), SweepError> {
+    one_by_one(0..count, position)
+}
+
 /// Solves one position after the other, up to the first without an answer.
 ///
 /// By counting: a range as an iterator, or an addition that is checked, keeps a way to panic in unoptimised builds.
 #[inline]
-pub fn sweep(count: usize, mut position: impl FnMut(usize) -> Result<(), Error>) -> Result<(), SweepError> {
-    let mut index: usize = 0;
-    while index < count {
+pub(crate) fn one_by_one(
+    positions: Range<usize>,
+    mut position: impl FnMut(usize) -> Result<(), Error>,
+) -> Result<(), SweepError> {
+    let mut index = positions.start;
+    while index < positions.end {
         if let Err(error) = position(index) {
             return Err(SweepError::Position { index, error });
         }

@@ -487,6 +487,7 @@ fn total(base: &str, ty: &Ident, output: &Output) -> TokenStream {
             quote!(total.#name #(.#parts)*)
         })
     });
+    // A call: inlined into a function that has much else, the shuffles of its sums and of their check keep LLVM busy for minutes.
     quote! {
         impl #ty {
             /// The sum of all parts.

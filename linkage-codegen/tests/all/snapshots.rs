@@ -95,8 +95,7 @@ fn every_stage_of_every_example() {
 }
 
 /// Each function of a single pose is marked `#[inline]`, so that a caller in another crate has its results in registers. What is prepared once,
-/// and a sweep, whose callers have nothing to gain, are calls; so is the sum of all parts: in a function that has much else, the shuffles of its
-/// sums and of their check keep the compiler busy for minutes.
+/// and a sweep, whose callers have nothing to gain, are calls; so is the sum of all parts, for the compiler's sake.
 #[test]
 fn functions_of_a_pose_can_be_inlined() {
     let examples = every_example().into_iter().map(|example| without_source(declaration(&example)));
