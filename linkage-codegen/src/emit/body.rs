@@ -136,7 +136,7 @@ impl<'a> Body<'a> {
                 args.iter().for_each(|arg| uses[arg.index()] -= 1);
             }
         }
-        let readers = body.readers();
+        let (readers, coefficients) = (body.readers(), body.coefficients());
         for step in &program.steps {
             let Step::Let(value) = step else { continue };
             let own = program.value(*value).label.is_some()
@@ -144,7 +144,7 @@ impl<'a> Body<'a> {
                 || matches!(program.op(*value), Some(Op::Kernel { kernel, .. }) if *kernel != Kernel::MulAdd)
                 || program.outputs.iter().any(|(_, output)| output == value);
             if own {
-                let name = new_name(&mut used, &body.wanted_name(*value, &readers));
+                let name = new_name(&mut used, &body.wanted_name(*value, &readers, &coefficients));
                 body.names.insert(*value, ident(&name));
             }
         }

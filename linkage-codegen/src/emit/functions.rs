@@ -10,7 +10,7 @@ use super::literals::ident;
 use super::types::{drive_doc, has_params, linkage_type, motion_type, output_type, record_name, scalar};
 use super::{docs, prepared_names};
 use crate::Linkage;
-use crate::graph::Symbol;
+use crate::graph::{NodeId, Symbol};
 use crate::model::ids::{DriveId, LoadId};
 use crate::model::{LoadKind, Method, Model, SWEPT, type_name};
 use crate::plan::{Comparison, Output};
@@ -23,41 +23,49 @@ pub(super) fn taken() -> Vec<&'static str> {
     own.into_iter().chain(SWEPT).collect()
 }
 
-/// The name of an input.
-pub(super) fn input_name(linkage: &Linkage, input: Input) -> String {
-    let model = &linkage.model;
-    match input {
-        Input::Symbol(Symbol::Drive(drive)) => model.drive(drive).name.text.clone(),
-        Input::Symbol(Symbol::Parameter(param)) => model.param(param).name.text.clone(),
-        Input::Symbol(Symbol::Side(closure)) => format!("side_{}", model.joint(model.closure(closure).joint).name),
-        Input::Symbol(Symbol::Load(load, part)) => {
-            let load = model.load(load);
-            load.value_name(load.kind.value_name(part))
-        }
-        Input::Symbol(Symbol::Driven(drive, order)) => model.drive(drive).motion_name(order),
-        // A number of an unknown, at the pose from which its search starts.
-        Input::Symbol(Symbol::Start(search, number)) => {
-            format!("{}_before", super::search::kept_name(model, &model.graph.search(search), number))
-        }
-        // Only in the functions of searches, and nowhere.
-        Input::Symbol(Symbol::Sought(..) | Symbol::Coordinate(..) | Symbol::Moving(..) | Symbol::Dimension(_))
-        | Input::Known(_) => String::new(),
-        Input::Kept(node) => {
-            let kept = linkage.plan.pose.iter().find(|kept| kept.node == node);
-            kept.map_or_else(String::new, |kept| kept.name.clone())
-        }
-        Input::Prepared(node) => {
-            let index = linkage.functions.prepared.iter().position(|prepared| *prepared == node);
-            index
-                .and_then(|index| prepared_names(linkage).into_iter().nth(index))
-                .map_or_else(String::new, |(name, _)| name)
+/// The names of inputs.
+pub(super) struct InputNames<'a> {
+    linkage: &'a Linkage,
+    prepared: BTreeMap<NodeId, String>,
+}
+
+impl<'a> InputNames<'a> {
+    pub(super) fn of(linkage: &'a Linkage) -> Self {
+        Self { linkage, prepared: prepared_names(linkage) }
+    }
+
+    /// That of one.
+    pub(super) fn name(&self, input: Input) -> String {
+        let model = &self.linkage.model;
+        match input {
+            Input::Symbol(Symbol::Drive(drive)) => model.drive(drive).name.text.clone(),
+            Input::Symbol(Symbol::Parameter(param)) => model.param(param).name.text.clone(),
+            Input::Symbol(Symbol::Side(closure)) => format!("side_{}", model.joint(model.closure(closure).joint).name),
+            Input::Symbol(Symbol::Load(load, part)) => {
+                let load = model.load(load);
+                load.value_name(load.kind.value_name(part))
+            }
+            Input::Symbol(Symbol::Driven(drive, order)) => model.drive(drive).motion_name(order),
+            // A number of an unknown, at the pose from which its search starts.
+            Input::Symbol(Symbol::Start(search, number)) => {
+                format!("{}_before", super::search::kept_name(model, &model.graph.search(search), number))
+            }
+            // Only in the functions of searches, and nowhere.
+            Input::Symbol(Symbol::Sought(..) | Symbol::Coordinate(..) | Symbol::Moving(..) | Symbol::Dimension(_))
+            | Input::Known(_) => String::new(),
+            Input::Kept(node) => {
+                let kept = self.linkage.plan.pose.iter().find(|kept| kept.node == node);
+                kept.map_or_else(String::new, |kept| kept.name.clone())
+            }
+            Input::Prepared(node) => self.prepared.get(&node).cloned().unwrap_or_default(),
         }
     }
 }
 
 /// The body of a function.
 pub(super) fn body<'a>(linkage: &'a Linkage, program: &'a Program) -> Body<'a> {
-    Body::new(program, &linkage.model.graph, &|input| input_name(linkage, input), &taken())
+    let names = InputNames::of(linkage);
+    Body::new(program, &linkage.model.graph, &|input| names.name(input), &taken())
 }
 
 /// Where a function has the coordinates of the drives from.
@@ -83,8 +91,9 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
     let mut motion = Vec::new();
     let mut statements = TokenStream::new();
     let mut loads: BTreeMap<LoadId, Vec<u8>> = BTreeMap::new();
+    let names = InputNames::of(linkage);
     for (_, input) in program.inputs() {
-        let name = ident(&input_name(linkage, input));
+        let name = ident(&names.name(input));
         match input {
             Input::Prepared(_) => prepared.push(name),
             Input::Kept(_) => kept.push(quote!(#name)),
@@ -125,7 +134,7 @@ fn bindings(linkage: &Linkage, program: &Program, drives: Drives) -> TokenStream
     for (load, read) in loads {
         let data = linkage.model.load(load);
         let name = ident(&data.name.text);
-        let local = |part: u8| ident(&input_name(linkage, Input::Symbol(Symbol::Load(load, part))));
+        let local = |part: u8| ident(&names.name(Input::Symbol(Symbol::Load(load, part))));
         statements.extend(match data.kind {
             LoadKind::Moment { .. } | LoadKind::Thrust { .. } => quote!(let #name = loads.#name;),
             LoadKind::Force { .. } | LoadKind::Gravity { .. } => {
@@ -277,8 +286,9 @@ fn linkage_argument(linkage: &Linkage, lifetime: &TokenStream) -> TokenStream {
 /// The program of `Linkage::new`, with the names of what it prepares.
 pub(super) fn prepare_program(linkage: &Linkage) -> Program {
     let mut program = linkage.functions.prepare.clone();
-    for ((path, _), (name, _)) in program.outputs.iter_mut().zip(prepared_names(linkage)) {
-        *path = name;
+    let names = prepared_names(linkage);
+    for ((path, _), node) in program.outputs.iter_mut().zip(&linkage.functions.prepared) {
+        path.clone_from(&names[node]);
     }
     program
 }

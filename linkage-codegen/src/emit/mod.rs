@@ -4,6 +4,7 @@ mod body;
 mod docs;
 mod equations;
 mod fallback;
+mod forms;
 mod formula;
 mod functions;
 mod inverses;
@@ -14,7 +15,7 @@ mod stages;
 mod sweeps;
 mod types;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -24,7 +25,8 @@ use crate::graph::{NodeId, Op, Symbol};
 use crate::model::{Method, Model, OWN_PATTERNS};
 pub use equations::text as equations;
 pub use fallback::module as fallback;
-use formula::{Formula, Nodes};
+use forms::Forms;
+use formula::Terms;
 use literals::ident;
 pub use types::given_motion;
 
@@ -166,24 +168,44 @@ pub fn operations(linkage: &Linkage) -> String {
     text
 }
 
-/// Name and formula of everything that is prepared from the parameters.
-fn prepared_names(linkage: &Linkage) -> Vec<(String, String)> {
-    let model = &linkage.model;
+/// The names of everything that is prepared from the parameters: those of quantities and parameters, of others what they are made of.
+fn prepared_names(linkage: &Linkage) -> BTreeMap<NodeId, String> {
     let mut used: BTreeSet<String> = functions::taken().into_iter().chain(OWN_PATTERNS).map(str::to_owned).collect();
-    let named = linkage.functions.prepared.iter().map(|node| {
-        let formula = Formula { model, terms: Nodes(&model.graph) }.of(*node);
-        let own = name_of(model, *node).unwrap_or_else(|| "prepared".to_owned());
-        (body::new_name(&mut used, &own), formula)
-    });
-    named.collect()
+    let mut named = Prepared { model: &linkage.model, names: BTreeMap::new() };
+    for node in &linkage.functions.prepared {
+        let form = || Forms { graph: &linkage.model.graph, terms: &named }.name(*node);
+        let own = name_of(&linkage.model, *node).or_else(form).filter(|name| !name.contains("prepared"));
+        let own = own.unwrap_or_else(|| "prepared".to_owned());
+        let name = body::new_name(&mut used, &own);
+        named.names.insert(*node, name);
+    }
+    named.names
+}
+
+/// What is prepared, down to the next names.
+struct Prepared<'a> {
+    model: &'a Model,
+    names: BTreeMap<NodeId, String>,
+}
+
+impl Terms<NodeId> for Prepared<'_> {
+    fn op(&self, node: NodeId) -> Op {
+        self.model.graph.op(self.model.graph.bare(node))
+    }
+
+    fn name(&self, node: NodeId) -> Option<String> {
+        self.names.get(&node).cloned().or_else(|| name_of(self.model, node))
+    }
 }
 
 /// The name of a quantity, of a parameter, or of what is a multiple of one.
 fn name_of(model: &Model, node: NodeId) -> Option<String> {
     let graph = &model.graph;
+    if let Op::Symbol(Symbol::Parameter(param)) = graph.op(graph.bare(node)) {
+        return Some(model.param(param).name.text.clone());
+    }
     match (graph.label(node), graph.op(node)) {
         (Some(label), _) => Some(label.name),
-        (None, Op::Symbol(Symbol::Parameter(param))) => Some(model.param(param).name.text.clone()),
         (None, Op::Checked { value, .. }) => name_of(model, value),
         (None, Op::Mul(a, b)) if graph.expr(a).value().is_some() => Some(format!("{}_scaled", name_of(model, b)?)),
         _ => None,

@@ -7,7 +7,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::body::with_notes;
-use super::functions::{body, input_name, lane_bindings, outputs};
+use super::functions::{InputNames, body, lane_bindings, outputs};
 use super::literals::ident;
 use super::stages::{self, Column, Stage, Work};
 use super::types::{drive_doc, given_motion, has_params, load_doc, motion_doc, motion_type, run_time_loads, scalar};
@@ -161,8 +161,9 @@ fn given(linkage: &Linkage, program: &Program) -> Vec<Given> {
     let model = &linkage.model;
     let scalar = scalar(model);
     let mut all: Vec<Given> = Vec::new();
+    let names = InputNames::of(linkage);
     for (_, input) in program.inputs() {
-        let name = ident(&input_name(linkage, input));
+        let name = ident(&names.name(input));
         let (series, ty, field) = match input {
             Input::Symbol(Symbol::Drive(_) | Symbol::Driven(..)) => (name.clone(), quote!(#scalar), ""),
             Input::Symbol(Symbol::Load(load, part)) => {

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
+use super::formula::{Formula, Nodes};
 use super::literals::{ident, signed_literal};
 use crate::Linkage;
 use crate::graph::Order;
@@ -258,10 +259,11 @@ pub(super) fn params(linkage: &Linkage, new: &TokenStream) -> TokenStream {
 
 /// What is computed of the parameters alone.
 pub(super) fn prepared_fields(linkage: &Linkage) -> Vec<TokenStream> {
-    let scalar = scalar(&linkage.model);
-    let fields = super::prepared_names(linkage).into_iter().map(|(name, doc)| {
-        let name = ident(&name);
-        let doc = format!(" {doc}");
+    let model = &linkage.model;
+    let (scalar, names) = (scalar(model), super::prepared_names(linkage));
+    let formula = Formula { model, terms: Nodes(&model.graph) };
+    let fields = linkage.functions.prepared.iter().map(|node| {
+        let (name, doc) = (ident(&names[node]), format!(" {}", formula.of(*node)));
         quote!(#[doc = #doc] #name: #scalar)
     });
     fields.collect()

@@ -1,23 +1,32 @@
 //! Names of values: those that rules have given; of others what they are, or what they are part of.
 
+use std::collections::BTreeMap;
+
 use super::Body;
+use crate::emit::forms::{Forms, scaled};
+use crate::emit::formula::Values;
 use crate::graph::{Failure, Kernel, Op};
 use crate::program::{Step, ValueId};
 
 impl Body<'_> {
     /// The label of a value; of an unlabelled one, what it is, or what it is part of.
-    pub(super) fn wanted_name(&self, value: ValueId, readers: &[Option<Reader>]) -> String {
-        if let Some(name) = self.given_name(value) {
+    pub(super) fn wanted_name(
+        &self,
+        value: ValueId,
+        readers: &[Option<Reader>],
+        coefficients: &BTreeMap<ValueId, String>,
+    ) -> String {
+        if let Some(name) = self.given_name(value).or_else(|| self.name_by_operation(value)) {
             return name;
         }
-        if let Some(name) = self.name_by_operation(value) {
-            return name;
+        if let (None, Some(name)) = (self.scaled_name(value), coefficients.get(&value)) {
+            return name.clone();
         }
         match &readers[value.index()] {
             Some(Reader::One(name)) => format!("{name}_part"),
             Some(Reader::Several(common)) => match (self.scaled_name(value), common.as_str()) {
                 (Some(name), _) => name,
-                (None, "") => "shared".to_owned(),
+                (None, "") => self.name_by_form(value),
                 (None, common) => format!("{common}_part"),
             },
             None => "part".to_owned(),
@@ -59,11 +68,48 @@ impl Body<'_> {
         match self.program.op(value)? {
             Op::Neg(of) => self.names.get(of).map(|of| format!("minus_{of}")),
             Op::Mul(factor, of) | Op::Mul(of, factor) if is_constant(factor) => {
-                // Of what is a multiple itself it is another one, and gets a number.
-                self.names.get(of).map(|of| format!("{}_scaled", of.to_string().trim_end_matches("_scaled")))
+                self.names.get(of).map(|of| scaled(&of.to_string()))
             }
             _ => None,
         }
+    }
+
+    /// The name of what is read by values that have nothing in common: what it is made of, if that is little.
+    fn name_by_form(&self, value: ValueId) -> String {
+        let names = |value| self.names.get(&value).map(ToString::to_string);
+        let terms = Values { program: self.program, names: &names, of: value };
+        let name = Forms { graph: self.graph, terms: &terms }.name(value);
+        name.filter(|name| !name.contains("shared")).unwrap_or_else(|| "shared".to_owned())
+    }
+
+    /// The names of the coefficients of linear equations: each by its equation and what it is multiplied by.
+    pub(super) fn coefficients(&self) -> BTreeMap<ValueId, String> {
+        let mut names: BTreeMap<ValueId, String> = BTreeMap::new();
+        let mut columns: BTreeMap<&[ValueId], BTreeMap<usize, Option<Reader>>> = BTreeMap::new();
+        for value in self.program.computed() {
+            let Some(Op::Kernel { kernel, args, part }) = self.program.op(value) else { continue };
+            let unknowns = match kernel {
+                Kernel::Solve2 | Kernel::Solve3 => usize::from(kernel.parts()),
+                Kernel::Solve(unknowns) => usize::from(*unknowns),
+                _ => continue,
+            };
+            // Equations with other right sides have the same coefficients.
+            let column =
+                columns.entry(&args[..unknowns * unknowns]).or_default().entry(usize::from(*part)).or_default();
+            Reader::join(column, self.given_name(value).map(Reader::One).as_ref());
+        }
+        for (coefficients, columns) in columns {
+            let unknowns = coefficients.len().isqrt();
+            for (index, coefficient) in coefficients.iter().enumerate() {
+                let (row, column) = (index / unknowns + 1, index % unknowns);
+                let unknown = match columns.get(&column) {
+                    Some(Some(Reader::One(name) | Reader::Several(name))) if !name.is_empty() => name.clone(),
+                    _ => format!("unknown_{}", column + 1),
+                };
+                names.entry(*coefficient).or_insert_with(|| format!("equation_{row}_by_{unknown}"));
+            }
+        }
+        names
     }
 
     /// What reads each value: the named values that are computed from it, by way of unnamed ones; or what it is compared with.

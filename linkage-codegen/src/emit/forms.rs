@@ -1,0 +1,164 @@
+//! Names of values that no rule has named, by what they are made of: `push_times_cos`, `left_cross_upper`, `reach_squared`.
+
+use super::formula::Terms;
+use crate::graph::number::Number;
+use crate::graph::{Graph, Kernel, Op};
+
+/// Letters of the longest such name: a longer one says no more than the statement itself.
+const LENGTH: usize = 40;
+
+/// Names terms by their form.
+pub(super) struct Forms<'a, S> {
+    pub(super) graph: &'a Graph,
+    pub(super) terms: &'a S,
+}
+
+impl<S> Forms<'_, S> {
+    /// The name of what an operation makes of terms that have names.
+    pub(super) fn name<T: Copy + PartialEq>(&self, term: T) -> Option<String>
+    where
+        S: Terms<T>,
+    {
+        self.made_of(term).filter(|name| name.len() <= LENGTH)
+    }
+
+    fn made_of<T: Copy + PartialEq>(&self, term: T) -> Option<String>
+    where
+        S: Terms<T>,
+    {
+        let known = |term: T| self.terms.name(term);
+        let known_or_made = |term: T| known(term).or_else(|| self.made_of(term));
+        let of_both = |a: T, word: &str, b: T| Some(format!("{}_{word}_{}", known(a)?, known(b)?));
+        let is_constant = |term: T| self.constant(term).is_some();
+        match self.terms.op(term) {
+            Op::Neg(a) => Some(format!("minus_{}", known_or_made(a)?)),
+            Op::Abs(a) => Some(format!("abs_{}", known_or_made(a)?)),
+            Op::Mul(a, b) if is_constant(a) => Some(scaled(&known_or_made(b)?)),
+            Op::Mul(a, b) if is_constant(b) => Some(scaled(&known_or_made(a)?)),
+            Op::Mul(a, b) if a == b => Some(format!("{}_squared", known_or_made(a)?)),
+            Op::Mul(a, b) => Some(product(&known(a)?, &known(b)?)),
+            Op::Div(a, b) => match self.constant(a) {
+                Some(one) if one.is_one() => Some(format!("inverse_{}", known(b)?)),
+                Some(_) => Some(scaled(&format!("inverse_{}", known(b)?))),
+                None => of_both(a, "over", b),
+            },
+            Op::Add(a, b) | Op::Sub(a, b) if is_constant(b) => Some(format!("{}_shifted", known(a)?)),
+            Op::Add(a, b) if is_constant(a) => Some(format!("{}_shifted", known(b)?)),
+            Op::Sub(a, b) if is_constant(a) => Some(format!("minus_{}_shifted", known(b)?)),
+            Op::Add(a, b) => of_both(a, "plus", b).or_else(|| self.product_of_vectors(term)),
+            Op::Sub(a, b) => of_both(a, "minus", b).or_else(|| self.product_of_vectors(term)),
+            Op::Kernel { kernel: Kernel::MulAdd, .. } => self.product_of_vectors(term),
+            _ => None,
+        }
+    }
+
+    fn constant<T: Copy>(&self, term: T) -> Option<Number>
+    where
+        S: Terms<T>,
+    {
+        match (self.terms.name(term), self.terms.op(term)) {
+            (None, Op::Constant(number)) => Some(self.graph.number(number)),
+            _ => None,
+        }
+    }
+
+    /// `a_x b_y − a_y b_x` is `a_cross_b`, and `a_x b_x + a_y b_y` is `a_dot_b`.
+    fn product_of_vectors<T: Copy>(&self, term: T) -> Option<String>
+    where
+        S: Terms<T>,
+    {
+        let mut products = Vec::new();
+        self.add_products(term, false, &mut products)?;
+        let [one, other] = products.as_slice() else { return None };
+        let (plus, minus) = if one.is_negative { (other, one) } else { (one, other) };
+        let factors = |product: &Product| {
+            let [a, b] = &product.factors;
+            Some([component(a)?, component(b)?].map(|(vector, part)| (vector.to_owned(), part)))
+        };
+        let ([(a, a_part), (b, b_part)], mut second) = (factors(plus)?, factors(minus)?);
+        if second[0].0 != a {
+            second.reverse();
+        }
+        let [(c, c_part), (d, d_part)] = second;
+        if (&a, &b) != (&c, &d) || a_part == c_part || b_part == d_part || plus.is_negative {
+            return None;
+        }
+        match (a_part == b_part, minus.is_negative) {
+            (true, false) => Some(format!("{a}_dot_{b}")),
+            (false, true) if a_part == Component::X => Some(format!("{a}_cross_{b}")),
+            (false, true) => Some(format!("{b}_cross_{a}")),
+            _ => None,
+        }
+    }
+
+    /// The products that a term is the sum of; none if it is made otherwise.
+    fn add_products<T: Copy>(&self, term: T, is_negative: bool, products: &mut Vec<Product>) -> Option<()>
+    where
+        S: Terms<T>,
+    {
+        match self.terms.op(term) {
+            _ if self.terms.name(term).is_some() && !products.is_empty() => None,
+            Op::Neg(a) => self.add_products(a, !is_negative, products),
+            Op::Add(a, b) => {
+                self.add_products(a, is_negative, products)?;
+                self.add_products(b, is_negative, products)
+            }
+            Op::Sub(a, b) => {
+                self.add_products(a, is_negative, products)?;
+                self.add_products(b, !is_negative, products)
+            }
+            Op::Mul(a, b) => {
+                products.push(Product { is_negative, factors: [self.terms.name(a)?, self.terms.name(b)?] });
+                Some(())
+            }
+            Op::Kernel { kernel: Kernel::MulAdd, args, .. } => {
+                let (less, a) = match (self.terms.name(args[0]), self.terms.op(args[0])) {
+                    (None, Op::Neg(a)) => (true, a),
+                    _ => (false, args[0]),
+                };
+                let factors = [self.terms.name(a)?, self.terms.name(args[1])?];
+                products.push(Product { is_negative: is_negative != less, factors });
+                self.add_products(args[2], is_negative, products)
+            }
+            _ => None,
+        }
+    }
+}
+
+/// A product as a term of a sum.
+struct Product {
+    is_negative: bool,
+    factors: [String; 2],
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Component {
+    X,
+    Y,
+}
+
+/// The vector or direction that a name is a component of, and which one.
+fn component(name: &str) -> Option<(&str, Component)> {
+    let endings = [("_cos", Component::X), ("_x", Component::X), ("_sin", Component::Y), ("_y", Component::Y)];
+    endings.into_iter().find_map(|(ending, part)| Some((name.strip_suffix(ending)?, part)))
+}
+
+/// The name of a multiple.
+pub(super) fn scaled(name: &str) -> String {
+    // Of what is a multiple itself it is another one, and gets a number.
+    format!("{}_scaled", name.trim_end_matches("_scaled"))
+}
+
+/// The name of a product. Of a number times a component of its own direction the component alone is said.
+fn product(a: &str, b: &str) -> String {
+    let [a, b] = if is_of_direction(a) && !is_of_direction(b) { [b, a] } else { [a, b] };
+    match b.rsplit_once('_') {
+        Some((direction, part)) if is_of_direction(b) && a.contains(direction) => format!("{a}_times_{part}"),
+        _ => format!("{a}_times_{b}"),
+    }
+}
+
+/// Whether a name is that of a cosine or a sine.
+fn is_of_direction(name: &str) -> bool {
+    name.ends_with("_cos") || name.ends_with("_sin")
+}
