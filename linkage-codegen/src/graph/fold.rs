@@ -165,7 +165,7 @@ impl Graph {
         if a.is_zero() {
             return a;
         }
-        if a == b {
+        if self.bare(a.id()) == self.bare(b.id()) {
             return self.one();
         }
         if let Some(divisor) = b.value() {
