@@ -16,7 +16,7 @@ use linkage_codegen::plan::rules::RULES;
 use linkage_codegen::program::Definition;
 
 /// A linkage for each class of groups, with the class named, drives at which it closes, and how the rule is used.
-const CASES: [(&str, &[&[f64]], &str); 81] = [
+const CASES: [(&str, &[&[f64]], &str); 86] = [
     // Motion and forces of a crank, its arrow either way, with an inclined dyad.
     (
         "link on a pin",
@@ -56,6 +56,45 @@ const CASES: [(&str, &[&[f64]], &str); 81] = [
          link c { Q: (0, 1m), B: (2m, 0), P: (1m, 1m) }
          revolute O: ground -> crank; revolute A: b -> crank; revolute B: c -> b; revolute Q: ground -> c; drive q: O;
          assemble B: left(A -> Q); load F: force(b.P) = (3N, -2N); load H: force(c.P) in b = (1N, 4N);",
+    ),
+    // Parallelograms that move through their folds, and a crossed one; on an inclined line, from either outer pin, of four equal sides, and
+    // with the dyad between links that both move.
+    (
+        "RRR dyad",
+        &[&[0.4], &[2.0], &[-2.0]],
+        "ground { O: (0, 0), Q: (1.2m, 0.5m) } link crank { O: (0.1m, 0.2m), A: (0.4m, 0.6m) }
+         link b { A: (0.1m, 0.2m), B: (1.3m, 0.7m), P: (1m, -1m) } link c { Q: (0, 1m), B: (0.3m, 1.4m), P: (1m, 1m) }
+         revolute O: ground -> crank; revolute A: b -> crank; revolute B: c -> b; revolute Q: ground -> c; drive q: O;
+         assemble B: left(A -> Q) smooth at 40deg; load F: force(b.P) = (3N, -2N); load H: force(c.P) in b = (1N, 4N);",
+    ),
+    (
+        "RRR dyad",
+        &[&[0.4], &[2.0], &[-2.0]],
+        "ground { O: (0, 0), Q: (1.2m, 0.5m) } link crank { O -> A: 0.5m } link b { A -> B: 1.3m, P: (1m, -1m) } link c { Q -> B: 0.5m }
+         revolute O: ground -> crank; revolute A: crank -> b; revolute B: b -> c; revolute Q: ground -> c; drive q: O;
+         assemble B: right(A -> Q) smooth at 40deg; load F: force(b.P) = (3N, -2N); load M: moment(c) = 2N*m;",
+    ),
+    (
+        "RRR dyad",
+        &[&[0.4], &[2.0], &[-2.0]],
+        "ground { O: (0, 0), Q: (1.2m, 0.5m) } link crank { O -> A: 0.5m } link b { B -> A: 1.3m, P: (1m, -1m) } link c { B -> Q: 0.5m }
+         revolute O: crank -> ground; revolute A: crank -> b; revolute B: b -> c; revolute Q: ground -> c; drive q: O;
+         assemble B: right(Q -> A) smooth at -40deg; load F: force(b.P) = (3N, -2N); load M: moment(c) = 2N*m;",
+    ),
+    (
+        "RRR dyad",
+        &[&[0.4], &[2.0], &[-2.0]],
+        "ground { O: (0, 0), Q: (2m, 0) } link crank { O -> A: 2m } link b { A -> B: 2m, P: (1m, -1m) } link c { Q -> B: 2m }
+         revolute O: ground -> crank; revolute A: crank -> b; revolute B: b -> c; revolute Q: ground -> c; drive q: O;
+         assemble B: left(A -> Q) smooth at 40deg; load F: force(b.P) = (3N, -2N); load M: moment(c) = 2N*m;",
+    ),
+    (
+        "RRR dyad",
+        &[&[0.4, 0.7], &[2.0, -1.0], &[-2.0, 2.5]],
+        "ground { G: (1m, 1m) } link base { G: (0.3m, 0.1m), O: (0, 0), Q: (1.2m, 0.5m) } link crank { O -> A: 0.5m }
+         link b { A -> B: 1.3m, P: (1m, -1m) } link c { Q -> B: 0.5m } revolute G: ground -> base;
+         revolute O: base -> crank; revolute A: crank -> b; revolute B: b -> c; revolute Q: base -> c; drive r: G; drive q: O;
+         assemble B: left(A -> Q) smooth at 40deg; load F: force(b.P) = (3N, -2N); load M: moment(c) = 2N*m;",
     ),
     // An RRR dyad of forces that is none of motion: crank and rod, held at the piston.
     (

@@ -23,6 +23,8 @@
 //! all factors are in the other. There `cos μ = u₁ · u₂ = (r₁² + r₂² − D²)/(2 r₁ r₂)` is one subtraction; where the links fold stretched
 //! only, it is found of cos²(ψ/2) instead, which vanishes there, and nothing is lost beside the −1.
 //!
+//! In a parallelogram that moves through its folds smoothly, each link keeps the direction of the arm opposite to it, and nothing is solved for.
+//!
 //! Where a drive gives the length of one link, `r₁² = x² + y²` with a constant y, and D and r₂ are constants, the same four factors are
 //! taken together as `p = (D + r₂)² − r₁²`, `q = r₁² − (D − r₂)²`: there the constants fold. The drive's line is turned from the leg by the
 //! constant y, and from the other leg by the sum of that angle and μ, whose sine and cosine follow from those of both.
@@ -257,6 +259,8 @@ struct Closing<'m> {
     of_angle: Option<OfAngle<'m>>,
     /// cos μ by the law of cosines, where by these lengths it is as good as that of the directions.
     cosine: Option<Expr<'m>>,
+    /// The directions of the legs, where they are known without it: in a parallelogram.
+    directions: Option<[Vector<'m>; 2]>,
     /// Whether one leg is so much shorter than the other one that its direction has the rounding of that.
     unlike: bool,
     /// The sign of that root.
@@ -329,9 +333,11 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let (r1, r2) = (dyad.length(first), dyad.length(second));
     let name = dyad.joint_name(dyad.inner);
     let (mut directions, mut closed) = ([closing.d; 2], Vec::new());
-    for ((found, leg), Pointing { unit: direction, rough }) in
-        directions.iter_mut().zip(&dyad.legs).zip(arms(dyad, &closing))
-    {
+    let pointing = match closing.directions {
+        Some(known) => known.map(|unit| Pointing { unit, rough: None }),
+        None => arms(dyad, &closing),
+    };
+    for ((found, leg), Pointing { unit: direction, rough }) in directions.iter_mut().zip(&dyad.legs).zip(pointing) {
         let link = dyad.link_name(leg);
         let meaning = format!("direction of {link} from {} to {name}", dyad.joint_name(leg.outer));
         let direction = direction.named_direction(&link, &meaning);
@@ -566,7 +572,7 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
     let significant = vec![(p, p_rounding), (q, q_rounding)];
     let (cosine, unlike) = (law_of_cosines(dyad, d2), !ratio_is_at_most(8, r1, r2));
-    Closing { d, d2, sums: None, k: sign.of(root), of_angle: None, cosine, unlike, sign, significant }
+    Closing { d, d2, sums: None, k: sign.of(root), of_angle: None, cosine, directions: None, unlike, sign, significant }
 }
 
 /// cos μ from the distance of the outer pins, which is known before the directions are. D²/(2 r₁ r₂) is at most 2¼ if no leg is more than twice
@@ -668,7 +674,18 @@ fn by_driven_length<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>, driven: 
     };
     // The driven leg is at least as long as the two constants differ by.
     let unlike = (least - 8 * other).sign() == Some(1);
-    Closing { d, d2, sums: Some(sums), k: sign.of(root), of_angle: None, cosine: None, unlike, sign, significant }
+    Closing {
+        d,
+        d2,
+        sums: Some(sums),
+        k: sign.of(root),
+        of_angle: None,
+        cosine: None,
+        directions: None,
+        unlike,
+        sign,
+        significant,
+    }
 }
 
 /// The least and the largest distance that constant parts of a way can make up.

@@ -71,6 +71,7 @@ pub(super) fn by_half_angle<'m>(
         k,
         of_angle,
         cosine,
+        directions: opening.of_parallelogram(sign, swapped).filter(|_| smooth && folds == [true; 2]),
         unlike: !ratio_is_at_most(8, r1, r2),
         sign,
         significant: opening.significant(margins),
@@ -233,6 +234,19 @@ impl<'a, 'm> Opening<'a, 'm> {
         let sum = dyad.name_sum(&dyad.legs[short], sum, divided);
         let far = (r - 8 * (arms.a + arms.b)).sign() == Some(1);
         OfAngle { sum, far }
+    }
+
+    /// The directions of the legs if they and the arms are opposite sides of a parallelogram: of P → B that of OQ, of Q → B that of OP. There
+    /// `sin μ` is `sin ψ`; of the other sign it is a crossed one.
+    fn of_parallelogram(&self, sign: Sign<'m>, swapped: bool) -> Option<[Vector<'m>; 2]> {
+        let Self { dyad, arms, .. } = *self;
+        let mut opposite = [(arms.b, arms.base), (arms.a, arms.moved_direction())];
+        if swapped {
+            opposite.reverse();
+        }
+        let is_crossed = !matches!((sign, swapped), (Sign::Plus, false) | (Sign::Minus, true));
+        let are_equal = dyad.lengths().iter().zip(opposite).all(|(leg, (arm, _))| (*leg - arm).is_zero());
+        (are_equal && !is_crossed).then_some(opposite.map(|(_, along)| along))
     }
 
     /// cos μ by the law of cosines, from the spread; where the dyad folds stretched only, from the square that is nothing there.
