@@ -1,5 +1,8 @@
 //! Every pass keeps the results of every program.
 
+use std::collections::BTreeSet;
+
+use crate::support::declarations::linkages;
 use crate::support::families::boom;
 use crate::support::linkages::{Kind, Random, Sample, sample, sample_with_search};
 use crate::support::numbers::{Double, Extended, Single};
@@ -689,4 +692,24 @@ fn directions_that_are_no_results_keep_the_lengths_of_their_links() {
         assert_eq!(before, after, "{text}");
     }
     assert!(spared[0] > 100 && spared[1] > 300, "{spared:?}");
+}
+
+/// Coefficients of a force that velocities would have too stand under forces where no velocity is asked for: no heading stands above values
+/// without names alone, of which others read some.
+#[test]
+fn no_heading_stands_above_what_has_no_name() {
+    for (name, linkage) in linkages() {
+        for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
+            for program in [&functions.from_pose, &functions.direct] {
+                let readers = program.readers();
+                let values = || program.computed().map(|value| (value, program.value(value)));
+                let is_result = |value: ValueId| program.outputs.iter().any(|(_, result)| *result == value);
+                let named = values().filter(|(value, of)| of.label.is_some() || is_result(*value));
+                let named: BTreeSet<&str> = named.map(|(_, of)| of.section.as_str()).collect();
+                for (_, Value { section, .. }) in values().filter(|(value, _)| !readers[value.index()].is_empty()) {
+                    assert!(named.contains(section.as_str()), "{name}, {}: {section}", scene.name);
+                }
+            }
+        }
+    }
 }

@@ -8,6 +8,7 @@ mod constants;
 mod cycles;
 mod finite;
 mod fused;
+mod headings;
 mod late;
 mod lengths;
 mod multiples;
@@ -28,7 +29,7 @@ use crate::graph::{Graph, Guard, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 20] = [
+pub const PASSES: [(&str, Pass); 21] = [
     ("lengths", lengths::leave),
     ("pivots", pivots::compare_directly),
     ("checks", checks::ask_once),
@@ -49,6 +50,7 @@ pub const PASSES: [(&str, Pass); 20] = [
     ("arguments", finite::ask_late),
     ("moderate", finite::look_at_arguments),
     ("fused", fused::contract),
+    ("headings", headings::settle),
 ];
 
 impl Program {
