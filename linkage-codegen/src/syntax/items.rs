@@ -12,7 +12,7 @@ use super::ast::{
 };
 use super::quantity::{at_pair, direction, magnitude, value, vector};
 use super::tokens::{at_word, between, comma_list, eat_word, expect_word, name, peek_word, place_of, take};
-use super::{ITEMS, header, loads, scenes};
+use super::{ITEMS, OTHER_WORDS, header, loads, scenes};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
 /// Reads an item. A word that was meant to be another one is a slip, and reading goes on as if it were that.
@@ -27,7 +27,12 @@ pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         if let Some(example) = loads::example(&keyword.text) {
             return Err(Error::new(begin.span(), format!("{problem}\nhelp: it is a load, as in `{example}`")));
         }
-        let Some(meant) = closest(&keyword.text, ITEMS) else {
+        if keyword.text == "friction" {
+            let help = "joints have none: give it as a load, a `moment` between the links or a `force` at the point";
+            return Err(Error::new(begin.span(), format!("{problem}\nhelp: {help}")));
+        }
+        let by_other_word = OTHER_WORDS.iter().find(|(word, _)| *word == keyword.text).map(|(_, item)| *item);
+        let Some(meant) = by_other_word.or_else(|| closest(&keyword.text, ITEMS)) else {
             return Err(Error::new(
                 begin.span(),
                 format!("{problem}\nhelp: an item begins with one of {}", ITEMS.join(", ")),

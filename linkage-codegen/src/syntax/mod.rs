@@ -57,6 +57,29 @@ pub const ITEMS: [&str; 20] = [
     "scene",
 ];
 
+/// Other words for items: of the field, and of other programs.
+const OTHER_WORDS: [(&str, &str); 19] = [
+    ("pin", "revolute"),
+    ("hinge", "revolute"),
+    ("pivot", "revolute"),
+    ("slide", "prismatic"),
+    ("slider", "prismatic"),
+    ("cylindrical", "prismatic"),
+    ("rigid", "weld"),
+    ("body", "link"),
+    ("bar", "link"),
+    ("member", "link"),
+    ("frame", "ground"),
+    ("fixed", "ground"),
+    ("motor", "drive"),
+    ("actuator", "drive"),
+    ("input", "drive"),
+    ("branch", "assemble"),
+    ("closure", "assemble"),
+    ("solve", "scene"),
+    ("analysis", "scene"),
+];
+
 /// Reads a declaration. `None` if even its header cannot be read.
 pub fn parse(input: TokenStream, sink: &Sink) -> Option<Ast> {
     if let Some(excess) = excess(&input) {
