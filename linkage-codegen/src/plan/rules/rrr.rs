@@ -16,6 +16,8 @@
 //! velocities have its few roundings once. Those of the first link, along which forces are resolved, they would have twice; so there only
 //! the moments of the loads are found of the vector as it is, and need not wait for the step.
 //!
+//! Of legs of the same length `sum e` is `±d/2`.
+//!
 //! `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros the closure knows it better than the directions do.
 //!
 //! Where moreover a driven angle ψ opens the outer pins, `D² = (b − a)² + 4ab sin²(ψ/2)`, all areas are divided when the linkage is
@@ -292,14 +294,22 @@ impl<'m> Closing<'m> {
         })
     }
 
-    /// The vector along a leg, `sum e + K e⊥`, as text.
-    fn resolved_text(&self, link: &str, joint: &str) -> String {
+    /// The vector along a leg, `sum e + K e⊥`, as text; by its part along d.
+    fn resolved_text(&self, along: &str, joint: &str) -> String {
         let root = self.root(joint);
         match root.strip_prefix('−') {
-            Some(root) => format!("sum_{link} e − {root} e⊥"),
-            None => format!("sum_{link} e + {root} e⊥"),
+            Some(root) => format!("{along} − {root} e⊥"),
+            None => format!("{along} + {root} e⊥"),
         }
     }
+}
+
+/// `±1/2`, if a sum is `±D²` alone: of legs of the same length the inner pin is over the middle of d.
+fn half_of<'m>(sum: Expr<'m>, d2: Expr<'m>) -> Option<Expr<'m>> {
+    let graph = d2.graph();
+    let is = |other: Expr<'m>| graph.bare(sum.id()) == graph.bare(other.id());
+    let half = graph.constant(&Number::ratio(1, 2));
+    if is(d2) { Some(half) } else { is(-d2).then_some(-half) }
 }
 
 fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> RuleResult {
@@ -434,8 +444,12 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
     let resolved = |index: usize, sum: Expr<'m>| {
         let leg = &dyad.legs[index];
         let (link, outer) = (dyad.link_name(leg), dyad.joint_name(leg.outer));
-        let equation = format!("from {outer} to {name}: {}, e = d/(2 D2_{name})", closing.resolved_text(&link, name));
-        (e.scaled(sum) + across.perp()).named(&format!("arm_{link}"), &equation)
+        let (along, text) = match half_of(sum, d2) {
+            Some(half) => (d.scaled(half), if half.sign() == Some(1) { "d/2".to_owned() } else { "−d/2".to_owned() }),
+            None => (e.scaled(sum), format!("sum_{link} e")),
+        };
+        let equation = format!("from {outer} to {name}: {}, e = d/(2 D2_{name})", closing.resolved_text(&text, name));
+        (along + across.perp()).named(&format!("arm_{link}"), &equation)
     };
     let mut vectors = [d; 2];
     vectors[short] = resolved(short, short_sum);
