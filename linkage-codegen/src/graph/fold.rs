@@ -135,6 +135,8 @@ impl Graph {
             (_, Op::Neg(y)) => -(a * self.expr(y)),
             // The square of a root is its argument.
             (Op::Sqrt(x), Op::Sqrt(y)) if x == y => self.expr(x),
+            // A square has no sign.
+            (Op::Abs(x), Op::Abs(y)) if x == y => self.expr(x) * self.expr(y),
             _ => self.intern(Op::Mul(a.id(), b.id())),
         }
     }
