@@ -26,16 +26,20 @@ impl<S> Forms<'_, S> {
     where
         S: Terms<T>,
     {
-        let known = |term: T| self.terms.name(term);
-        let known_or_made = |term: T| known(term).or_else(|| self.made_of(term));
+        let known = |term: T| self.terms.name(term).filter(|name| !is_sum(name) && !is_product(name));
+        // As a whole a product may have a sign or a factor.
+        let whole = |term: T| self.terms.name(term).or_else(|| self.made_of(term)).filter(|name| !is_sum(name));
         let of_both = |a: T, word: &str, b: T| Some(format!("{}_{word}_{}", known(a)?, known(b)?));
         let is_constant = |term: T| self.constant(term).is_some();
         match self.terms.op(term) {
-            Op::Neg(a) => Some(format!("minus_{}", known_or_made(a)?)),
-            Op::Abs(a) => Some(format!("abs_{}", known_or_made(a)?)),
-            Op::Mul(a, b) if is_constant(a) => Some(scaled(&known_or_made(b)?)),
-            Op::Mul(a, b) if is_constant(b) => Some(scaled(&known_or_made(a)?)),
-            Op::Mul(a, b) if a == b => Some(format!("{}_squared", known_or_made(a)?)),
+            Op::Neg(a) => Some(format!("minus_{}", whole(a)?)),
+            Op::Abs(a) => Some(format!("abs_{}", whole(a)?)),
+            Op::Mul(a, b) if is_constant(a) => Some(scaled(&whole(b)?)),
+            Op::Mul(a, b) if is_constant(b) => Some(scaled(&whole(a)?)),
+            Op::Mul(a, b) if a == b => match self.terms.name(a).or_else(|| self.made_of(a))? {
+                name if is_sum(&name) || is_product(&name) => Some(format!("squared_{name}")),
+                name => Some(format!("{name}_squared")),
+            },
             Op::Mul(a, b) => Some(product(&known(a)?, &known(b)?)),
             Op::Div(a, b) => match self.constant(a) {
                 Some(one) if one.is_one() => Some(format!("inverse_{}", known(b)?)),
@@ -153,9 +157,23 @@ pub(super) fn scaled(name: &str) -> String {
 fn product(a: &str, b: &str) -> String {
     let [a, b] = if is_of_direction(a) && !is_of_direction(b) { [b, a] } else { [a, b] };
     match b.rsplit_once('_') {
-        Some((direction, part)) if is_of_direction(b) && a.contains(direction) => format!("{a}_times_{part}"),
+        Some((direction, part)) if is_of_direction(b) && has_words(a, direction) => format!("{a}_times_{part}"),
         _ => format!("{a}_times_{b}"),
     }
+}
+
+/// Whether a name contains another one, word by word.
+fn has_words(name: &str, words: &str) -> bool {
+    format!("_{name}_").contains(&format!("_{words}_"))
+}
+
+/// Whether a name is a sum: as a part of a longer one it could be read in another way.
+fn is_sum(name: &str) -> bool {
+    ["_plus_", "_minus_"].iter().any(|word| name.contains(word))
+}
+
+fn is_product(name: &str) -> bool {
+    ["_times_", "_over_", "_cross_", "_dot_"].iter().any(|word| name.contains(word))
 }
 
 /// Whether a name is that of a cosine or a sine.

@@ -10,7 +10,7 @@ use super::literals::ident;
 use super::types::{drive_doc, has_params, linkage_type, motion_type, output_type, record_name, scalar};
 use super::{docs, prepared_names};
 use crate::Linkage;
-use crate::graph::{NodeId, Symbol};
+use crate::graph::{NodeId, Order, Symbol};
 use crate::model::ids::{DriveId, LoadId};
 use crate::model::{LoadKind, Method, Model, SWEPT, type_name};
 use crate::plan::{Comparison, Output};
@@ -60,6 +60,22 @@ impl<'a> InputNames<'a> {
             Input::Prepared(node) => self.prepared.get(&node).cloned().unwrap_or_default(),
         }
     }
+}
+
+/// The names of all that functions read but parameters and what is made of these.
+pub(super) fn given_names(linkage: &Linkage) -> Vec<String> {
+    let model = &linkage.model;
+    let drives = model.drives.iter().flat_map(|drive| {
+        let motion = [Order::Rate, Order::Acceleration].map(|order| drive.motion_name(order));
+        motion.into_iter().chain([drive.name.text.clone()])
+    });
+    let loads = model.loads.iter().flat_map(|load| {
+        let values = load.kind.values().into_iter().map(|(value, _)| load.value_name(value));
+        values.chain([load.name.text.clone()])
+    });
+    let sides = model.given_closures().map(|(_, closure)| format!("side_{}", model.joint(closure.joint).name));
+    let kept = linkage.plan.pose.iter().flat_map(|kept| [kept.name.clone(), format!("{}_before", kept.name)]);
+    drives.chain(loads).chain(sides).chain(kept).collect()
 }
 
 /// The body of a function.

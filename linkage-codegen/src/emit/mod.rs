@@ -168,16 +168,26 @@ pub fn operations(linkage: &Linkage) -> String {
     text
 }
 
-/// The names of everything that is prepared from the parameters: those of quantities and parameters, of others what they are made of.
+/// The names of everything that is prepared from the parameters: those of parameters and quantities, of others what they are made of. None is
+/// that of anything else that a function reads.
 fn prepared_names(linkage: &Linkage) -> BTreeMap<NodeId, String> {
+    let Linkage { model, functions, .. } = linkage;
     let mut used: BTreeSet<String> = functions::taken().into_iter().chain(OWN_PATTERNS).map(str::to_owned).collect();
-    let mut named = Prepared { model: &linkage.model, names: BTreeMap::new() };
-    for node in &linkage.functions.prepared {
-        let form = || Forms { graph: &linkage.model.graph, terms: &named }.name(*node);
-        let own = name_of(&linkage.model, *node).or_else(form).filter(|name| !name.contains("prepared"));
+    used.extend(functions::given_names(linkage));
+    let mut named = Prepared { model, names: BTreeMap::new() };
+    // Parameters first: each has its own.
+    let (params, others): (Vec<&NodeId>, Vec<&NodeId>) =
+        functions.prepared.iter().partition(|node| parameter_of(model, **node).is_some());
+    for node in params {
+        let own = parameter_of(model, *node).unwrap_or_default();
+        named.names.insert(*node, body::new_name(&mut used, own));
+    }
+    used.extend(model.params.iter().map(|param| param.name.text.clone()));
+    for node in others {
+        let form = || Forms { graph: &model.graph, terms: &named }.name(*node);
+        let own = name_of(model, *node).or_else(form).filter(|name| !name.contains("prepared"));
         let own = own.unwrap_or_else(|| "prepared".to_owned());
-        let name = body::new_name(&mut used, &own);
-        named.names.insert(*node, name);
+        named.names.insert(*node, body::new_name(&mut used, &own));
     }
     named.names
 }
@@ -198,11 +208,19 @@ impl Terms<NodeId> for Prepared<'_> {
     }
 }
 
+/// The name of the parameter that a node is.
+fn parameter_of(model: &Model, node: NodeId) -> Option<&str> {
+    match model.graph.op(model.graph.bare(node)) {
+        Op::Symbol(Symbol::Parameter(param)) => Some(&model.param(param).name.text),
+        _ => None,
+    }
+}
+
 /// The name of a quantity, of a parameter, or of what is a multiple of one.
 fn name_of(model: &Model, node: NodeId) -> Option<String> {
     let graph = &model.graph;
-    if let Op::Symbol(Symbol::Parameter(param)) = graph.op(graph.bare(node)) {
-        return Some(model.param(param).name.text.clone());
+    if let Some(param) = parameter_of(model, node) {
+        return Some(param.to_owned());
     }
     match (graph.label(node), graph.op(node)) {
         (Some(label), _) => Some(label.name),

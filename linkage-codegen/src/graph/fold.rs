@@ -30,7 +30,7 @@ impl Graph {
     }
 
     pub(super) fn difference<'g>(&'g self, a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
-        if a == b {
+        if self.are_one(a, b) {
             return self.zero();
         }
         match (a.value(), b.value()) {
@@ -79,7 +79,7 @@ impl Graph {
             let least = if own.signum() == k.signum() { least_added } else { rounding };
             let sizes = [own.to_f64().abs(), k.to_f64().abs()];
             let alike = sizes[0].min(sizes[1]) > least * sizes[0].max(sizes[1]);
-            (factor == x && alike).then(|| self.constant(&own.add(&k)) * x)
+            (self.are_one(factor, x) && alike).then(|| self.constant(&own.add(&k)) * x)
         };
         if let Some(product) = merged(a, rounding) {
             return Some(product);
@@ -123,6 +123,16 @@ impl Graph {
         }
     }
 
+    /// Whether two values are one. What is computed and named may be compared with what it is, to see its rounding; a parameter has none.
+    fn are_one(&self, a: Expr<'_>, b: Expr<'_>) -> bool {
+        a == b || self.are_same(a, b) && matches!(self.op(self.bare(a.id())), Op::Symbol(_))
+    }
+
+    /// Whether two values are one but for their names and checks.
+    fn are_same(&self, a: Expr<'_>, b: Expr<'_>) -> bool {
+        self.bare(a.id()) == self.bare(b.id())
+    }
+
     pub(super) fn product<'g>(&'g self, a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
         match (a.value(), b.value()) {
             (Some(x), Some(y)) => return self.constant(&x.mul(&y)),
@@ -135,6 +145,9 @@ impl Graph {
             (_, Op::Neg(y)) => -(a * self.expr(y)),
             // The square of a root is its argument.
             (Op::Sqrt(x), Op::Sqrt(y)) if x == y => self.expr(x),
+            // What divides a constant is multiplied by it again.
+            (Op::Div(k, x), _) if self.constant_value(k).is_some() && self.are_same(self.expr(x), b) => self.expr(k),
+            (_, Op::Div(k, y)) if self.constant_value(k).is_some() && self.are_same(self.expr(y), a) => self.expr(k),
             // A square has no sign.
             (Op::Abs(x), Op::Abs(y)) if x == y => self.expr(x) * self.expr(y),
             _ => self.intern(Op::Mul(a.id(), b.id())),
@@ -167,7 +180,7 @@ impl Graph {
         if a.is_zero() {
             return a;
         }
-        if self.bare(a.id()) == self.bare(b.id()) {
+        if self.are_same(a, b) {
             return self.one();
         }
         if let Some(divisor) = b.value() {

@@ -31,7 +31,11 @@ pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
             let help = "joints have none: give it as a load, a `moment` between the links or a `force` at the point";
             return Err(Error::new(begin.span(), format!("{problem}\nhelp: {help}")));
         }
-        let by_other_word = OTHER_WORDS.iter().find(|(word, _)| *word == keyword.text).map(|(_, item)| *item);
+        let behind_name = input.fork();
+        let _ = name(&behind_name);
+        let has_braces = input.peek(Brace) || behind_name.peek(Brace);
+        let other_word = OTHER_WORDS.iter().find(|(word, ..)| *word == keyword.text);
+        let by_other_word = other_word.map(|(_, braced, other)| if has_braces { *braced } else { *other });
         let Some(meant) = by_other_word.or_else(|| closest(&keyword.text, ITEMS)) else {
             return Err(Error::new(
                 begin.span(),

@@ -57,27 +57,23 @@ pub const ITEMS: [&str; 20] = [
     "scene",
 ];
 
-/// Other words for items: of the field, and of other programs.
-const OTHER_WORDS: [(&str, &str); 19] = [
-    ("pin", "revolute"),
-    ("hinge", "revolute"),
-    ("pivot", "revolute"),
-    ("slide", "prismatic"),
-    ("slider", "prismatic"),
-    ("cylindrical", "prismatic"),
-    ("rigid", "weld"),
-    ("body", "link"),
-    ("bar", "link"),
-    ("member", "link"),
-    ("frame", "ground"),
-    ("fixed", "ground"),
-    ("motor", "drive"),
-    ("actuator", "drive"),
-    ("input", "drive"),
-    ("branch", "assemble"),
-    ("closure", "assemble"),
-    ("solve", "scene"),
-    ("analysis", "scene"),
+/// Other words for items, of the field and of other programs: in front of braces, and otherwise.
+const OTHER_WORDS: [(&str, &str, &str); 15] = [
+    ("pin", "link", "revolute"),
+    ("hinge", "link", "revolute"),
+    ("pivot", "link", "revolute"),
+    ("slide", "link", "prismatic"),
+    ("slider", "link", "prismatic"),
+    ("rigid", "link", "weld"),
+    ("fixed", "ground", "weld"),
+    ("body", "link", "link"),
+    ("bar", "link", "link"),
+    ("frame", "ground", "ground"),
+    ("motor", "drive", "drive"),
+    ("actuator", "drive", "drive"),
+    ("input", "drive", "drive"),
+    ("closure", "assemble", "assemble"),
+    ("solve", "scene", "scene"),
 ];
 
 /// Reads a declaration. `None` if even its header cannot be read.

@@ -982,3 +982,37 @@ fn every_rule_has_a_case() {
         assert!(CASES.iter().any(|(class, ..)| *class == rule.class()), "{} has no case", rule.class());
     }
 }
+
+/// A parallelogram is one by its side at the stated angle: its place takes no root and no quotient, and is that of the parallelogram. A crossed
+/// one takes both.
+#[test]
+fn a_parallelogram_is_recognised_by_its_side() {
+    let (mut parallel, mut crossed) = (0, 0);
+    for (pins, at, side) in
+        [("A -> Q", 40.0, 1.0), ("Q -> A", 40.0, -1.0), ("A -> Q", -130.0, 1.0), ("Q -> A", -330.0, -1.0)]
+    {
+        for (word, left) in [("left", side), ("right", -side)] {
+            let linkage = compile(&format!(
+                "pub mod sample; ground {{ O: (0, 0), Q: (1.2m, 0.5m) }} link crank {{ O -> A: 0.5m }} link b {{ A -> B: 1.3m }}
+                 link c {{ Q -> B: 0.5m }} revolute O: ground -> crank; revolute A: crank -> b; revolute B: b -> c;
+                 revolute Q: ground -> c; drive q: O; assemble B: {word}({pins}) smooth at {at}deg; scene place: position -> (B);"
+            ));
+            let place = |q: f64| scene::<Double>(&linkage, "place", &at_rest(&linkage, &[q])).expect("a place");
+            // B of the parallelogram, from A, and on which side of the line from A to Q it lies at the stated angle.
+            let opposite = |q: f64| [0.5 * q.cos() + 1.2, 0.5 * q.sin() + 0.5];
+            let start = f64::to_radians(at);
+            let (a, b) = ([0.5 * start.cos(), 0.5 * start.sin()], opposite(start));
+            let turn = (1.2 - a[0]) * (b[1] - a[1]) - (0.5 - a[1]) * (b[0] - a[0]);
+            let is_parallel = turn * left > 0.0;
+            for q in [start, 0.3, 1.9, 3.5, -2.2] {
+                let (found, expected) = (place(q), opposite(q));
+                let off = (found["B.x"].0 - expected[0]).hypot(found["B.y"].0 - expected[1]);
+                assert_eq!(off < 1e-14, is_parallel, "{word}({pins}) at {at}, {q}: {off:e}");
+            }
+            let counts = linkage.functions.scenes[0].direct.counts();
+            assert_eq!(counts.sqrt + counts.div == 0, is_parallel, "{counts}");
+            *(if is_parallel { &mut parallel } else { &mut crossed }) += 1;
+        }
+    }
+    assert_eq!((parallel, crossed), (4, 4));
+}

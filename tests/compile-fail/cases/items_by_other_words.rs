@@ -8,7 +8,7 @@ linkage! {
     ground       { A0: (0, 0), B0: (140mm, 0) }
     link crank   { A0 -> A: 80mm }
     link coupler { A -> B: 100mm, C: left(A -> B, 70mm, 80mm) }
-    link rocker  { B0 -> B: 120mm, D: (90mm, 0) }
+    slider rocker  { B0 -> B: 120mm, D: (90mm, 0) }
 
     revolute A0: ground  -> crank;
     pin A: crank -> coupler;

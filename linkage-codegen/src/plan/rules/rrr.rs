@@ -386,8 +386,14 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         });
     }
     let pivot = closing.significant.iter().fold(sine, |pivot, (value, limit)| pivot.where_above(*value, *limit));
-    let pivot =
-        pivot.named(format!("{}_or_zero", dyad.pivot_name()), "zero where it is no larger than its rounding").held();
+    let meaning = if closing.directions.is_some() {
+        let names = dyad.legs.each_ref().map(|leg| dyad.link_name(leg));
+        format!("of a parallelogram, whose {} and {} keep the directions of opposite sides; ", names[0], names[1])
+    } else {
+        String::new()
+    };
+    let meaning = format!("{meaning}zero where it is no larger than its rounding");
+    let pivot = pivot.named(format!("{}_or_zero", dyad.pivot_name()), meaning).held();
     let cosine = closing.cosine.map(Expr::held);
     assembly.pivots.state(u1, u2, Some(pivot), cosine);
     for (leg, sine, other) in [(first, pivot, u2), (second, -pivot, u1)] {
