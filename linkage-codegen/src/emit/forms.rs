@@ -95,13 +95,14 @@ impl<S> Forms<'_, S> {
         }
     }
 
-    /// The products that a term is the sum of; none if it is made otherwise.
+    /// The two products that a term is the sum of; none if it is made otherwise.
     fn add_products<T: Copy>(&self, term: T, is_negative: bool, products: &mut Vec<Product>) -> Option<()>
     where
         S: Terms<T>,
     {
         match self.terms.op(term) {
-            _ if self.terms.name(term).is_some() && !products.is_empty() => None,
+            // Of three or more nobody asks.
+            _ if products.len() == 2 || self.terms.name(term).is_some() => None,
             Op::Neg(a) => self.add_products(a, !is_negative, products),
             Op::Add(a, b) => {
                 self.add_products(a, is_negative, products)?;

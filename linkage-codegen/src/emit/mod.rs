@@ -185,8 +185,8 @@ fn prepared_names(linkage: &Linkage) -> BTreeMap<NodeId, String> {
     used.extend(model.params.iter().map(|param| param.name.text.clone()));
     for node in others {
         let form = || Forms { graph: &model.graph, terms: &named }.name(*node);
-        let own = name_of(model, *node).or_else(form).filter(|name| !name.contains("prepared"));
-        let own = own.unwrap_or_else(|| "prepared".to_owned());
+        let form = || form().filter(|name| !name.contains("prepared"));
+        let own = name_of(model, *node).or_else(form).unwrap_or_else(|| "prepared".to_owned());
         named.names.insert(*node, body::new_name(&mut used, &own));
     }
     named.names
