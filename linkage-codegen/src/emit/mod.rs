@@ -25,7 +25,7 @@ use crate::graph::{NodeId, Op, Symbol};
 use crate::model::{Method, Model, OWN_PATTERNS};
 pub use equations::text as equations;
 pub use fallback::module as fallback;
-use forms::Forms;
+use forms::{Forms, scaled};
 use formula::Terms;
 use literals::ident;
 pub use types::given_motion;
@@ -225,7 +225,7 @@ fn name_of(model: &Model, node: NodeId) -> Option<String> {
     match (graph.label(node), graph.op(node)) {
         (Some(label), _) => Some(label.name),
         (None, Op::Checked { value, .. }) => name_of(model, value),
-        (None, Op::Mul(a, b)) if graph.expr(a).value().is_some() => Some(format!("{}_scaled", name_of(model, b)?)),
+        (None, Op::Mul(a, b)) if graph.expr(a).value().is_some() => Some(scaled(&name_of(model, b)?)),
         _ => None,
     }
 }

@@ -129,7 +129,7 @@ impl Graph {
     }
 
     /// Whether two values are one but for their names and checks.
-    fn are_same(&self, a: Expr<'_>, b: Expr<'_>) -> bool {
+    pub(crate) fn are_same(&self, a: Expr<'_>, b: Expr<'_>) -> bool {
         self.bare(a.id()) == self.bare(b.id())
     }
 

@@ -307,9 +307,8 @@ impl<'m> Closing<'m> {
 /// `±1/2`, if a sum is `±D²` alone: of legs of the same length the inner pin is over the middle of d.
 fn half_of<'m>(sum: Expr<'m>, d2: Expr<'m>) -> Option<Expr<'m>> {
     let graph = d2.graph();
-    let is = |other: Expr<'m>| graph.bare(sum.id()) == graph.bare(other.id());
     let half = graph.constant(&Number::ratio(1, 2));
-    if is(d2) { Some(half) } else { is(-d2).then_some(-half) }
+    if graph.are_same(sum, d2) { Some(half) } else { graph.are_same(sum, -d2).then_some(-half) }
 }
 
 fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> RuleResult {
