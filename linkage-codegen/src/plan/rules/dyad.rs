@@ -361,7 +361,12 @@ impl<'a> Dyad<'a> {
 
     /// The direction of a leg of a placed dyad from the outer joint to the inner one, in ground axes.
     pub(super) fn direction(&self, placement: &Placement<'a>, leg: &Leg) -> Vector<'a> {
-        self.along_first(placement, leg).turned_by(placement.direction(leg.link()))
+        let direction = self.along_first(placement, leg).turned_by(placement.direction(leg.link()));
+        if leg.is_constant(self.model) || self.arm(leg).lean.y.is_zero() {
+            return direction;
+        }
+        let (name, from, to) = (self.link_name(leg), self.joint_name(leg.outer), self.joint_name(self.inner));
+        direction.named_direction(&name, &format!("direction of {name} from {from} to {to}"))
     }
 
     /// The same along and across the direction that its first link carries.
@@ -784,8 +789,13 @@ impl<'a> Dyad<'a> {
             let meaning = format!("1 where {to} lies ahead of {from}, −1 where it lies behind");
             Vector::new(apart(sense.named(format!("sense_{name}"), meaning)), graph.zero())
         } else {
-            // What is resolved along the body and back has the square of this direction's size: it must not be far from one.
-            Vector::new((along.x / size).divided(), (along.y / size).divided())
+            // What is resolved along the body and back has the square of this direction's size, against all loads: the rounding of the length
+            // is taken out again.
+            let (rough, parts) =
+                (format!("rough_lean_{name}"), Vector::new((along.x / size).divided(), (along.y / size).divided()));
+            let parts = parts.named_direction(&rough, &format!("arm_{name}/length_{name}"));
+            let refined = towards_unit(parts, &format!("lean_{name}"));
+            refined.named_direction(&format!("lean_{name}"), "direction of that arm, of unit size")
         };
         Arm { axis, along, size, lean }
     }

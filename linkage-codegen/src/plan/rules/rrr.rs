@@ -343,10 +343,11 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let name = dyad.joint_name(dyad.inner);
     let (mut directions, mut closed) = ([closing.d; 2], Vec::new());
     let pointing = match closing.directions {
-        Some(known) => known.map(|unit| Pointing { unit, rough: None }),
+        Some(known) => known.map(|unit| Pointing { unit, factor: closing.d2.graph().one(), rough: None }),
         None => arms(dyad, &closing),
     };
-    for ((found, leg), Pointing { unit: direction, rough }) in directions.iter_mut().zip(&dyad.legs).zip(pointing) {
+    let factors = pointing.each_ref().map(|pointing| pointing.factor);
+    for ((found, leg), Pointing { unit: direction, rough, .. }) in directions.iter_mut().zip(&dyad.legs).zip(pointing) {
         let link = dyad.link_name(leg);
         let meaning = format!("direction of {link} from {} to {name}", dyad.joint_name(leg.outer));
         let direction = direction.named_direction(&link, &meaning);
@@ -365,9 +366,11 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     } else if !closing.unlike {
         name_sine(dyad, closing.k / (2 * (r1 * r2)), &format!("{}/{}", closing.root(name), dyad.area_name()))
     } else {
-        // The direction of a much shorter link carries the rounding of the longer one, and forces balance along the directions as they
-        // are.
-        name_sine(dyad, u1.cross(u2), "product of the directions")
+        // The direction of a much shorter link carries the rounding of the longer one, and so does the length of the vector along it.
+        // Forces balance along the directions as they are: v₁ × v₂ = K/2, by what brings both to unit size.
+        let half = closing.k.graph().constant(&Number::ratio(1, 2));
+        let [f1, f2] = dyad.legs.each_ref().map(|leg| format!("unit_{}", dyad.link_name(leg)));
+        name_sine(dyad, closing.k * (half * factors[0] * factors[1]), &format!("{} {f1} {f2}/2", closing.root(name)))
     };
     if let [u1, u2] = closed[..] {
         let legs = [u1.scaled(r1), u2.scaled(-r2)];
@@ -472,7 +475,8 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
         let [own, other] = [lengths[index], lengths[1 - index]];
         let alike = lengths_are_alike(graph.scalar(), own, other);
         let found = if alike && dyad.is_composed(leg) {
-            Pointing { unit: vectors[index].scaled(graph.one() / own), rough: None }
+            let factor = graph.one() / own;
+            Pointing { unit: vectors[index].scaled(factor), factor, rough: None }
         } else {
             to_unit(vectors[index], [own, other], (&link, &length), index == 0)
         };
@@ -483,6 +487,8 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
 /// The direction of a leg.
 struct Pointing<'m> {
     unit: Vector<'m>,
+    /// What brings the vector along the leg to unit size.
+    factor: Expr<'m>,
     /// The same before it is brought to unit size, if its size has a few roundings only.
     rough: Option<Vector<'m>>,
 }
@@ -499,16 +505,15 @@ fn to_unit<'m>(
     is_first: bool,
 ) -> Pointing<'m> {
     let graph = arm.graph();
-    let by = |factor: Expr<'m>, equation: String| arm.scaled(factor.named(format!("unit_{link}"), equation));
+    let called = |factor: Expr<'m>, equation: String| factor.named(format!("unit_{link}"), equation);
     if !lengths_are_alike(graph.scalar(), length, other) {
-        return Pointing {
-            unit: by(graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}")),
-            rough: None,
-        };
+        let factor = called(graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}"));
+        return Pointing { unit: arm.scaled(factor), factor, rough: None };
     }
     let half = |n: i64| graph.constant(&Number::ratio(n, 2));
     let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
-    let unit = by(factor, format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}"));
+    let factor = called(factor, format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}"));
+    let unit = arm.scaled(factor);
     let serves = ratio_is_at_most(2, length, other);
     let along = |of: Vector<'m>, arm: Option<Vector<'m>>| {
         let part = |of: Expr<'m>, arm: Option<Expr<'m>>| of.along(arm, length, name);
@@ -518,7 +523,7 @@ fn to_unit<'m>(
         let rough = arm.scaled(graph.one() / length);
         along(rough.named_direction(&format!("rough_{link}"), &format!("arm_{link}/{name}")), Some(arm))
     });
-    Pointing { unit: along(unit, (serves && !is_first).then_some(arm)), rough }
+    Pointing { unit: along(unit, (serves && !is_first).then_some(arm)), factor, rough }
 }
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {
@@ -590,7 +595,7 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let root =
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
     let significant = vec![(p, p_rounding), (q, q_rounding)];
-    let (cosine, unlike) = (law_of_cosines(dyad, d2), !ratio_is_at_most(8, r1, r2));
+    let (cosine, unlike) = (law_of_cosines(dyad, d2), may_be_unlike(r1, r2));
     Closing { d, d2, sums: None, k: sign.of(root), of_angle: None, cosine, directions: None, unlike, sign, significant }
 }
 
@@ -727,6 +732,11 @@ fn lengths_are_alike(scalar: Scalar, a: Expr<'_>, b: Expr<'_>) -> bool {
     // ratio² ε ≤ 0.64
     let limit = Number::ratio(64, 100).mul(&smaller).mul(&smaller);
     larger.mul(&larger).mul(&scalar.epsilon()).compare(&limit).is_le()
+}
+
+/// Whether one of two lengths is much larger than the other one, or they are not known before run time.
+fn may_be_unlike(r1: Expr<'_>, r2: Expr<'_>) -> bool {
+    constant_lengths(r1, r2).is_none() || !ratio_is_at_most(8, r1, r2)
 }
 
 /// Whether the ratio of two lengths is at most this, or is not known.

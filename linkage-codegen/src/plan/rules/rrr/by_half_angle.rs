@@ -7,7 +7,7 @@
 //!
 //! Both constants are exact, and zero where the dyad folds with its driver: near such a fold the square alone is left, and nothing is lost.
 
-use super::{Closing, OfAngle, by_length, gap, lead_by_arms, name_sine, ratio_is_at_most};
+use super::{Closing, OfAngle, by_length, gap, lead_by_arms, may_be_unlike, name_sine};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Symbol, Vector};
@@ -72,7 +72,7 @@ pub(super) fn by_half_angle<'m>(
         of_angle,
         cosine,
         directions: opening.of_parallelogram(sign, swapped).filter(|_| smooth && folds == [true; 2]),
-        unlike: !ratio_is_at_most(8, r1, r2),
+        unlike: may_be_unlike(r1, r2),
         sign,
         significant: opening.significant(margins),
     })
