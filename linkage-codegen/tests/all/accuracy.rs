@@ -145,6 +145,45 @@ fn a_load_near_the_runner() {
     );
 }
 
+/// A rocker that is much shorter than the coupler, both given at run time: its direction has the rounding of the coupler's square, and
+/// forces are resolved along it as it is.
+#[test]
+fn a_short_rocker_of_a_length_at_run_time() {
+    let text = format!(
+        "pub mod sample; param a: length = 1.249727487564087m; param b: length = 1.954880714416504m;
+         param c: length = 0.11675041913986206m; ground {{ A0: (0, 0), B0: 0.69857257604599m @ 78.69589187392927deg }}
+         link crank {{ A0 -> A: a }} link coupler {{ A -> B: b, C: (-0.38753795623779297m, 0.6836923956871033m) }}
+         link rocker {{ B0 -> B: c, D: (0.6836923956871033m, -0.38753795623779297m) }}
+         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+         drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0);
+         load F: force(coupler.C); load H: force(rocker.D); {SCENES}"
+    );
+    let mut drives: Vec<f64> = (0..200).map(|step| -1.95 + 0.01 * f64::from(step)).collect();
+    drives.push(-1.944_602_966_308_593_8);
+    let loads =
+        vec![[8.933_723_449_707_031, 5.120_211_601_257_324], [-3.722_068_071_365_356_4, -0.976_963_639_259_338_4]];
+    let family = Family { text, longest: 1.954_880_714_416_504, drives, loads };
+    assert!(check(std::iter::once(family), "a short rocker") > 10);
+}
+
+/// A rod whose pin is off the cylinder's line: loads on it are resolved along the way between the pins and turned back, and would have the
+/// rounding of its length twice.
+#[test]
+fn a_pin_off_the_line_of_a_cylinder() {
+    let text = format!(
+        "pub mod sample; ground {{ O: (0, 0), P: 1.975488543510437m @ 220.65445876240142deg }}
+         link boom {{ O -> Q: 1.2599191665649414m }} link tube {{ P: (0, 0), D: (0.7978586554527283m, -0.44195276498794556m) }}
+         link rod {{ Q: (0, -0.09467635303735733m), S: (0, 0), E: (-0.44195276498794556m, 0.7978586554527283m) }}
+         revolute O: ground -> boom; revolute P: ground -> tube; revolute Q: rod -> boom;
+         prismatic lift: tube.P -> rod.S along 0deg of tube; drive extension: lift; assemble Q: right(P -> O);
+         load F: force(tube.D); load H: force(rod.E); {SCENES}"
+    );
+    let loads =
+        vec![[-23.844_227_012_538_134, -24.884_737_866_372_355], [-45.271_337_230_606_534, 48.137_081_526_380_77]];
+    let family = Family { text, longest: 1.975_488_543_510_437, drives: vec![2.216_225_981_559_167], loads };
+    assert_eq!(check(std::iter::once(family), "a pin off the line of a cylinder"), 1);
+}
+
 /// A boom whose cylinder is pinned next to its own pin: legs of nearly one length, which must differ by the way between the pins and by
 /// nothing that rounding adds to either.
 #[test]

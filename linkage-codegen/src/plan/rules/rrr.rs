@@ -18,7 +18,9 @@
 //!
 //! Of legs of the same length `sum e` is `±d/2`.
 //!
-//! `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros the closure knows it better than the directions do.
+//! `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros the closure knows it better than the directions do: as
+//! `K/(2 r₁ r₂)`, or, where the vectors may not have the lengths that they should, by what brings them to unit size,
+//! `u₁ × u₂ = f₁ f₂ (v₁ × v₂) = f₁ f₂ K/2`.
 //!
 //! Where moreover a driven angle ψ opens the outer pins, `D² = (b − a)² + 4ab sin²(ψ/2)`, all areas are divided when the linkage is
 //! compiled, so that the root is `sin μ` at once: by `2 r₁ r₂`, or at a fold so that `cos(ψ/2)` or `sin(ψ/2)` is left of the one margin and
