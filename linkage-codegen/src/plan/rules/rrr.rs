@@ -18,9 +18,9 @@
 //!
 //! Of legs of the same length `sum e` is `±d/2`.
 //!
-//! `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros the closure knows it better than the directions do: as
-//! `K/(2 r₁ r₂)`, or, where the vectors may not have the lengths that they should, by what brings them to unit size,
-//! `u₁ × u₂ = f₁ f₂ (v₁ × v₂) = f₁ f₂ K/2`.
+//! `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros the closure knows it better than the directions do, as
+//! `K/(2 r₁ r₂)`. Where one link is much shorter than the other one, or may be as lengths are given at run time, its direction has the rounding
+//! of the longer one's square over its own length; forces are in balance along the directions as they are, so there it is their product.
 //!
 //! Where moreover a driven angle ψ opens the outer pins, `D² = (b − a)² + 4ab sin²(ψ/2)`, all areas are divided when the linkage is
 //! compiled, so that the root is `sin μ` at once: by `2 r₁ r₂`, or at a fold so that `cos(ψ/2)` or `sin(ψ/2)` is left of the one margin and
@@ -345,11 +345,10 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let name = dyad.joint_name(dyad.inner);
     let (mut directions, mut closed) = ([closing.d; 2], Vec::new());
     let pointing = match closing.directions {
-        Some(known) => known.map(|unit| Pointing { unit, factor: closing.d2.graph().one(), rough: None }),
+        Some(known) => known.map(|unit| Pointing { unit, rough: None }),
         None => arms(dyad, &closing),
     };
-    let factors = pointing.each_ref().map(|pointing| pointing.factor);
-    for ((found, leg), Pointing { unit: direction, rough, .. }) in directions.iter_mut().zip(&dyad.legs).zip(pointing) {
+    for ((found, leg), Pointing { unit: direction, rough }) in directions.iter_mut().zip(&dyad.legs).zip(pointing) {
         let link = dyad.link_name(leg);
         let meaning = format!("direction of {link} from {} to {name}", dyad.joint_name(leg.outer));
         let direction = direction.named_direction(&link, &meaning);
@@ -368,11 +367,9 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     } else if !closing.unlike {
         name_sine(dyad, closing.k / (2 * (r1 * r2)), &format!("{}/{}", closing.root(name), dyad.area_name()))
     } else {
-        // The direction of a much shorter link carries the rounding of the longer one, and so does the length of the vector along it.
-        // Forces balance along the directions as they are: v₁ × v₂ = K/2, by what brings both to unit size.
-        let half = closing.k.graph().constant(&Number::ratio(1, 2));
-        let [f1, f2] = dyad.legs.each_ref().map(|leg| format!("unit_{}", dyad.link_name(leg)));
-        name_sine(dyad, closing.k * (half * factors[0] * factors[1]), &format!("{} {f1} {f2}/2", closing.root(name)))
+        // The direction of a much shorter link carries the rounding of the longer one, and forces balance along the directions as they
+        // are.
+        name_sine(dyad, u1.cross(u2), "product of the directions")
     };
     if let [u1, u2] = closed[..] {
         let legs = [u1.scaled(r1), u2.scaled(-r2)];
@@ -477,8 +474,7 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
         let [own, other] = [lengths[index], lengths[1 - index]];
         let alike = lengths_are_alike(graph.scalar(), own, other);
         let found = if alike && dyad.is_composed(leg) {
-            let factor = graph.one() / own;
-            Pointing { unit: vectors[index].scaled(factor), factor, rough: None }
+            Pointing { unit: vectors[index].scaled(graph.one() / own), rough: None }
         } else {
             to_unit(vectors[index], [own, other], (&link, &length), index == 0)
         };
@@ -489,8 +485,6 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
 /// The direction of a leg.
 struct Pointing<'m> {
     unit: Vector<'m>,
-    /// What brings the vector along the leg to unit size.
-    factor: Expr<'m>,
     /// The same before it is brought to unit size, if its size has a few roundings only.
     rough: Option<Vector<'m>>,
 }
@@ -507,15 +501,16 @@ fn to_unit<'m>(
     is_first: bool,
 ) -> Pointing<'m> {
     let graph = arm.graph();
-    let called = |factor: Expr<'m>, equation: String| factor.named(format!("unit_{link}"), equation);
+    let by = |factor: Expr<'m>, equation: String| arm.scaled(factor.named(format!("unit_{link}"), equation));
     if !lengths_are_alike(graph.scalar(), length, other) {
-        let factor = called(graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}"));
-        return Pointing { unit: arm.scaled(factor), factor, rough: None };
+        return Pointing {
+            unit: by(graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}")),
+            rough: None,
+        };
     }
     let half = |n: i64| graph.constant(&Number::ratio(n, 2));
     let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
-    let factor = called(factor, format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}"));
-    let unit = arm.scaled(factor);
+    let unit = by(factor, format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}"));
     let serves = ratio_is_at_most(2, length, other);
     let along = |of: Vector<'m>, arm: Option<Vector<'m>>| {
         let part = |of: Expr<'m>, arm: Option<Expr<'m>>| of.along(arm, length, name);
@@ -525,7 +520,7 @@ fn to_unit<'m>(
         let rough = arm.scaled(graph.one() / length);
         along(rough.named_direction(&format!("rough_{link}"), &format!("arm_{link}/{name}")), Some(arm))
     });
-    Pointing { unit: along(unit, (serves && !is_first).then_some(arm)), factor, rough }
+    Pointing { unit: along(unit, (serves && !is_first).then_some(arm)), rough }
 }
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {
