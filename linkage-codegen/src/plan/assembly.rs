@@ -223,6 +223,8 @@ pub struct Assembly<'m> {
     pub dyads: Vec<DyadPivot<'m>>,
     /// How groups were closed, in their order.
     pub closed: Vec<Closed<'m>>,
+    /// Directions beside those of the links: of driven legs against what their first links carry.
+    pub leans: Vec<Vector<'m>>,
     /// The groups of motion.
     pub topology: &'m Topology,
     /// The links that are placed by iteration, from a start.
@@ -239,6 +241,7 @@ impl<'m> Assembly<'m> {
             pivots: Pivots::default(),
             dyads: Vec::new(),
             closed: Vec::new(),
+            leans: Vec::new(),
             topology,
             started: BTreeSet::new(),
             used: BTreeSet::new(),

@@ -45,6 +45,7 @@ pub(super) fn add(assembly: &Assembly<'_>, scenes: &mut [Output], kept: &[Kept])
             rounding.is_direction(Vector::new(graph.expr(x), graph.expr(y)));
         }
     }
+    assembly.leans.iter().for_each(|lean| rounding.is_direction(*lean));
     for closed in &assembly.closed {
         match closed {
             Closed::Loop(closed) => state(&mut rounding, closed, kept, assembly.closed.len() > 1),

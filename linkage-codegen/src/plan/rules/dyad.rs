@@ -416,6 +416,7 @@ impl<'a> Dyad<'a> {
         let turned = if arm.lean.y.is_zero() {
             turned
         } else {
+            assembly.leans.push(arm.lean);
             let rough = turned.named_direction(&format!("rough_{first}"), "turned back by the arm's direction");
             towards_unit(rough, &first.text)
         };

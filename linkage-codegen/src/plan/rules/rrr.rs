@@ -89,6 +89,14 @@ impl<'a> Dyad<'a> {
         self.legs.each_ref().map(|leg| self.length(leg))
     }
 
+    /// Whether one leg may be much longer than the other one: by their constants, or as parameters give them. Of a driven leg the length has a
+    /// rounding of its own, which is in its vector too.
+    fn may_be_unlike(&self) -> bool {
+        let [r1, r2] = self.lengths();
+        let driven = self.legs.iter().any(|leg| !leg.is_constant(self.model));
+        !driven && (constant_lengths(r1, r2).is_none() || !ratio_is_at_most(8, r1, r2))
+    }
+
     fn other(&self, leg: &Leg) -> &Leg {
         &self.legs[usize::from(leg.link() == self.legs[0].link())]
     }
@@ -592,7 +600,7 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let root =
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
     let significant = vec![(p, p_rounding), (q, q_rounding)];
-    let (cosine, unlike) = (law_of_cosines(dyad, d2), may_be_unlike(r1, r2));
+    let (cosine, unlike) = (law_of_cosines(dyad, d2), dyad.may_be_unlike());
     Closing { d, d2, sums: None, k: sign.of(root), of_angle: None, cosine, directions: None, unlike, sign, significant }
 }
 
@@ -729,11 +737,6 @@ fn lengths_are_alike(scalar: Scalar, a: Expr<'_>, b: Expr<'_>) -> bool {
     // ratio² ε ≤ 0.64
     let limit = Number::ratio(64, 100).mul(&smaller).mul(&smaller);
     larger.mul(&larger).mul(&scalar.epsilon()).compare(&limit).is_le()
-}
-
-/// Whether one of two lengths is much larger than the other one, or they are not known before run time.
-fn may_be_unlike(r1: Expr<'_>, r2: Expr<'_>) -> bool {
-    constant_lengths(r1, r2).is_none() || !ratio_is_at_most(8, r1, r2)
 }
 
 /// Whether the ratio of two lengths is at most this, or is not known.

@@ -7,7 +7,7 @@
 //!
 //! Both constants are exact, and zero where the dyad folds with its driver: near such a fold the square alone is left, and nothing is lost.
 
-use super::{Closing, OfAngle, by_length, gap, lead_by_arms, may_be_unlike, name_sine};
+use super::{Closing, OfAngle, by_length, gap, lead_by_arms, name_sine};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Symbol, Vector};
@@ -57,7 +57,6 @@ pub(super) fn by_half_angle<'m>(
     let margins = opening.assembled(margins);
     let (root, equation) = opening.root(margins, smooth);
     let sign = side_sign(dyad, (closure, side), arms, folds)?;
-    let [r1, r2] = dyad.lengths();
     let (k, of_angle, cosine) = if opening.gives_sine {
         let equation = format!("{}{equation}", sign.text());
         (name_sine(dyad, sign.of(root), &equation), Some(opening.of_angle()), opening.cosine())
@@ -72,7 +71,7 @@ pub(super) fn by_half_angle<'m>(
         of_angle,
         cosine,
         directions: opening.of_parallelogram(sign, swapped).filter(|_| smooth && folds == [true; 2]),
-        unlike: may_be_unlike(r1, r2),
+        unlike: dyad.may_be_unlike(),
         sign,
         significant: opening.significant(margins),
     })
