@@ -1,7 +1,7 @@
 //! Pivots: the quantities that a group's forces and velocities are divided by, each a named sine or cosine of the geometry.
 //!
 //! A pivot that is no larger than the rounding that could have produced it counts as zero, and dividing by it is a typed error: a
-//! dead centre. What the closure of a group knows of an angle is kept, because a cross product of rounded directions would lose it.
+//! dead centre. What the closure of a group knows of an angle is kept, because a cross product of rounded directions would lose it next to a fold.
 
 use std::collections::BTreeMap;
 

@@ -6,7 +6,7 @@ use crate::support::families::{
 };
 use crate::support::linkages::{Class, Random};
 use crate::support::measures::{Measures, measure};
-use crate::support::numbers::{Double, Single};
+use crate::support::numbers::{Double, Extended, Single};
 use crate::support::{Arguments, Number, compile, pose, scene};
 use linkage_codegen::Linkage;
 
@@ -566,4 +566,67 @@ fn a_hundred_thousand_four_bars() {
 #[ignore = "long"]
 fn a_hundred_thousand_slider_cranks() {
     assert!(check(random_slider_cranks(4, 3000, 40), "slider-cranks") > 100_000);
+}
+
+/// Four-bars that fold with their cranks, by constants of which one may be much longer than the other one, and by a length of two links
+/// that is given at run time: next to the fold the forces lose no digits to its distance.
+#[test]
+fn next_to_a_fold_whatever_the_lengths() {
+    let kite = |params: &str, leg: &str| {
+        format!(
+            "pub mod sample; {params} ground {{ A0: (0, 0), B0: 1.1m @ 30deg }} link crank {{ A0 -> A: 1.1m }}
+             link coupler {{ A -> B: {leg}, C: (0.3m, 0.2m) }} link rocker {{ B0 -> B: {leg}, D: (0.4m, 0.1m) }}"
+        )
+    };
+    let galloway = |short: &str| {
+        format!(
+            "pub mod sample; ground {{ A0: (0, 0), B0: 1.1m @ 30deg }} link crank {{ A0 -> A: {short} }}
+             link coupler {{ A -> B: {short}, C: (0.3m, 0.2m) }} link rocker {{ B0 -> B: 1.1m, D: (0.4m, 0.1m) }}"
+        )
+    };
+    let parallelogram = |short: &str, long: &str| {
+        format!(
+            "pub mod sample; ground {{ A0: (0, 0), B0: {long} @ 30deg }} link crank {{ A0 -> A: {short} }}
+             link coupler {{ A -> B: {long}, C: (0.3m, 0.2m) }} link rocker {{ B0 -> B: {short}, D: (0.4m, 0.1m) }}"
+        )
+    };
+    let cases = [
+        kite("", "0.7m"),
+        kite("param r: length = 0.7m;", "r"),
+        galloway("0.4m"),
+        galloway("0.05m"),
+        parallelogram("0.25m", "1m"),
+        parallelogram("0.0625m", "2m"),
+    ];
+    for case in cases {
+        let text = format!(
+            "{case} revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker;
+             revolute B0: ground -> rocker; drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0);
+             load F: force(coupler.C); load H: force(rocker.D); {SCENES}"
+        );
+        let linkage = compile(&text);
+        let params = linkage.model.params.iter().map(|param| match param.default {
+            Some(default) => linkage.model.graph.constant_value(default).expect("a number").to_f64(),
+            None => unreachable!("each has a default"),
+        });
+        let params: Vec<f64> = params.collect();
+        for step in 2..13 {
+            let drives = vec![30f64.to_radians() + 10f64.powi(-step)];
+            let arguments = Arguments {
+                drives,
+                params: params.clone(),
+                loads: vec![[5.0, 39.0], [47.0, -16.0]],
+                ..Arguments::default()
+            };
+            let found =
+                scene::<Double>(&linkage, "all", &arguments).unwrap_or_else(|fault| panic!("{fault:?}\n{text}"));
+            let exact =
+                scene::<Extended>(&linkage, "all", &arguments).unwrap_or_else(|fault| panic!("{fault:?}\n{text}"));
+            let size = exact.values().fold(0.0, |size: f64, value| size.max(value.to_f64().abs()));
+            for (name, value) in &exact {
+                let error = (found[name].to_f64() - value.to_f64()).abs() / size;
+                assert!(error < 5e-15, "{name}: {error:e} at 1e-{step} from the fold\n{text}");
+            }
+        }
+    }
 }

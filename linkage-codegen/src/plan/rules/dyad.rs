@@ -121,7 +121,7 @@ struct Arm<'m> {
     along: Vector<'m>,
     /// Its size.
     size: Expr<'m>,
-    /// Its direction: its components over its size.
+    /// Its direction: its components over its size, brought to unit size once more.
     lean: Vector<'m>,
 }
 
@@ -772,8 +772,8 @@ impl<'a> Dyad<'a> {
         let way = self.way_within(leg, leg.link(), axis);
         let name = self.link_name(leg);
         let (from, to) = (self.joint_name(leg.outer), self.joint_name(self.inner));
-        let meaning =
-            format!("from {from} to {to}, along and across what {} carries", self.model.link(leg.link()).name);
+        let first = &self.model.link(leg.link()).name;
+        let meaning = format!("from {from} to {to}, along and across what {first} carries");
         let along = way.vector().named(&format!("arm_{name}"), &meaning);
         let on_line = along.y.is_zero();
         let size = if on_line { along.x.abs() } else { along.size() };
@@ -794,9 +794,12 @@ impl<'a> Dyad<'a> {
             // is taken out again.
             let (rough, parts) =
                 (format!("rough_lean_{name}"), Vector::new((along.x / size).divided(), (along.y / size).divided()));
-            let parts = parts.named_direction(&rough, &format!("arm_{name}/length_{name}"));
+            let parts = parts.named_direction(
+                &rough,
+                &format!("from {from} to {to} over length_{name}, along and across what {first} carries"),
+            );
             let refined = towards_unit(parts, &format!("lean_{name}"));
-            refined.named_direction(&format!("lean_{name}"), "direction of that arm, of unit size")
+            refined.named_direction(&format!("lean_{name}"), "the same, of unit size")
         };
         Arm { axis, along, size, lean }
     }

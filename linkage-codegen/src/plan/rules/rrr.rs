@@ -19,8 +19,8 @@
 //! Of legs of the same length `sum e` is `±d/2`.
 //!
 //! `sin μ = u₁ × u₂` is the pivot of velocities and forces, and near its zeros the closure knows it better than the directions do, as
-//! `K/(2 r₁ r₂)`. Where one link is much shorter than the other one, or may be as lengths are given at run time, its direction has the rounding
-//! of the longer one's square over its own length; forces are in balance along the directions as they are, so there it is their product.
+//! `K/(2 r₁ r₂)`. Where one link is much shorter than the other one, or may be as lengths are given at run time, it is found of the directions
+//! as they are, or of the vectors along the links.
 //!
 //! Where moreover a driven angle ψ opens the outer pins, `D² = (b − a)² + 4ab sin²(ψ/2)`, all areas are divided when the linkage is
 //! compiled, so that the root is `sin μ` at once: by `2 r₁ r₂`, or at a fold so that `cos(ψ/2)` or `sin(ψ/2)` is left of the one margin and
@@ -94,7 +94,8 @@ impl<'a> Dyad<'a> {
     fn may_be_unlike(&self) -> bool {
         let [r1, r2] = self.lengths();
         let driven = self.legs.iter().any(|leg| !leg.is_constant(self.model));
-        !driven && (constant_lengths(r1, r2).is_none() || !ratio_is_at_most(8, r1, r2))
+        let same = (r1 - r2).is_zero();
+        !driven && !same && (constant_lengths(r1, r2).is_none() || !ratio_is_at_most(8, r1, r2))
     }
 
     fn other(&self, leg: &Leg) -> &Leg {
@@ -273,12 +274,25 @@ struct Closing<'m> {
     cosine: Option<Expr<'m>>,
     /// The directions of the legs, where they are known without it: in a parallelogram.
     directions: Option<[Vector<'m>; 2]>,
-    /// Whether one leg is so much shorter than the other one that its direction has the rounding of that.
-    unlike: bool,
+    /// What sin μ is found of, if K is not the sine.
+    sine: SineOf,
     /// The sign of that root.
     sign: Sign<'m>,
     /// What must exceed what for `sin μ` to be more than rounding.
     significant: Vec<(Expr<'m>, Expr<'m>)>,
+}
+
+/// What sin μ is found of. The direction of a much shorter leg has the rounding of the longer one's square over its own length, and forces
+/// balance along the directions as they are.
+#[derive(Clone, Copy)]
+enum SineOf {
+    /// Of legs of the same order: `K/(2 r₁ r₂)`.
+    Lengths,
+    /// Where one may be much longer: the product of the directions.
+    Directions,
+    /// Where these fold with their driver, so that K keeps all digits next to the fold: the product of the vectors, `v₁ × v₂ = K/2`, by
+    /// what brings both to unit size.
+    Vectors,
 }
 
 /// What constant lengths give beside sin μ, at no more operations than K takes.
@@ -353,10 +367,11 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let name = dyad.joint_name(dyad.inner);
     let (mut directions, mut closed) = ([closing.d; 2], Vec::new());
     let pointing = match closing.directions {
-        Some(known) => known.map(|unit| Pointing { unit, rough: None }),
+        Some(known) => known.map(|unit| Pointing { unit, factor: closing.d2.graph().one(), rough: None }),
         None => arms(dyad, &closing),
     };
-    for ((found, leg), Pointing { unit: direction, rough }) in directions.iter_mut().zip(&dyad.legs).zip(pointing) {
+    let factors = pointing.each_ref().map(|pointing| pointing.factor);
+    for ((found, leg), Pointing { unit: direction, rough, .. }) in directions.iter_mut().zip(&dyad.legs).zip(pointing) {
         let link = dyad.link_name(leg);
         let meaning = format!("direction of {link} from {} to {name}", dyad.joint_name(leg.outer));
         let direction = direction.named_direction(&link, &meaning);
@@ -370,14 +385,18 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     }
     assembly.placement.connect(dyad.inner);
     let [u1, u2] = directions;
-    let sine = if closing.of_angle.is_some() {
-        closing.k
-    } else if !closing.unlike {
-        name_sine(dyad, closing.k / (2 * (r1 * r2)), &format!("{}/{}", closing.root(name), dyad.area_name()))
-    } else {
-        // The direction of a much shorter link carries the rounding of the longer one, and forces balance along the directions as they
-        // are.
-        name_sine(dyad, u1.cross(u2), "product of the directions")
+    let [link, other] = [first, second].map(|leg| dyad.link_name(leg));
+    let sine = match closing.sine {
+        _ if closing.of_angle.is_some() => closing.k,
+        SineOf::Lengths => {
+            name_sine(dyad, closing.k / (2 * (r1 * r2)), &format!("{}/{}", closing.root(name), dyad.area_name()))
+        }
+        SineOf::Directions => name_sine(dyad, u1.cross(u2), &format!("{link} × {other}")),
+        SineOf::Vectors => {
+            let half = closing.k.graph().constant(&Number::ratio(1, 2));
+            let equation = format!("{} unit_{link} unit_{other}/2", closing.root(name));
+            name_sine(dyad, closing.k * (half * factors[0] * factors[1]), &equation)
+        }
     };
     if let [u1, u2] = closed[..] {
         let legs = [u1.scaled(r1), u2.scaled(-r2)];
@@ -482,7 +501,8 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
         let [own, other] = [lengths[index], lengths[1 - index]];
         let alike = lengths_are_alike(graph.scalar(), own, other);
         let found = if alike && dyad.is_composed(leg) {
-            Pointing { unit: vectors[index].scaled(graph.one() / own), rough: None }
+            let factor = graph.one() / own;
+            Pointing { unit: vectors[index].scaled(factor), factor, rough: None }
         } else {
             to_unit(vectors[index], [own, other], (&link, &length), index == 0)
         };
@@ -493,6 +513,8 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
 /// The direction of a leg.
 struct Pointing<'m> {
     unit: Vector<'m>,
+    /// What brings the vector along the leg to unit size.
+    factor: Expr<'m>,
     /// The same before it is brought to unit size, if its size has a few roundings only.
     rough: Option<Vector<'m>>,
 }
@@ -509,16 +531,15 @@ fn to_unit<'m>(
     is_first: bool,
 ) -> Pointing<'m> {
     let graph = arm.graph();
-    let by = |factor: Expr<'m>, equation: String| arm.scaled(factor.named(format!("unit_{link}"), equation));
+    let called = |factor: Expr<'m>, equation: String| factor.named(format!("unit_{link}"), equation);
     if !lengths_are_alike(graph.scalar(), length, other) {
-        return Pointing {
-            unit: by(graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}")),
-            rough: None,
-        };
+        let factor = called(graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}"));
+        return Pointing { unit: arm.scaled(factor), factor, rough: None };
     }
     let half = |n: i64| graph.constant(&Number::ratio(n, 2));
     let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
-    let unit = by(factor, format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}"));
+    let factor = called(factor, format!("(3 − v·v/{name}²)/(2 {name}), v = arm_{link}"));
+    let unit = arm.scaled(factor);
     let serves = ratio_is_at_most(2, length, other);
     let along = |of: Vector<'m>, arm: Option<Vector<'m>>| {
         let part = |of: Expr<'m>, arm: Option<Expr<'m>>| of.along(arm, length, name);
@@ -528,7 +549,7 @@ fn to_unit<'m>(
         let rough = arm.scaled(graph.one() / length);
         along(rough.named_direction(&format!("rough_{link}"), &format!("arm_{link}/{name}")), Some(arm))
     });
-    Pointing { unit: along(unit, (serves && !is_first).then_some(arm)), rough }
+    Pointing { unit: along(unit, (serves && !is_first).then_some(arm)), factor, rough }
 }
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {
@@ -600,8 +621,9 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let root =
         (p.non_negative() * q.non_negative()).sqrt().named(format!("K_{joint}"), format!("√(p_{joint} q_{joint})"));
     let significant = vec![(p, p_rounding), (q, q_rounding)];
-    let (cosine, unlike) = (law_of_cosines(dyad, d2), dyad.may_be_unlike());
-    Closing { d, d2, sums: None, k: sign.of(root), of_angle: None, cosine, directions: None, unlike, sign, significant }
+    let cosine = law_of_cosines(dyad, d2);
+    let sine = if dyad.may_be_unlike() { SineOf::Directions } else { SineOf::Lengths };
+    Closing { d, d2, sums: None, k: sign.of(root), of_angle: None, cosine, directions: None, sine, sign, significant }
 }
 
 /// cos μ from the distance of the outer pins, which is known before the directions are. D²/(2 r₁ r₂) is at most 2¼ if no leg is more than twice
@@ -702,7 +724,7 @@ fn by_driven_length<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>, driven: 
         [square + x.squared(), x.squared() - constant]
     };
     // The driven leg is at least as long as the two constants differ by.
-    let unlike = (least - 8 * other).sign() == Some(1);
+    let sine = if (least - 8 * other).sign() == Some(1) { SineOf::Directions } else { SineOf::Lengths };
     Closing {
         d,
         d2,
@@ -711,7 +733,7 @@ fn by_driven_length<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>, driven: 
         of_angle: None,
         cosine: None,
         directions: None,
-        unlike,
+        sine,
         sign,
         significant,
     }

@@ -7,7 +7,7 @@
 //!
 //! Both constants are exact, and zero where the dyad folds with its driver: near such a fold the square alone is left, and nothing is lost.
 
-use super::{Closing, OfAngle, by_length, gap, lead_by_arms, name_sine};
+use super::{Closing, OfAngle, SineOf, by_length, gap, lead_by_arms, name_sine};
 use crate::diagnostics::Diagnostic;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Symbol, Vector};
@@ -71,7 +71,11 @@ pub(super) fn by_half_angle<'m>(
         of_angle,
         cosine,
         directions: opening.of_parallelogram(sign, swapped).filter(|_| smooth && folds == [true; 2]),
-        unlike: dyad.may_be_unlike(),
+        sine: match (dyad.may_be_unlike(), folds) {
+            (false, _) => SineOf::Lengths,
+            (true, [false, false]) => SineOf::Directions,
+            (true, _) => SineOf::Vectors,
+        },
         sign,
         significant: opening.significant(margins),
     })
