@@ -312,7 +312,7 @@ impl Graph {
         if passes {
             return value;
         }
-        let guard = self.intern_guard(guard.clone());
+        let guard = self.asked_before(guard).unwrap_or_else(|| self.intern_guard(guard.clone()));
         self.intern(Op::Checked { value: value.id(), guard })
     }
 

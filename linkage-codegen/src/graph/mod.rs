@@ -848,6 +848,14 @@ impl Graph {
         id
     }
 
+    /// What a parameter must be is asked once: for the first of several links that have it as their length.
+    fn asked_before(&self, guard: &Guard) -> Option<GuardId> {
+        let of_parameter = |guard: &Guard| matches!(guard.failure, Failure::Parameter { .. });
+        let same = |other: &Guard| of_parameter(other) && other.condition == guard.condition;
+        let found = self.arena.borrow().guards.iter().position(same).filter(|_| of_parameter(guard));
+        found.map(|place| GuardId(index(place)))
+    }
+
     fn intern_guard(&self, guard: Guard) -> GuardId {
         let mut arena = self.arena.borrow_mut();
         if let Some(id) = arena.guard_index.get(&guard) {

@@ -578,32 +578,39 @@ fn next_to_a_fold_whatever_the_lengths() {
              link coupler {{ A -> B: {leg}, C: (0.3m, 0.2m) }} link rocker {{ B0 -> B: {leg}, D: (0.4m, 0.1m) }}"
         )
     };
-    let galloway = |short: &str| {
+    let galloway = |params: &str, short: &str| {
         format!(
-            "pub mod sample; ground {{ A0: (0, 0), B0: 1.1m @ 30deg }} link crank {{ A0 -> A: {short} }}
+            "pub mod sample; {params} ground {{ A0: (0, 0), B0: 1.1m @ 30deg }} link crank {{ A0 -> A: {short} }}
              link coupler {{ A -> B: {short}, C: (0.3m, 0.2m) }} link rocker {{ B0 -> B: 1.1m, D: (0.4m, 0.1m) }}"
         )
     };
-    let parallelogram = |short: &str, long: &str| {
+    let parallelogram = |params: &str, short: &str, long: &str| {
         format!(
-            "pub mod sample; ground {{ A0: (0, 0), B0: {long} @ 30deg }} link crank {{ A0 -> A: {short} }}
+            "pub mod sample; {params} ground {{ A0: (0, 0), B0: {long} @ 30deg }} link crank {{ A0 -> A: {short} }}
              link coupler {{ A -> B: {long}, C: (0.3m, 0.2m) }} link rocker {{ B0 -> B: {short}, D: (0.4m, 0.1m) }}"
         )
     };
     let cases = [
         kite("", "0.7m"),
         kite("param r: length = 0.7m;", "r"),
-        galloway("0.4m"),
-        galloway("0.05m"),
-        parallelogram("0.25m", "1m"),
-        parallelogram("0.0625m", "2m"),
+        galloway("", "0.4m"),
+        galloway("", "0.05m"),
+        galloway("param r: length = 0.4m;", "r"),
+        galloway("param r: length = 0.05m;", "r"),
+        parallelogram("", "0.25m", "1m"),
+        parallelogram("", "0.0625m", "2m"),
+        parallelogram("param r: length = 0.25m;", "r", "1m"),
+        parallelogram("param r: length = 0.0625m;", "r", "2m"),
     ];
-    for case in cases {
+    for (case, smooth) in cases.iter().flat_map(|case| ["", " smooth at 90deg"].map(|smooth| (case, smooth))) {
         let text = format!(
             "{case} revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker;
-             revolute B0: ground -> rocker; drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0);
+             revolute B0: ground -> rocker; drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0){smooth};
              load F: force(coupler.C); load H: force(rocker.D); {SCENES}"
         );
+        let drives = (0..60).map(|step| 0.1 * f64::from(step)).collect();
+        let family = Family { text: text.clone(), longest: 2.0, drives, loads: vec![[5.0, 39.0], [47.0, -16.0]] };
+        assert!(check(std::iter::once(family), &text) > 20);
         let linkage = compile(&text);
         let params = linkage.model.params.iter().map(|param| match param.default {
             Some(default) => linkage.model.graph.constant_value(default).expect("a number").to_f64(),

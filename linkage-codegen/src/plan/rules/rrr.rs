@@ -367,7 +367,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     let name = dyad.joint_name(dyad.inner);
     let (mut directions, mut closed) = ([closing.d; 2], Vec::new());
     let pointing = match closing.directions {
-        Some(known) => known.map(|unit| Pointing { unit, factor: closing.d2.graph().one(), rough: None }),
+        Some(known) => known.map(|unit| Pointing { unit, factor: None, rough: None }),
         None => arms(dyad, &closing),
     };
     let factors = pointing.each_ref().map(|pointing| pointing.factor);
@@ -386,17 +386,15 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     assembly.placement.connect(dyad.inner);
     let [u1, u2] = directions;
     let [link, other] = [first, second].map(|leg| dyad.link_name(leg));
-    let sine = match closing.sine {
+    let sine = match (closing.sine, factors) {
         _ if closing.of_angle.is_some() => closing.k,
-        SineOf::Lengths => {
-            name_sine(dyad, closing.k / (2 * (r1 * r2)), &format!("{}/{}", closing.root(name), dyad.area_name()))
-        }
-        SineOf::Directions => name_sine(dyad, u1.cross(u2), &format!("{link} × {other}")),
-        SineOf::Vectors => {
+        (SineOf::Vectors, [Some(f1), Some(f2)]) => {
             let half = closing.k.graph().constant(&Number::ratio(1, 2));
             let equation = format!("{} unit_{link} unit_{other}/2", closing.root(name));
-            name_sine(dyad, closing.k * (half * factors[0] * factors[1]), &equation)
+            name_sine(dyad, closing.k * (half * f1 * f2), &equation)
         }
+        (SineOf::Directions, _) => name_sine(dyad, u1.cross(u2), &format!("{link} × {other}")),
+        _ => name_sine(dyad, closing.k / (2 * (r1 * r2)), &format!("{}/{}", closing.root(name), dyad.area_name())),
     };
     if let [u1, u2] = closed[..] {
         let legs = [u1.scaled(r1), u2.scaled(-r2)];
@@ -502,7 +500,7 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
         let alike = lengths_are_alike(graph.scalar(), own, other);
         let found = if alike && dyad.is_composed(leg) {
             let factor = graph.one() / own;
-            Pointing { unit: vectors[index].scaled(factor), factor, rough: None }
+            Pointing { unit: vectors[index].scaled(factor), factor: Some(factor), rough: None }
         } else {
             to_unit(vectors[index], [own, other], (&link, &length), index == 0)
         };
@@ -513,8 +511,8 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
 /// The direction of a leg.
 struct Pointing<'m> {
     unit: Vector<'m>,
-    /// What brings the vector along the leg to unit size.
-    factor: Expr<'m>,
+    /// What brings the vector along the leg to unit size, if it is found of that.
+    factor: Option<Expr<'m>>,
     /// The same before it is brought to unit size, if its size has a few roundings only.
     rough: Option<Vector<'m>>,
 }
@@ -534,7 +532,7 @@ fn to_unit<'m>(
     let called = |factor: Expr<'m>, equation: String| factor.named(format!("unit_{link}"), equation);
     if !lengths_are_alike(graph.scalar(), length, other) {
         let factor = called(graph.one() / arm.squared().sqrt(), format!("1/|v|, v = arm_{link}"));
-        return Pointing { unit: arm.scaled(factor), factor, rough: None };
+        return Pointing { unit: arm.scaled(factor), factor: Some(factor), rough: None };
     }
     let half = |n: i64| graph.constant(&Number::ratio(n, 2));
     let factor = half(3) / length - (half(1) / (length * length * length)) * arm.squared();
@@ -549,7 +547,7 @@ fn to_unit<'m>(
         let rough = arm.scaled(graph.one() / length);
         along(rough.named_direction(&format!("rough_{link}"), &format!("arm_{link}/{name}")), Some(arm))
     });
-    Pointing { unit: along(unit, (serves && !is_first).then_some(arm)), factor, rough }
+    Pointing { unit: along(unit, (serves && !is_first).then_some(arm)), factor: Some(factor), rough }
 }
 
 fn check_closure(dyad: &Dyad<'_>, closure: &Closure, of: &str) -> RuleResult {

@@ -63,6 +63,7 @@ pub(super) fn by_half_angle<'m>(
     } else {
         (sign.of(root.named(format!("K_{joint}"), equation)), None, None)
     };
+    let directions = opening.of_parallelogram(sign, swapped).filter(|_| smooth && folds == [true; 2]);
     Ok(Closing {
         d: opening.d,
         d2: opening.d2,
@@ -70,12 +71,13 @@ pub(super) fn by_half_angle<'m>(
         k,
         of_angle,
         cosine,
-        directions: opening.of_parallelogram(sign, swapped).filter(|_| smooth && folds == [true; 2]),
-        sine: match (dyad.may_be_unlike(), folds) {
+        // Sides of a parallelogram have the directions of the arms, whatever their lengths.
+        sine: match (dyad.may_be_unlike() && directions.is_none(), folds) {
             (false, _) => SineOf::Lengths,
             (true, [false, false]) => SineOf::Directions,
             (true, _) => SineOf::Vectors,
         },
+        directions,
         sign,
         significant: opening.significant(margins),
     })
@@ -115,7 +117,7 @@ impl<'a, 'm> Opening<'a, 'm> {
         let [r1, r2] = dyad.lengths();
         let least = fold_margins(arms, r1, r2);
         let span = 4 * (arms.a * arms.b);
-        let p_by_half = (4 * least[0] + (r1 + r2).squared()).sign() == Some(1);
+        let p_by_half = least[0].is_zero() || (4 * least[0] + (r1 + r2).squared()).sign() == Some(1);
         let gives_sine = lead_by_arms(r1, r2) && p_by_half && least[0].value().is_some();
         let (area, divided) =
             if gives_sine { (2 * (r1 * r2), format!("/{}", dyad.area_name())) } else { (graph.one(), String::new()) };
