@@ -848,12 +848,14 @@ impl Graph {
         id
     }
 
-    /// What a parameter must be is asked once: for the first of several links that have it as their length.
+    /// What a parameter must be is asked once, whatever it is used for: two links that have it as their length have one length.
     fn asked_before(&self, guard: &Guard) -> Option<GuardId> {
         let of_parameter = |guard: &Guard| matches!(guard.failure, Failure::Parameter { .. });
+        if !of_parameter(guard) {
+            return None;
+        }
         let same = |other: &Guard| of_parameter(other) && other.condition == guard.condition;
-        let found = self.arena.borrow().guards.iter().position(same).filter(|_| of_parameter(guard));
-        found.map(|place| GuardId(index(place)))
+        self.arena.borrow().guards.iter().position(same).map(|place| GuardId(index(place)))
     }
 
     fn intern_guard(&self, guard: Guard) -> GuardId {

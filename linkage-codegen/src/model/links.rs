@@ -263,8 +263,17 @@ fn by_distances(
     let across = if given.left { height } else { -height };
     let direction = Vector::new(base.x / d, base.y / d);
     let at = point(from) + Vector::new(along, across).turned_by(direction);
-    let leg = |length: Expr<'_>| (length.sign() != Some(0)).then_some(length.known_positive().id());
-    let legs = [(from, leg(r1)), (to, leg(r2))].into_iter().filter_map(|(p, l)| l.map(|l| (p, l))).collect();
+    let leg = |length: Expr<'_>, end: &Name| match length.sign() {
+        Some(0) => None,
+        Some(_) => Some(length.id()),
+        None => {
+            let requirement = format!("{body}: the distance {end} {name} must be positive");
+            let positive = length.require_above(length, model.graph.zero(), Failure::Parameter { requirement });
+            Some(positive.known_positive().id())
+        }
+    };
+    let legs = [(from, leg(r1, &given.from)), (to, leg(r2, &given.to))];
+    let legs = legs.into_iter().filter_map(|(p, l)| l.map(|l| (p, l))).collect();
     Ok(((at.x.id(), at.y.id()), legs))
 }
 

@@ -47,3 +47,26 @@ fn parameters_are_refused_where_constants_are() {
         assert!(requirement.contains(what), "{requirement}");
     }
 }
+
+/// A distance that closes a triangle is a length too, and one parameter is one length, in whatever order the links are declared.
+#[test]
+fn a_length_that_is_a_distance_elsewhere_is_refused_where_it_is_negative() {
+    let crank = "link crank { A0 -> A: r }";
+    let coupler = "link coupler { A -> B: 1m, C: left(A -> B, r, 0.7m) }";
+    for links in [[crank, coupler].concat(), [coupler, crank].concat()] {
+        let linkage = compile(&format!(
+            "mod sample; param r: length = 0.5m; ground {{ A0: (0, 0), B0: (1m, 0) }} {links} link rocker {{ B0 -> B: r }}
+             revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+             drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0) smooth at 60deg; load F: force(coupler.C);
+             scene all: equilibrium;"
+        ));
+        let prepared = |r: f64| {
+            let arguments = Arguments { params: vec![r], ..Arguments::default() };
+            checked_prepared::<Double>(&linkage, &arguments).map(|_| ())
+        };
+        assert_eq!(prepared(0.5), Ok(()));
+        let Err(Fault::Failed(Failure::Parameter { requirement })) = prepared(-0.7) else { panic!("{links}") };
+        assert!(requirement.contains("must be positive"), "{requirement}");
+        assert!(prepared(0.0).is_err());
+    }
+}

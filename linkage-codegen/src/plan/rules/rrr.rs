@@ -89,7 +89,7 @@ impl<'a> Dyad<'a> {
         self.legs.each_ref().map(|leg| self.length(leg))
     }
 
-    /// Whether one leg may be much longer than the other one: by their constants, or as parameters give them. Of a driven leg the length has a
+    /// Whether one leg may be much longer than the other one: by their constants, or as parameters give them, if not the same to both. Of a driven leg the length has a
     /// rounding of its own, which is in its vector too.
     fn may_be_unlike(&self) -> bool {
         let [r1, r2] = self.lengths();
@@ -286,7 +286,7 @@ struct Closing<'m> {
 /// balance along the directions as they are.
 #[derive(Clone, Copy)]
 enum SineOf {
-    /// Of legs of the same order: `K/(2 r₁ r₂)`.
+    /// Of legs of the same order, and of sides of a parallelogram: `K/(2 r₁ r₂)`.
     Lengths,
     /// Where one may be much longer: the product of the directions.
     Directions,
@@ -393,8 +393,10 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
             let equation = format!("{} unit_{link} unit_{other}/2", closing.root(name));
             name_sine(dyad, closing.k * (half * f1 * f2), &equation)
         }
-        (SineOf::Directions, _) => name_sine(dyad, u1.cross(u2), &format!("{link} × {other}")),
-        _ => name_sine(dyad, closing.k / (2 * (r1 * r2)), &format!("{}/{}", closing.root(name), dyad.area_name())),
+        (SineOf::Lengths, _) => {
+            name_sine(dyad, closing.k / (2 * (r1 * r2)), &format!("{}/{}", closing.root(name), dyad.area_name()))
+        }
+        _ => name_sine(dyad, u1.cross(u2), &format!("{link} × {other}")),
     };
     if let [u1, u2] = closed[..] {
         let legs = [u1.scaled(r1), u2.scaled(-r2)];
@@ -499,8 +501,7 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
         let [own, other] = [lengths[index], lengths[1 - index]];
         let alike = lengths_are_alike(graph.scalar(), own, other);
         let found = if alike && dyad.is_composed(leg) {
-            let factor = graph.one() / own;
-            Pointing { unit: vectors[index].scaled(factor), factor: Some(factor), rough: None }
+            Pointing { unit: vectors[index].scaled(graph.one() / own), factor: None, rough: None }
         } else {
             to_unit(vectors[index], [own, other], (&link, &length), index == 0)
         };
@@ -511,7 +512,7 @@ fn arms<'m>(dyad: &Dyad<'m>, closing: &Closing<'m>) -> [Pointing<'m>; 2] {
 /// The direction of a leg.
 struct Pointing<'m> {
     unit: Vector<'m>,
-    /// What brings the vector along the leg to unit size, if it is found of that.
+    /// What brings the vector along the leg to unit size, if that is all: not of several links, whose direction is refined.
     factor: Option<Expr<'m>>,
     /// The same before it is brought to unit size, if its size has a few roundings only.
     rough: Option<Vector<'m>>,

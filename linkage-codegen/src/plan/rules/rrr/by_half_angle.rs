@@ -282,7 +282,7 @@ impl<'a, 'm> Opening<'a, 'm> {
         let joint = self.dyad.joint_name(self.dyad.inner);
         let problem = format!("whether the dyad at `{joint}` folds is not known before its parameters are");
         Diagnostic::new(closure.smooth_place, problem)
-            .help("`smooth` is for lengths that are constants: leave it out, or give the lengths here")
+            .help("`smooth` is for folds of constants, or of a parameter that is the length of two links: leave it out, or give the lengths here")
     }
 }
 
