@@ -254,6 +254,13 @@ impl<'g> Expr<'g> {
         self.graph.checked(self, &Guard { condition, failure })
     }
 
+    /// What must be positive, as a length or a mass: where parameters give it, it is checked when they are known.
+    #[must_use]
+    pub fn required_positive(self, requirement: String) -> Self {
+        let checked = self.require_above(self, self.graph.zero(), Failure::Parameter { requirement });
+        if checked.value().is_some() { checked } else { checked.known_positive() }
+    }
+
     /// The value, checked: `compared >= limit`, or the failure.
     #[must_use]
     pub fn require_at_least(self, compared: Self, limit: Self, failure: Failure) -> Self {

@@ -390,10 +390,8 @@ impl<'m> Writing<'m> {
             self.chain.hinge_name(body),
             { self.chain.hinge_name((body + 1) % 4) }
         );
-        let checked = length.require_above(length, self.graph.zero(), Failure::Parameter { requirement });
-        let checked = if checked.value().is_some() { checked } else { checked.known_positive() };
         let [from, to] = [body, (body + 1) % 4].map(|hinge| self.chain.hinge_name(hinge));
-        self.named(checked, symbol, &format!("|{from} {to}|"))
+        self.named(length.required_positive(requirement), symbol, &format!("|{from} {to}|"))
     }
 
     /// The value, named after the loop.

@@ -194,8 +194,7 @@ fn frame_length(
             .note("the frame's x axis points from the first point to the second: with no length between them it has no direction")),
         None => {
             let requirement = format!("{body}: the length {from} -> {to} must be positive");
-            let positive = value.require_above(value, model.graph.zero(), Failure::Parameter { requirement });
-            Ok(positive.known_positive().id())
+            Ok(value.required_positive(requirement).id())
         }
     }
 }
@@ -263,17 +262,9 @@ fn by_distances(
     let across = if given.left { height } else { -height };
     let direction = Vector::new(base.x / d, base.y / d);
     let at = point(from) + Vector::new(along, across).turned_by(direction);
-    let leg = |length: Expr<'_>, end: &Name| match length.sign() {
-        Some(0) => None,
-        Some(_) => Some(length.id()),
-        None => {
-            let requirement = format!("{body}: the distance {end} {name} must be positive");
-            let positive = length.require_above(length, model.graph.zero(), Failure::Parameter { requirement });
-            Some(positive.known_positive().id())
-        }
-    };
-    let legs = [(from, leg(r1, &given.from)), (to, leg(r2, &given.to))];
-    let legs = legs.into_iter().filter_map(|(p, l)| l.map(|l| (p, l))).collect();
+    let legs = [(from, &given.from, r1), (to, &given.to, r2)].into_iter().filter(|(.., length)| !length.is_zero());
+    let requirement = |end: &Name| format!("{body}: the distance {end} {name} must be positive");
+    let legs = legs.map(|(point, end, length)| (point, length.required_positive(requirement(end)).id())).collect();
     Ok(((at.x.id(), at.y.id()), legs))
 }
 
@@ -319,7 +310,7 @@ fn mass(scope: Scope<'_>, link: LinkId, given: &ast::Mass) -> Result<Option<Mass
         Some(_) => return Err(Diagnostic::new(given.mass.place, "a mass must be positive")),
         None => {
             let requirement = format!("{}: the mass must be positive", body.name);
-            mass.require_above(mass, graph.zero(), Failure::Parameter { requirement }).known_positive()
+            mass.required_positive(requirement)
         }
     };
     let centroid = match &given.at {

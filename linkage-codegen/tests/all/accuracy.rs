@@ -1,8 +1,8 @@
 //! The accuracy bars of the closed forms, on random poses.
 
 use crate::support::families::{
-    BARS, Family, SCENES, boom, check, four_bar, length, loads, oscillating_block, planet, scotch_yoke, searched,
-    shaper, single, slider_crank, slotted_crank, slotted_yoke, tangent_mechanism,
+    BARS, Family, SCENES, boom, check, defaults, four_bar, length, loads, oscillating_block, planet, scotch_yoke,
+    searched, shaper, single, slider_crank, slotted_crank, slotted_yoke, tangent_mechanism,
 };
 use crate::support::linkages::{Class, Random};
 use crate::support::measures::{Measures, measure};
@@ -612,16 +612,11 @@ fn next_to_a_fold_whatever_the_lengths() {
         let family = Family { text: text.clone(), longest: 2.0, drives, loads: vec![[5.0, 39.0], [47.0, -16.0]] };
         assert!(check(std::iter::once(family), &text) > 20);
         let linkage = compile(&text);
-        let params = linkage.model.params.iter().map(|param| match param.default {
-            Some(default) => linkage.model.graph.constant_value(default).expect("a number").to_f64(),
-            None => unreachable!("each has a default"),
-        });
-        let params: Vec<f64> = params.collect();
         for step in 2..13 {
             let drives = vec![30f64.to_radians() + 10f64.powi(-step)];
             let arguments = Arguments {
                 drives,
-                params: params.clone(),
+                params: defaults(&linkage),
                 loads: vec![[5.0, 39.0], [47.0, -16.0]],
                 ..Arguments::default()
             };

@@ -35,11 +35,8 @@ pub(super) fn gear(scope: Scope<'_>, given: &ast::Joint, ends: [Option<End>; 2])
     // What depends on parameters is checked when they are given.
     let name = &given.name;
     let failure = |requirement: String| Failure::Parameter { requirement };
-    let [first, second] = [first, second].map(|radius| {
-        let requirement = format!("{name}: the radius of a wheel must be positive");
-        let checked = radius.require_above(radius, graph.zero(), failure(requirement));
-        if checked.value().is_some() { checked } else { checked.known_positive() }
-    });
+    let [first, second] = [first, second]
+        .map(|radius| radius.required_positive(format!("{name}: the radius of a wheel must be positive")));
     let first = if ring {
         let requirement = format!("{name}: the ring must be larger than the wheel in it");
         let checked = first.require_above(first, second, failure(requirement));

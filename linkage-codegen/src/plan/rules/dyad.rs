@@ -792,14 +792,11 @@ impl<'a> Dyad<'a> {
         } else {
             // What is resolved along the body and back has the square of this direction's size, against all loads: the rounding of the length
             // is taken out again.
-            let (rough, parts) =
-                (format!("rough_lean_{name}"), Vector::new((along.x / size).divided(), (along.y / size).divided()));
-            let parts = parts.named_direction(
-                &rough,
-                &format!("from {from} to {to} over length_{name}, along and across what {first} carries"),
-            );
-            let refined = towards_unit(parts, &format!("lean_{name}"));
-            refined.named_direction(&format!("lean_{name}"), "the same, of unit size")
+            let lean = format!("lean_{name}");
+            let meaning = format!("from {from} to {to} over length_{name}, along and across what {first} carries");
+            let rough = Vector::new((along.x / size).divided(), (along.y / size).divided());
+            let rough = rough.named_direction(&format!("rough_{lean}"), &meaning);
+            towards_unit(rough, &lean).named_direction(&lean, "the same, of unit size")
         };
         Arm { axis, along, size, lean }
     }

@@ -24,7 +24,7 @@ use super::assembly::Assembly;
 use super::balance::Balance;
 use super::velocities::Motion;
 use crate::diagnostics::Diagnostic;
-use crate::graph::{Expr, Failure};
+use crate::graph::Expr;
 use crate::model::Model;
 use crate::model::ids::{JointId, LinkId};
 use crate::topology::Group;
@@ -86,9 +86,7 @@ fn length_between(model: &Model, link: LinkId, pins: [JointId; 2]) -> Expr<'_> {
 /// The distance of two pins of a body; one that depends on parameters is checked when they are given.
 fn checked_length<'m>(model: &'m Model, length: Expr<'m>, links: &[LinkId], pins: [JointId; 2]) -> Expr<'m> {
     let [first, second] = pins.map(|pin| &model.joint(pin).name);
-    let requirement = format!("{}: its joints {first} and {second} must be apart", model.link_names(links));
-    let checked = length.require_above(length, model.graph.zero(), Failure::Parameter { requirement });
-    if checked.value().is_some() { checked } else { checked.known_positive() }
+    length.required_positive(format!("{}: its joints {first} and {second} must be apart", model.link_names(links)))
 }
 
 /// A link that is held by two pins needs a length between them.

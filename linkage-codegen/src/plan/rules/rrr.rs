@@ -89,13 +89,12 @@ impl<'a> Dyad<'a> {
         self.legs.each_ref().map(|leg| self.length(leg))
     }
 
-    /// Whether one leg may be much longer than the other one: by their constants, or as parameters give them, if not the same to both. Of a driven leg the length has a
-    /// rounding of its own, which is in its vector too.
+    /// Whether one leg may be much longer than the other one: by their constants, or as parameters give them, if not the same to both. The
+    /// length of a driven leg has a rounding of its own, which is in its vector too.
     fn may_be_unlike(&self) -> bool {
         let [r1, r2] = self.lengths();
         let driven = self.legs.iter().any(|leg| !leg.is_constant(self.model));
-        let same = (r1 - r2).is_zero();
-        !driven && !same && (constant_lengths(r1, r2).is_none() || !ratio_is_at_most(8, r1, r2))
+        !driven && !lead_by_arms(r1, r2) && !(r1 - r2).is_zero()
     }
 
     fn other(&self, leg: &Leg) -> &Leg {

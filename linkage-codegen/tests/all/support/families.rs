@@ -212,7 +212,7 @@ pub fn worst<T: Number>(family: &Family, scalar: &str, epsilon: f64) -> (Measure
 }
 
 /// The defaults of a linkage's parameters.
-fn defaults(linkage: &Linkage) -> Vec<f64> {
+pub fn defaults(linkage: &Linkage) -> Vec<f64> {
     let model = &linkage.model;
     let default = |param: &Param| model.graph.constant_value(param.default.expect("a default"));
     model.params.iter().map(|param| default(param).expect("a number").to_f64()).collect()
