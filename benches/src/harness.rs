@@ -43,6 +43,9 @@ trait Calls {
     fn results(&self) -> Vec<Vec<f64>>;
     /// The length of the table.
     fn length(&self) -> u32;
+    /// How much memory the table takes.
+    #[cfg(test)]
+    fn bytes(&self) -> usize;
 }
 
 /// The function is a pointer that the optimiser cannot see through: no competitor is inlined into the loop.
@@ -91,6 +94,11 @@ impl<C: Chained, R: Results> Calls for Table<C, R> {
     fn length(&self) -> u32 {
         u32::try_from(self.cases.len()).expect("a short table")
     }
+
+    #[cfg(test)]
+    fn bytes(&self) -> usize {
+        size_of_val(self.cases.as_slice())
+    }
 }
 
 impl Competitor {
@@ -108,6 +116,12 @@ impl Competitor {
     /// Goes through the table that often.
     pub(crate) fn sweep(&mut self, times: u32, mode: Mode) {
         self.calls.sweep(times, mode, 0);
+    }
+
+    /// How much memory its table of arguments takes.
+    #[cfg(test)]
+    pub(crate) fn bytes(&self) -> usize {
+        self.calls.bytes()
     }
 
     fn time(&mut self, sweeps: u32, mode: Mode, place: usize) -> Duration {

@@ -94,7 +94,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
         println!("{machine}; {rounds} rounds");
         return pareto::print(rounds, least, &machine, ids.first().copied());
     }
-    let extent = Extent { timed: 1024, judged: true, shuffled: has("--shuffled"), single: false };
+    let extent = Extent::judged(has("--shuffled"));
     let mode = if has("--chained") { Mode::Chained } else { Mode::Independent };
     println!(
         "{}; {rounds} rounds; {} poses {}, {}",

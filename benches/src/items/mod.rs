@@ -268,6 +268,14 @@ pub(crate) struct Extent {
     pub(crate) single: bool,
 }
 
+impl Extent {
+    /// Along the turn as few poses as the first level of a processor's cache has room for, with all that a competitor keeps of them: what is timed
+    /// is the work, not how fast poses are read. In disorder more, as many as no processor remembers the branches of.
+    pub(crate) fn judged(shuffled: bool) -> Self {
+        Self { timed: if shuffled { 1024 } else { 128 }, judged: true, shuffled, single: false }
+    }
+}
+
 impl<L: Loads> Turn<L> {
     /// A turn of a crank that is `arm` long; `exact` solves a pose for each set of loads.
     fn new(extent: Extent, arm: f64, exact: fn(&Big, &L) -> Vec<Exact>) -> Self {
@@ -451,6 +459,17 @@ mod tests {
                     let force = errors.force.expect("forces");
                     assert!(force <= WORST_SEEN && force > WORST_SEEN - 1e-16, "{force:e}");
                 }
+            }
+        }
+    }
+
+    /// Of a cache of 32 KiB, the smallest first level of its kind, the places of the results take a page.
+    #[test]
+    fn the_poses_that_are_timed_lie_in_the_first_level_of_the_cache() {
+        for item in all(Extent { judged: false, ..Extent::judged(false) }) {
+            for competitor in &item.competitors {
+                let bytes = competitor.bytes();
+                assert!(bytes <= 28 << 10, "{}: {bytes} bytes of {}", item.id, competitor.method);
             }
         }
     }
