@@ -269,10 +269,10 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
-    /// Along the turn as few poses as the first level of a processor's cache has room for, with all that a competitor keeps of them: what is timed
-    /// is the work, not how fast poses are read. In disorder more, as many as no processor remembers the branches of.
+    /// Along the turn a pose at every two degrees, as few as the first level of a processor's cache has room for with all that is kept of them: what
+    /// is timed is the work, not how fast poses are read. In disorder more, so that no processor remembers all their branches.
     pub(crate) fn judged(shuffled: bool) -> Self {
-        Self { timed: if shuffled { 1024 } else { 128 }, judged: true, shuffled, single: false }
+        Self { timed: if shuffled { 1024 } else { 180 }, judged: true, shuffled, single: false }
     }
 }
 
