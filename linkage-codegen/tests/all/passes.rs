@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::support::declarations::linkages;
-use crate::support::families::boom;
+use crate::support::families::{boom, four_bar};
 use crate::support::linkages::{Kind, Random, Sample, sample, sample_with_search};
 use crate::support::numbers::{Double, Extended, Single};
 use crate::support::{Arguments, Number, compile, direct, from_pose, moved, pose};
@@ -459,6 +459,56 @@ fn the_product_that_is_known_last_is_fused() {
         }
     }
     assert!(sums > 300, "{sums}");
+}
+
+/// Fused, a product by a reciprocal is a quotient where that is not known earlier, and no sum waits for the product of a named multiple.
+#[test]
+fn fused_sums_and_quotients_wait_for_no_product_more() {
+    let mut random = Random(41);
+    let (mut shorter, mut reciprocals, mut names) = (0, [0, 0], 0);
+    for _ in 0..40 {
+        let lengths = [random.range(1.8, 2.2), random.range(0.5, 1.0), random.range(1.5, 2.5), random.range(1.5, 2.5)];
+        let text = four_bar(lengths, &mut random).replacen(';', "; arithmetic fused;", 1);
+        // On the rocker's line: the moment of the force there is a multiple of that of the rocker's vector.
+        let (before, point) = text.split_once("D: (").expect("a point on the rocker");
+        let (_, after) = point.split_once(')').expect("its place");
+        let linkage = compile(&format!("{before}D: (0.3m, 0){after}"));
+        let graph = &linkage.model.graph;
+        for output in &linkage.plan.scenes {
+            let programs = before_and_after("fused", unoptimised(output, graph, Form::Direct), graph);
+            let ways = programs.each_ref().map(longest_way);
+            assert!(ways[1] <= ways[0], "{ways:?}");
+            shorter += usize::from(ways[1] < ways[0]);
+            let [before, after] = &programs;
+            let (known, uses) = (known(before), before.uses());
+            let named = |program: &Program, value: ValueId| program.value(value).label.is_some();
+            for step in &before.steps {
+                let Step::Let(value) = step else { continue };
+                if let Some(Op::Mul(x, reciprocal)) = before.op(*value)
+                    && before.quotient(graph, *reciprocal).is_some_and(|(one, _)| one.is_one())
+                    && uses[reciprocal.index()] == 1
+                {
+                    let is_quotient = matches!(after.op(*value), Some(Op::Div(..)));
+                    assert_eq!(is_quotient, known[x.index()] < known[reciprocal.index()], "{before:?}");
+                    reciprocals[usize::from(is_quotient)] += 1;
+                }
+                // What the sum waited for was named; what is multiplied there is now.
+                if let Some(([_, multiple], _)) = before.op(*value).and_then(Op::terms)
+                    && let Some((_, x)) = before.multiple(graph, multiple)
+                    && named(before, multiple)
+                    && uses[multiple.index()] == 1
+                    && before.is_inner(x, &uses)
+                {
+                    assert_eq!(
+                        named(after, x),
+                        known[multiple.index()] > known[before.op(*value).expect("a sum").operands()[0].index()]
+                    );
+                    names += usize::from(named(after, x));
+                }
+            }
+        }
+    }
+    assert!(shorter > 60 && reciprocals[0] > 30 && names > 10, "{shorter} ways, {reciprocals:?}, {names} names");
 }
 
 /// In cycles.

@@ -1,11 +1,15 @@
 //! With `arithmetic fused;` a product that a sum reads is added without being rounded: `a·b + c` is one operation. What has a name of its own
 //! is a line of the derivation and stays a number of its own, rounded as such; only constants are added to it before it is.
 //!
-//! Of two products the one that is known last is added to the other, which has been rounded by then; a change of sign goes to a factor.
+//! Of two products the one that is known last is added to the other, which has been rounded by then; a change of sign goes to a factor. A
+//! constant multiple that has a name gives it to its other factor, if it is the one that is known last and nothing but the sum reads it: the
+//! sum multiplies by the constant then, and waits for one product less.
 //!
-//! Where one product alone reads a reciprocal, it is a quotient instead, which is known later, and rounded once less.
+//! Where one product alone reads a reciprocal, it is a quotient instead, rounded once less, if its other factor is known before the reciprocal is.
 
 use super::cycles::Ready;
+use super::multiples::{MULTIPLE, in_words};
+use crate::graph::number::Number;
 use crate::graph::{Graph, Kernel, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
@@ -14,6 +18,7 @@ pub(super) fn contract(mut program: Program, graph: &Graph) -> Program {
         return program;
     }
     divide(&mut program, graph);
+    leave_multiples(&mut program, graph);
     let mut steps = Vec::new();
     let mut ready = Ready::default();
     for step in core::mem::take(&mut program.steps) {
@@ -35,17 +40,42 @@ pub(super) fn contract(mut program: Program, graph: &Graph) -> Program {
     super::unused::remove(program, graph)
 }
 
-/// `x · (1/y)` as `x/y`, where nothing else reads the reciprocal.
+/// `x · (1/y)` as `x/y`, where nothing else reads the reciprocal, and x does not come after it.
 fn divide(program: &mut Program, graph: &Graph) {
-    let uses = program.uses();
+    let (uses, ready) = (program.uses(), Ready::all(program));
     for value in program.computed().collect::<Vec<_>>() {
         let Some(&Op::Mul(a, b)) = program.op(value) else { continue };
-        let divisor = |reciprocal: ValueId| {
+        let divisor = |reciprocal: ValueId, x: ValueId| {
             let (one, divisor) = program.quotient(graph, reciprocal)?;
-            (one.is_one() && uses[reciprocal.index()] == 1).then_some(divisor)
+            (one.is_one() && uses[reciprocal.index()] == 1 && ready.of(reciprocal) > ready.of(x)).then_some(divisor)
         };
-        if let Some((x, y)) = divisor(b).map(|y| (a, y)).or_else(|| divisor(a).map(|y| (b, y))) {
+        if let Some((x, y)) = divisor(b, a).map(|y| (a, y)).or_else(|| divisor(a, b).map(|y| (b, y))) {
             program.values[value.index()].definition = Definition::Computed(Op::Div(x, y));
+        }
+    }
+}
+
+/// In sums with a named multiple `k x` that is known last, x has its name.
+fn leave_multiples(program: &mut Program, graph: &Graph) {
+    let (uses, ready) = (program.uses(), Ready::all(program));
+    for sum in program.computed().collect::<Vec<_>>() {
+        let Some(([a, b], _)) = program.op(sum).and_then(Op::terms) else { continue };
+        for (multiple, other) in [(a, b), (b, a)] {
+            if let Some((k, x)) = program.multiple(graph, multiple)
+                && let Some(factor) = Number::one().div(&k)
+                && uses[multiple.index()] == 1
+                && program.is_inner(x, &uses)
+                && program.op(x).is_some()
+                && ready.of(multiple) > ready.of(other)
+                && let Some(mut label) = program.values[multiple.index()].label.take()
+            {
+                let of = if label.equation.is_empty() { &label.name } else { &label.equation };
+                label.equation = format!("{of}, {}", in_words(&factor).replace('-', "−"));
+                if !label.name.ends_with(MULTIPLE) {
+                    label.name.push_str(MULTIPLE);
+                }
+                program.values[x.index()].label = Some(label);
+            }
         }
     }
 }

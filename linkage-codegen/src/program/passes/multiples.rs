@@ -230,7 +230,8 @@ fn power(factor: &Number, exponent: i32) -> Number {
     if exponent < 0 { Number::one().div(&power).unwrap_or(power) } else { power }
 }
 
-fn in_words(factor: &Number) -> String {
+/// What is said of a value that is found times a factor.
+pub(super) fn in_words(factor: &Number) -> String {
     match Number::one().div(factor).filter(|_| factor.compare(&Number::one()).is_lt()) {
         Some(divisor) => format!("over {}", divisor.to_f64()),
         None => format!("times {}", factor.to_f64()),
