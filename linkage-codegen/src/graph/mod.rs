@@ -858,6 +858,14 @@ impl Graph {
         self.arena.borrow().guards.iter().position(same).map(|place| GuardId(index(place)))
     }
 
+    /// A parameter as what has been asked to be positive, if it has.
+    #[must_use]
+    pub fn asked_to_be_positive<'g>(&'g self, parameter: Expr<'g>) -> Option<Expr<'g>> {
+        let arena = self.arena.borrow();
+        let asked = |id: &NodeId| matches!(arena.ops[id.index()], Op::Checked { value, .. } if value == parameter.id());
+        arena.positive.iter().copied().find(asked).map(|id| self.expr(id))
+    }
+
     fn intern_guard(&self, guard: Guard) -> GuardId {
         let mut arena = self.arena.borrow_mut();
         if let Some(id) = arena.guard_index.get(&guard) {

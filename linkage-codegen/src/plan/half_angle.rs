@@ -13,7 +13,7 @@ use super::assembly::Assembly;
 use crate::graph::number::Number;
 use crate::graph::{Expr, Vector};
 use crate::model::ids::DriveId;
-use crate::model::{End, JointKind};
+use crate::model::{Drive, End, JointKind, Model};
 
 /// Two arms and the angle between them.
 #[derive(Clone, Debug)]
@@ -47,22 +47,23 @@ impl<'m> HalfAngle<'m> {
     /// that the drive places.
     pub(super) fn between(assembly: &Assembly<'m>, moved: End, other: End) -> Option<Self> {
         let model = assembly.model();
-        let (index, drive) = model.drives.iter().enumerate().find(|(_, drive)| {
-            let joint = model.joint(drive.joint);
-            matches!(joint.kind, JointKind::Revolute)
-                && joint.end_on(moved.link).is_some()
-                && joint.end_off(moved.link).is_some_and(|end| end.link == other.link)
-        })?;
+        let (index, drive) = pin_between(model, moved, other)?;
         let id = DriveId::new(index);
         let pin = model.joint(drive.joint);
         let (near, far) = (pin.end_on(moved.link)?, pin.end_on(other.link)?);
-        let arm =
-            |from: End, to: End| (model.local(to) - model.local(from), model.distance(to.link, from.point, to.point));
+        // Along its link's x axis an arm is as long as its component there, if that is a parameter that has to be positive for another link.
+        let arm = |from: End, to: End| {
+            let arm = model.local(to) - model.local(from);
+            match model.graph.asked_to_be_positive(arm.x).filter(|_| arm.y.is_zero()) {
+                Some(along) => (Vector::new(along, arm.y), along),
+                None => (arm, model.distance(to.link, from.point, to.point)),
+            }
+        };
         let ((op, a), (oq, b)) = (arm(near, moved), arm(far, other));
-        let angle = |v: Vector<'m>| Some(Number::atan2(&v.y.value()?, &v.x.value()?));
-        // An arm along its link's x axis has no angle, whatever its length.
-        let angle =
-            |v: Vector<'m>| if v.y.is_zero() && model.graph.is_positive(v.x) { Some(Number::zero()) } else { angle(v) };
+        let angle = |v: Vector<'m>| {
+            let is_along = v.y.is_zero() && model.graph.is_positive(v.x);
+            if is_along { Some(Number::zero()) } else { Some(Number::atan2(&v.y.value()?, &v.x.value()?)) }
+        };
         if a.is_zero() || b.is_zero() {
             return None;
         }
@@ -128,6 +129,28 @@ impl<'m> HalfAngle<'m> {
 
 fn sine_squared<'m>(half: Vector<'m>, drive: &str) -> Expr<'m> {
     half.y.squared().named(format!("half_{drive}_sin2"), "sin²(ψ/2)")
+}
+
+/// The driven pin between the links of two points, if there is one.
+fn pin_between(model: &Model, moved: End, other: End) -> Option<(usize, &Drive)> {
+    model.drives.iter().enumerate().find(|(_, drive)| {
+        let joint = model.joint(drive.joint);
+        matches!(joint.kind, JointKind::Revolute)
+            && joint.end_on(moved.link).is_some()
+            && joint.end_off(moved.link).is_some_and(|end| end.link == other.link)
+    })
+}
+
+/// Where a driven pin joins the links of two points: from which joint to which point an arm's direction is not known, since a parameter gives it.
+pub(super) fn arm_without_direction(model: &Model, ends: [End; 2]) -> Option<[&str; 2]> {
+    let (_, drive) = pin_between(model, ends[0], ends[1])?;
+    let pin = model.joint(drive.joint);
+    let is_unknown = |end: &End| {
+        let arm = pin.end_on(end.link).map(|from| model.local(*end) - model.local(from));
+        arm.is_some_and(|arm| arm.x.value().is_none() || arm.y.value().is_none())
+    };
+    let end = ends.into_iter().rev().find(is_unknown)?;
+    Some([&pin.name.text, model.point_name(end)])
 }
 
 /// The outer ends of the first three-pin dyad that hangs on both links of a driven pin: the drive's angle is best halved for it.

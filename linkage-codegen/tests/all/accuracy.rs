@@ -590,7 +590,15 @@ fn next_to_a_fold_whatever_the_lengths() {
              link coupler {{ A -> B: {long}, C: (0.3m, 0.2m) }} link rocker {{ B0 -> B: {short}, D: (0.4m, 0.1m) }}"
         )
     };
-    let cases = [
+    // The ground's side is a component that is the length of another link, and so cannot be negative.
+    let on_the_axis = |crank: &str, coupler: &str, rocker: &str| {
+        format!(
+            "pub mod sample; param r: length = 1.1m; param q: length = 0.4m; ground {{ A0: (0, 0), B0: (r, 0) }}
+             link crank {{ A0 -> A: {crank} }} link coupler {{ A -> B: {coupler}, C: (0.3m, 0.2m) }}
+             link rocker {{ B0 -> B: {rocker}, D: (0.4m, 0.1m) }}"
+        )
+    };
+    let at_30_degrees = [
         kite("", "0.7m"),
         kite("param r: length = 0.7m;", "r"),
         galloway("", "0.4m"),
@@ -602,24 +610,28 @@ fn next_to_a_fold_whatever_the_lengths() {
         parallelogram("param r: length = 0.25m;", "r", "1m"),
         parallelogram("param r: length = 0.0625m;", "r", "2m"),
     ];
-    for (case, smooth) in cases.iter().flat_map(|case| ["", " smooth at 90deg"].map(|smooth| (case, smooth))) {
+    let at_zero = [on_the_axis("q", "r", "q"), on_the_axis("q", "q", "r"), on_the_axis("r", "0.7m", "0.7m")];
+    let cases = at_30_degrees.map(|case| (case, 30f64)).into_iter().chain(at_zero.map(|case| (case, 0.0)));
+    for (case, fold, smooth) in
+        cases.flat_map(|(case, fold)| ["", " smooth at 90deg"].map(|smooth| (case.clone(), fold, smooth)))
+    {
         let text = format!(
             "{case} revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker;
              revolute B0: ground -> rocker; drive theta: A0; unknown T: torque(ground -> crank); assemble B: left(A -> B0){smooth};
              load F: force(coupler.C); load H: force(rocker.D); {SCENES}"
         );
-        let drives = (0..60).map(|step| 0.1 * f64::from(step)).collect();
-        let family = Family { text: text.clone(), longest: 2.0, drives, loads: vec![[5.0, 39.0], [47.0, -16.0]] };
+        // The same against the ground's line.
+        let (sin, cos) = (fold - 30.0).to_radians().sin_cos();
+        let loads = vec![[5.0, 39.0], [47.0, -16.0]];
+        let loads: Vec<_> = loads.into_iter().map(|[x, y]| [x * cos - y * sin, x * sin + y * cos]).collect();
+        let drives = (0..60).map(|step| 0.05 + 0.1 * f64::from(step)).collect();
+        let family = Family { text: text.clone(), longest: 2.0, drives, loads: loads.clone() };
         assert!(check(std::iter::once(family), &text) > 20);
         let linkage = compile(&text);
         for step in 2..13 {
-            let drives = vec![30f64.to_radians() + 10f64.powi(-step)];
-            let arguments = Arguments {
-                drives,
-                params: defaults(&linkage),
-                loads: vec![[5.0, 39.0], [47.0, -16.0]],
-                ..Arguments::default()
-            };
+            let drives = vec![fold.to_radians() + 10f64.powi(-step)];
+            let arguments =
+                Arguments { drives, params: defaults(&linkage), loads: loads.clone(), ..Arguments::default() };
             let found =
                 scene::<Double>(&linkage, "all", &arguments).unwrap_or_else(|fault| panic!("{fault:?}\n{text}"));
             let exact =

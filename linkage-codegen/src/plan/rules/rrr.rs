@@ -39,7 +39,7 @@
 
 mod by_half_angle;
 
-use by_half_angle::{by_half_angle, half_angle, not_folding};
+use by_half_angle::{by_half_angle, half_angle, not_opened};
 
 use super::dyad::{Dyad, Leg, difference, dyad};
 use super::{Rule, RuleResult};
@@ -349,11 +349,7 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
         Some((arms, swapped)) => by_half_angle(dyad, (closure, side), &arms, swapped)?,
         None => {
             if closure.smooth_at.is_some() {
-                return Err(not_folding(
-                    dyad,
-                    closure,
-                    "its outer joints do not hang on the two links of one driven pin",
-                ));
+                return Err(not_opened(dyad, closure));
             }
             let way = assembly.placement.way(p, q);
             match driven(dyad, &way) {

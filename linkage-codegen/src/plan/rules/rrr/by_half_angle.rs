@@ -14,7 +14,7 @@ use crate::graph::{Expr, Failure, Symbol, Vector};
 use crate::model::ids::DriveId;
 use crate::model::{Closure, End};
 use crate::plan::assembly::{Assembly, Sign};
-use crate::plan::half_angle::{HalfAngle, first_dyad_on};
+use crate::plan::half_angle::{HalfAngle, arm_without_direction, first_dyad_on};
 use crate::plan::rules::dyad::Dyad;
 
 /// The half-angle form, if the outer pins hang on the two links of a driven pin, and whether the first of them is on the unmoved one.
@@ -279,9 +279,7 @@ impl<'a, 'm> Opening<'a, 'm> {
         if self.least.iter().all(|k| k.value().is_some()) {
             return not_folding(self.dyad, closure, "its lengths leave a gap");
         }
-        let joint = self.dyad.joint_name(self.dyad.inner);
-        let problem = format!("whether the dyad at `{joint}` folds is not known before its parameters are");
-        Diagnostic::new(closure.smooth_place, problem)
+        not_known(self.dyad, closure)
             .help("`smooth` is for folds of constants, or of a parameter that is the length of two links: leave it out, or give the lengths here")
     }
 }
@@ -364,7 +362,25 @@ fn side_sign<'m>(
     }
 }
 
-pub(super) fn not_folding(dyad: &Dyad<'_>, closure: &Closure, why: &str) -> Diagnostic {
+/// A dyad that no driven angle opens, or none of which the arms' directions are known.
+pub(super) fn not_opened(dyad: &Dyad<'_>, closure: &Closure) -> Diagnostic {
+    let Some([pin, end]) = dyad.outer_ends().and_then(|ends| arm_without_direction(dyad.model, ends)) else {
+        return not_folding(dyad, closure, "its outer joints do not hang on the two links of one driven pin");
+    };
+    not_known(dyad, closure).help(format!(
+        "a side that a parameter gives points either way if that may be negative: give it as a length, as in `{pin} -> {end}: r`, or leave `smooth` out"
+    ))
+}
+
+fn not_known(dyad: &Dyad<'_>, closure: &Closure) -> Diagnostic {
+    let joint = dyad.joint_name(dyad.inner);
+    Diagnostic::new(
+        closure.smooth_place,
+        format!("whether the dyad at `{joint}` folds is not known before its parameters are"),
+    )
+}
+
+fn not_folding(dyad: &Dyad<'_>, closure: &Closure, why: &str) -> Diagnostic {
     let joint = dyad.joint_name(dyad.inner);
     Diagnostic::new(closure.smooth_place, format!("the dyad at `{joint}` does not fold: {why}"))
         .help("without a fold there is nothing to go through smoothly: leave `smooth` out")
