@@ -858,11 +858,21 @@ impl Graph {
         self.arena.borrow().guards.iter().position(same).map(|place| GuardId(index(place)))
     }
 
-    /// A parameter as what has been asked to be positive, if it has.
+    /// What parameters make as what has been asked to be positive, if it has.
     #[must_use]
-    pub fn asked_to_be_positive<'g>(&'g self, parameter: Expr<'g>) -> Option<Expr<'g>> {
+    pub fn asked_to_be_positive<'g>(&'g self, value: Expr<'g>) -> Option<Expr<'g>> {
+        let zero = self.zero();
+        if value.value().is_some() {
+            return None;
+        }
         let arena = self.arena.borrow();
-        let asked = |id: &NodeId| matches!(arena.ops[id.index()], Op::Checked { value, .. } if value == parameter.id());
+        let asked = |id: &NodeId| match arena.ops[id.index()] {
+            Op::Checked { value: of, guard } => {
+                let positive = Condition::Above { value: value.id(), limit: zero.id() };
+                of == value.id() && arena.guards[guard.0 as usize].condition == positive
+            }
+            _ => false,
+        };
         arena.positive.iter().copied().find(asked).map(|id| self.expr(id))
     }
 

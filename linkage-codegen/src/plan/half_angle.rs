@@ -51,24 +51,12 @@ impl<'m> HalfAngle<'m> {
         let id = DriveId::new(index);
         let pin = model.joint(drive.joint);
         let (near, far) = (pin.end_on(moved.link)?, pin.end_on(other.link)?);
-        // Along its link's x axis an arm is as long as its component there, if that is a parameter that has to be positive for another link.
-        let arm = |from: End, to: End| {
-            let arm = model.local(to) - model.local(from);
-            match model.graph.asked_to_be_positive(arm.x).filter(|_| arm.y.is_zero()) {
-                Some(along) => (Vector::new(along, arm.y), along),
-                None => (arm, model.distance(to.link, from.point, to.point)),
-            }
-        };
-        let ((op, a), (oq, b)) = (arm(near, moved), arm(far, other));
-        let angle = |v: Vector<'m>| {
-            let is_along = v.y.is_zero() && model.graph.is_positive(v.x);
-            if is_along { Some(Number::zero()) } else { Some(Number::atan2(&v.y.value()?, &v.x.value()?)) }
-        };
+        let ((op, a), (oq, b)) = (arm(model, near, moved), arm(model, far, other));
         if a.is_zero() || b.is_zero() {
             return None;
         }
         let sense: i8 = if pin.to.link == moved.link { 1 } else { -1 };
-        let phase = angle(op)?.sub(&angle(oq)?);
+        let phase = angle(model, op)?.sub(&angle(model, oq)?);
         let half_of = |n: &Number| n.mul(&Number::ratio(1, 2));
         let coordinate = assembly.graph().constant(&Number::ratio(1, 2)) * assembly.coordinate(id);
         let name = &drive.name;
@@ -145,12 +133,27 @@ fn pin_between(model: &Model, moved: End, other: End) -> Option<(usize, &Drive)>
 pub(super) fn arm_without_direction(model: &Model, ends: [End; 2]) -> Option<[&str; 2]> {
     let (_, drive) = pin_between(model, ends[0], ends[1])?;
     let pin = model.joint(drive.joint);
-    let is_unknown = |end: &End| {
-        let arm = pin.end_on(end.link).map(|from| model.local(*end) - model.local(from));
-        arm.is_some_and(|arm| arm.x.value().is_none() || arm.y.value().is_none())
-    };
-    let end = ends.into_iter().rev().find(is_unknown)?;
+    let is_unknown =
+        |end: &End| pin.end_on(end.link).is_some_and(|from| angle(model, arm(model, from, *end).0).is_none());
+    let end = ends.into_iter().find(is_unknown)?;
     Some([&pin.name.text, model.point_name(end)])
+}
+
+/// The way from one point of a link to another one in the link's frame, and its length.
+///
+/// Along the link's x axis it is as long as its component there, if that is a parameter that has to be positive for another link.
+fn arm(model: &Model, from: End, to: End) -> (Vector<'_>, Expr<'_>) {
+    let arm = model.local(to) - model.local(from);
+    match model.graph.asked_to_be_positive(arm.x).filter(|_| arm.y.is_zero()) {
+        Some(along) => (Vector::new(along, arm.y), along),
+        None => (arm, model.distance(to.link, from.point, to.point)),
+    }
+}
+
+/// The angle of a vector, if it is known: along the x axis it has none, whatever its length.
+fn angle(model: &Model, v: Vector<'_>) -> Option<Number> {
+    let is_along = v.y.is_zero() && model.graph.is_positive(v.x);
+    if is_along { Some(Number::zero()) } else { Some(Number::atan2(&v.y.value()?, &v.x.value()?)) }
 }
 
 /// The outer ends of the first three-pin dyad that hangs on both links of a driven pin: the drive's angle is best halved for it.

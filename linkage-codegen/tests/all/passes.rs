@@ -461,11 +461,11 @@ fn the_product_that_is_known_last_is_fused() {
     assert!(sums > 300, "{sums}");
 }
 
-/// Fused, a product by a reciprocal is a quotient where that is not known earlier, and no sum waits for the product of a named multiple.
+/// Fused, a product by a reciprocal is a quotient if its other factor is known first, and no sum waits for the product of a named multiple.
 #[test]
-fn fused_sums_and_quotients_wait_for_no_product_more() {
+fn fused_sums_and_quotients_wait_for_nothing_in_vain() {
     let mut random = Random(41);
-    let (mut shorter, mut reciprocals, mut names) = (0, [0, 0], 0);
+    let (mut reciprocals, mut names) = ([0, 0], 0);
     for _ in 0..40 {
         let lengths = [random.range(1.8, 2.2), random.range(0.5, 1.0), random.range(1.5, 2.5), random.range(1.5, 2.5)];
         let text = four_bar(lengths, &mut random).replacen(';', "; arithmetic fused;", 1);
@@ -476,9 +476,6 @@ fn fused_sums_and_quotients_wait_for_no_product_more() {
         let graph = &linkage.model.graph;
         for output in &linkage.plan.scenes {
             let programs = before_and_after("fused", unoptimised(output, graph, Form::Direct), graph);
-            let ways = programs.each_ref().map(longest_way);
-            assert!(ways[1] <= ways[0], "{ways:?}");
-            shorter += usize::from(ways[1] < ways[0]);
             let [before, after] = &programs;
             let (known, uses) = (known(before), before.uses());
             let named = |program: &Program, value: ValueId| program.value(value).label.is_some();
@@ -508,7 +505,7 @@ fn fused_sums_and_quotients_wait_for_no_product_more() {
             }
         }
     }
-    assert!(shorter > 60 && reciprocals[0] > 30 && names > 10, "{shorter} ways, {reciprocals:?}, {names} names");
+    assert!(reciprocals[0] > 30 && names > 10, "{reciprocals:?}, {names} names");
 }
 
 /// In cycles.

@@ -1016,3 +1016,21 @@ fn a_parallelogram_is_recognised_by_its_side() {
     }
     assert_eq!((parallel, crossed), (4, 4));
 }
+
+/// Of an arm by points only the parameter is replaced by what another link asks to be positive: not a constant for which a wheel of a
+/// parameter asks that it is larger.
+#[test]
+fn folds_of_constants_are_known_beside_wheels_of_parameters() {
+    for radius in ["0.4m", "1.1m"] {
+        let linkage = compile(&format!(
+            "pub mod sample; param w: length = 0.2m; ground {{ A0: (0, 0), B0: (1.1m, 0) }} link crank {{ A0 -> A: 0.4m }}
+             link coupler {{ A -> B: 1.1m }} link rocker {{ B0 -> B: 0.4m }} link arm {{ B0: (0, 0), P: ({radius} - w, 0) }}
+             link planet {{ P: (0, 0) }} revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker;
+             revolute B0: ground -> rocker; revolute M: ground.B0 -> arm.B0; revolute P: arm -> planet;
+             gear G: ground.B0 -> planet.P, radii ({radius}, w), internal; drive theta: A0; drive psi: M;
+             assemble B: left(A -> B0) smooth at 90deg; scene place: position -> (B);"
+        ));
+        let counts = linkage.functions.scenes[0].direct.counts();
+        assert_eq!((counts.sqrt, counts.div), (0, 0), "{radius}: {counts}");
+    }
+}

@@ -40,7 +40,7 @@ pub(super) fn contract(mut program: Program, graph: &Graph) -> Program {
     super::unused::remove(program, graph)
 }
 
-/// `x · (1/y)` as `x/y`, where nothing else reads the reciprocal, and x does not come after it.
+/// `x · (1/y)` as `x/y`, where nothing else reads the reciprocal, and x is known before it is.
 fn divide(program: &mut Program, graph: &Graph) {
     let (uses, ready) = (program.uses(), Ready::all(program));
     for value in program.computed().collect::<Vec<_>>() {
