@@ -861,16 +861,13 @@ impl Graph {
     /// What parameters make as what has been asked to be positive, if it has.
     #[must_use]
     pub fn asked_to_be_positive<'g>(&'g self, value: Expr<'g>) -> Option<Expr<'g>> {
-        let zero = self.zero();
         if value.value().is_some() {
             return None;
         }
+        let positive = Condition::Above { value: value.id(), limit: self.zero().id() };
         let arena = self.arena.borrow();
         let asked = |id: &NodeId| match arena.ops[id.index()] {
-            Op::Checked { value: of, guard } => {
-                let positive = Condition::Above { value: value.id(), limit: zero.id() };
-                of == value.id() && arena.guards[guard.0 as usize].condition == positive
-            }
+            Op::Checked { value: of, guard } => of == value.id() && self.guard(guard).condition == positive,
             _ => false,
         };
         arena.positive.iter().copied().find(asked).map(|id| self.expr(id))

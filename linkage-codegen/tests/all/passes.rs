@@ -490,16 +490,13 @@ fn fused_sums_and_quotients_wait_for_nothing_in_vain() {
                     reciprocals[usize::from(is_quotient)] += 1;
                 }
                 // What the sum waited for was named; what is multiplied there is now.
-                if let Some(([_, multiple], _)) = before.op(*value).and_then(Op::terms)
+                if let Some(([other, multiple], _)) = before.op(*value).and_then(Op::terms)
                     && let Some((_, x)) = before.multiple(graph, multiple)
                     && named(before, multiple)
                     && uses[multiple.index()] == 1
                     && before.is_inner(x, &uses)
                 {
-                    assert_eq!(
-                        named(after, x),
-                        known[multiple.index()] > known[before.op(*value).expect("a sum").operands()[0].index()]
-                    );
+                    assert_eq!(named(after, x), known[multiple.index()] > known[other.index()]);
                     names += usize::from(named(after, x));
                 }
             }

@@ -8,7 +8,7 @@
 //! Where one product alone reads a reciprocal, it is a quotient instead, rounded once less, if its other factor is known before the reciprocal is.
 
 use super::cycles::Ready;
-use super::multiples::{MULTIPLE, in_words};
+use super::multiples::tell_factor;
 use crate::graph::number::Number;
 use crate::graph::{Graph, Kernel, Op};
 use crate::program::{Definition, Program, Step, ValueId};
@@ -69,11 +69,7 @@ fn leave_multiples(program: &mut Program, graph: &Graph) {
                 && ready.of(multiple) > ready.of(other)
                 && let Some(mut label) = program.values[multiple.index()].label.take()
             {
-                let of = if label.equation.is_empty() { &label.name } else { &label.equation };
-                label.equation = format!("{of}, {}", in_words(&factor).replace('-', "−"));
-                if !label.name.ends_with(MULTIPLE) {
-                    label.name.push_str(MULTIPLE);
-                }
+                tell_factor(&mut label, &factor);
                 program.values[x.index()].label = Some(label);
             }
         }

@@ -207,7 +207,8 @@ impl Multiples {
             self.spared.iter().enumerate().map(|(index, (name, _))| (&**name, index)).collect();
         let spared_in = |text: &str| words(text).filter_map(|word| spared.get(word).copied()).collect::<BTreeSet<_>>();
         for (index, value) in program.values.iter_mut().enumerate() {
-            let Some(Label { name, equation }) = &mut value.label else { continue };
+            let Some(label) = &mut value.label else { continue };
+            let equation = &mut label.equation;
             let mut met = spared_in(equation);
             while let Some(last) = met.pop_last() {
                 let (name, product) = &self.spared[last];
@@ -217,11 +218,18 @@ impl Multiples {
             }
             let named = self.named(ValueId::new(index));
             if let Some(factor) = self.factors.get(&named).filter(|factor| !factor.is_one()) {
-                let of = if equation.is_empty() { &*name } else { &*equation };
-                *equation = format!("{of}, {}", in_words(factor));
-                name.push_str(MULTIPLE);
+                tell_factor(label, factor);
             }
         }
+    }
+}
+
+/// Name and equation say that the value is found times a factor.
+pub(super) fn tell_factor(Label { name, equation }: &mut Label, factor: &Number) {
+    let of = if equation.is_empty() { &*name } else { &*equation };
+    *equation = format!("{of}, {}", in_words(factor));
+    if !name.ends_with(MULTIPLE) {
+        name.push_str(MULTIPLE);
     }
 }
 
@@ -230,12 +238,12 @@ fn power(factor: &Number, exponent: i32) -> Number {
     if exponent < 0 { Number::one().div(&power).unwrap_or(power) } else { power }
 }
 
-/// What is said of a value that is found times a factor.
-pub(super) fn in_words(factor: &Number) -> String {
-    match Number::one().div(factor).filter(|_| factor.compare(&Number::one()).is_lt()) {
+fn in_words(factor: &Number) -> String {
+    let words = match Number::one().div(factor).filter(|_| factor.compare(&Number::one()).is_lt()) {
         Some(divisor) => format!("over {}", divisor.to_f64()),
         None => format!("times {}", factor.to_f64()),
-    }
+    };
+    words.replace('-', "−")
 }
 
 /// Whether a character may be one of a name.
