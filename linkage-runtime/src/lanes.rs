@@ -11,9 +11,15 @@ macro_rules! lanes {
         /// How many positions a block has.
         pub const BLOCK: usize = 64;
 
-        /// Of the last block, as many positions as are left are computed, or more up to a multiple of this: no instruction computes more at once.
-        #[cfg(feature = "std")]
-        const STEP: usize = 64 / size_of::<$scalar>();
+        /// How many numbers a line of the cache has. No instruction computes more at once.
+        const LINE: usize = 64 / size_of::<$scalar>();
+
+        /// How many numbers lie in front of the first line of the cache that begins among these.
+        #[inline(always)]
+        #[must_use]
+        pub fn lead(results: &[$scalar]) -> usize {
+            (results.as_ptr().addr() / size_of::<$scalar>()).wrapping_neg() % LINE
+        }
 
         /// How many checks have failed. A sum, as such a loop becomes vector instructions whatever is checked; by numbers of the scalar's
         /// size, so that a register counts as many positions as it computes.
@@ -94,24 +100,28 @@ macro_rules! lanes {
         #[inline]
         pub fn sweep<const KEPT: usize, const RESULTS: usize>(
             count: usize,
+            _: usize,
             sweep: &mut impl Lanes<KEPT, RESULTS>,
         ) -> Result<(), crate::SweepError> {
             crate::sweep::sweep(count, |index| sweep.point(index))
         }
 
-        /// Solves blocks of positions by the widest instructions that the processor has, up to the first position without an answer.
+        /// Solves blocks of positions by the widest instructions that the processor has, up to the first position without an answer. The
+        /// results have a `lead`.
         #[cfg(feature = "std")]
         pub fn sweep<const KEPT: usize, const RESULTS: usize>(
             count: usize,
+            lead: usize,
             sweep: &mut impl Lanes<KEPT, RESULTS>,
         ) -> Result<(), crate::SweepError> {
-            crate::processor::instructions().dispatch(Blocks { count, sweep })
+            crate::processor::instructions().dispatch(Blocks { count, lead, sweep })
         }
 
         /// All blocks of a sweep.
         #[cfg(feature = "std")]
         struct Blocks<'a, S, const KEPT: usize, const RESULTS: usize> {
             count: usize,
+            lead: usize,
             sweep: &'a mut S,
         }
 
@@ -123,16 +133,20 @@ macro_rules! lanes {
 
             #[inline(always)]
             fn with_simd<I: pulp::Simd>(self, _: I) -> Self::Output {
-                let Self { count, sweep } = self;
+                let Self { count, lead, sweep } = self;
                 let (mut given, mut columns) = (sweep.given(), Columns::new());
-                for first in (0..count).step_by(BLOCK) {
-                    let lanes = BLOCK.min(count - first);
-                    let positions = first..first + lanes;
+                let mut end = 0_usize;
+                while end < count {
+                    // A block begins where a line of the results does, as what a register writes into two lines takes twice as long. So a few
+                    // positions behind the first block are computed twice.
+                    let first = end.saturating_sub((end + LINE - lead) % LINE);
+                    end = count.min(first + BLOCK);
+                    let (lanes, positions) = (end - first, first..end);
                     // Of the last block the lanes in front are positions of the block before, which have their results already. The minimum
                     // changes nothing, but keeps from the compiler that lanes fill whole registers: it would have each turn of a loop
                     // compute two of them, for which there are too few.
-                    let from = BLOCK - lanes.next_multiple_of(STEP).min(BLOCK);
-                    if sweep.solve(&mut given, positions.end, &mut columns, from) {
+                    let from = BLOCK - lanes.next_multiple_of(LINE).min(BLOCK);
+                    if sweep.solve(&mut given, end, &mut columns, from) {
                         sweep.take(positions, &columns.results);
                     } else {
                         one_by_one(positions, sweep)?;
@@ -153,7 +167,7 @@ macro_rules! lanes {
             crate::sweep::one_by_one(positions, |index| sweep.point(index))
         }
 
-        /// A series by blocks, which end at the multiples of their length, and the last one where the series ends: it overlaps the one before.
+        /// A series by blocks, each the values in front of its end.
         #[derive(Debug)]
         pub enum Given<'a, T> {
             /// One for each position, read where it lies.
@@ -256,9 +270,30 @@ macro_rules! lanes {
         pub fn put(to: &mut [$scalar], positions: core::ops::Range<usize>, column: &Column) {
             let to = to.get_mut(positions).unwrap_or_default();
             if let Some(to) = to.first_chunk_mut::<BLOCK>() {
-                *to = *column;
+                put_block(to, column);
             } else if let Some(from) = column.get(BLOCK - to.len()..) {
                 to.copy_from_slice(from);
+            }
+        }
+
+        /// Writes a block by whole lines of the cache. Where they do not begin with it, its first and last numbers are written beside them.
+        #[inline(always)]
+        fn put_block(to: &mut Column, column: &Column) {
+            let lead = lead(to);
+            if lead > 0 {
+                put_line(to.first_chunk_mut(), column.first_chunk());
+                put_line(to.last_chunk_mut(), column.last_chunk());
+            }
+            let (to, column) = (to.get_mut(lead..).unwrap_or_default(), column.get(lead..).unwrap_or_default());
+            for (to, line) in to.as_chunks_mut().0.iter_mut().zip(column.as_chunks().0) {
+                put_line(Some(to), Some(line));
+            }
+        }
+
+        #[inline(always)]
+        fn put_line(to: Option<&mut [$scalar; LINE]>, line: Option<&[$scalar; LINE]>) {
+            if let (Some(to), Some(line)) = (to, line) {
+                *to = *line;
             }
         }
     };
@@ -268,8 +303,9 @@ pub(crate) use lanes;
 #[cfg(all(test, feature = "std"))]
 mod tests {
     use core::ops::Range;
+    use std::vec::Vec;
 
-    use crate::__private::f64::{BLOCK, Column, Columns, Count, Given, Lanes, Parts, failed, put, sweep};
+    use crate::__private::f64::{BLOCK, Column, Columns, Count, Given, Lanes, Parts, failed, lead, put, sweep};
     use crate::{Error, Series};
 
     /// Two blocks, and one more.
@@ -318,7 +354,7 @@ mod tests {
         for count in 0..=COUNT {
             let (of, mut results) = ([2.0; COUNT], [0.0; COUNT]);
             let (of, results) = (&of[..count], &mut results[..count]);
-            sweep(count, &mut Reciprocals { of, results }).expect("none is zero");
+            sweep(count, 0, &mut Reciprocals { of, results }).expect("none is zero");
             assert_eq!(results, &[0.5; COUNT][..count]);
         }
     }
@@ -328,7 +364,7 @@ mod tests {
         for zero in [0, 5, BLOCK - 1, BLOCK, 2 * BLOCK] {
             let (mut of, mut results) = ([2.0; COUNT], [0.0; COUNT]);
             of[zero] = 0.0;
-            sweep(of.len(), &mut Reciprocals { of: &of, results: &mut results }).expect_err("one is zero");
+            sweep(of.len(), 0, &mut Reciprocals { of: &of, results: &mut results }).expect_err("one is zero");
             let begin = zero / BLOCK * BLOCK;
             let parts = [&results[..begin], &results[begin..zero], &results[zero..]];
             for (part, expected) in parts.into_iter().zip([0.5, -1.0, 0.0]) {
@@ -337,13 +373,75 @@ mod tests {
         }
     }
 
+    /// The positions of each block.
+    struct Blocks(Vec<Range<usize>>);
+
+    impl Lanes<0, 0> for Blocks {
+        type Given = ();
+
+        fn given(&self) {}
+
+        fn solve(&self, (): &mut (), _: usize, _: &mut Columns<0, 0>, _: usize) -> bool {
+            true
+        }
+
+        fn take(&mut self, positions: Range<usize>, []: &[Column; 0]) {
+            self.0.push(positions);
+        }
+
+        fn point(&mut self, _: usize) -> Result<(), Error> {
+            Err(Error::NotFinite { what: "none of these" })
+        }
+    }
+
     #[test]
-    fn blocks_end_at_multiples_of_their_length_and_at_the_end_of_a_series() {
+    fn blocks_begin_with_a_line_of_the_results_and_leave_nothing_out() {
+        let line = 64 / size_of::<f64>();
+        for (lead, count) in (0..line).flat_map(|lead| (1..=COUNT).map(move |count| (lead, count))) {
+            let mut blocks = Blocks(Vec::new());
+            sweep(count, lead, &mut blocks).expect("no check fails");
+            let Blocks(blocks) = blocks;
+            assert_eq!((blocks[0].start, blocks[blocks.len() - 1].end), (0, count));
+            for pair in blocks.windows(2) {
+                assert_eq!(pair[1].start % line, lead);
+                assert!(
+                    pair[1].start <= pair[0].end && pair[1].start + line > pair[0].end && pair[1].end > pair[0].end
+                );
+            }
+            assert!(blocks.iter().all(|block| block.len() <= BLOCK) && blocks.len() <= count / BLOCK + 2);
+        }
+    }
+
+    /// Wherever lines of the cache begin.
+    #[test]
+    fn a_block_is_written_where_it_belongs() {
+        let column: Column = core::array::from_fn(|lane| f64::from(u8::try_from(lane).expect("few")));
+        for begin in 0..BLOCK / 4 {
+            for length in [1, 7, BLOCK - 1, BLOCK] {
+                let mut all = [-1.0; 2 * BLOCK];
+                put(&mut all, begin..begin + length, &column);
+                assert_eq!(all[begin..begin + length], column[BLOCK - length..]);
+                assert!(all[..begin].iter().chain(&all[begin + length..]).all(|other| *other < 0.0));
+            }
+        }
+    }
+
+    #[test]
+    fn a_line_of_the_cache_begins_behind_the_lead() {
+        let numbers = [0.0; BLOCK];
+        for begin in 0..BLOCK / 2 {
+            let lead = lead(&numbers[begin..]);
+            assert!(lead < 8 && numbers[begin + lead..].as_ptr().addr() % 64 == 0);
+        }
+    }
+
+    #[test]
+    fn values_of_blocks_are_those_in_front_of_their_ends() {
         let values: [f64; COUNT] = core::array::from_fn(|index| f64::from(u8::try_from(index).expect("few")));
         for count in 1..=COUNT {
             let series = Series::Each(&values[..count]);
             let (given, mut both) = (Given::new(&series), Parts::new(&series));
-            for end in (BLOCK..count).step_by(BLOCK).chain([count]) {
+            for end in (BLOCK.min(count)..count).chain([count]) {
                 let expected: [f64; BLOCK] = core::array::from_fn(|lane| values[(end + lane).saturating_sub(BLOCK)]);
                 assert_eq!(given.block(end).as_slice(), expected.as_slice());
                 assert_eq!(both.block(end, |value| [-value, *value]), &[expected.map(|value| -value), expected]);
