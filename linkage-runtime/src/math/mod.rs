@@ -136,6 +136,33 @@ macro_rules! short_sines {
     };
 }
 
+/// `short`, `short_half` and `of` one by one.
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+macro_rules! one_by_one {
+    ($scalar:ident) => {
+        /// `sin_cos` without its branch.
+        #[inline]
+        fn short(x: $scalar) -> ($scalar, $scalar) {
+            reduce(x).one_by_one()
+        }
+
+        /// `sin_cos_half` without its branch.
+        #[inline]
+        fn short_half(x: $scalar) -> ($scalar, $scalar) {
+            reduced(0.5 * x, x * core::$scalar::consts::FRAC_1_PI + ROUND).one_by_one()
+        }
+
+        #[inline]
+        fn of(reduced: Reduced) -> ($scalar, $scalar) {
+            reduced.one_by_one()
+        }
+    };
+}
+
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+#[macro_use]
+mod halves;
+
 pub mod f32;
 pub mod f64;
 mod fused;

@@ -3,6 +3,8 @@
 mod atan2;
 mod fused;
 mod large;
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+mod pair;
 mod sin_cos;
 mod vector;
 

@@ -2,13 +2,15 @@
 #![allow(clippy::unreadable_literal, reason = "coefficients are shortest decimals of exact bit patterns")]
 
 use super::large::{reduce_large, reduce_large_sum};
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+use super::pair::plain::{of, short, short_half};
 
 /// Up to here (64 turns) the short reduction serves: |n| ≤ 2⁸.
 const FAST: f32 = 402.0;
 
 /// π/2 in three parts. The first two have 16 and 15 significant bits, so that their products with |n| ≤ 2⁸ are exact;
 /// all three together are off by less than 2⁻⁵⁸.
-const FRAC_PI_2: [f32; 3] = [1.5707703, 2.6063062e-5, 6.0771006e-11];
+pub(super) const FRAC_PI_2: [f32; 3] = [1.5707703, 2.6063062e-5, 6.0771006e-11];
 
 /// Adding and subtracting 1.5·2²³ rounds to an integer, whose last bits are then the last bits of the sum.
 pub(super) const ROUND: f32 = 12582912.0;
@@ -40,14 +42,14 @@ pub(super) struct Reduced {
 )]
 #[must_use]
 pub fn sin_cos(x: f32) -> (f32, f32) {
-    if is_short(x) { reduce(x).sin_cos() } else { large_sin_cos(x) }
+    if is_short(x) { short(x) } else { large_sin_cos(x) }
 }
 
 /// Out of line to the end, so that nothing of it has to be brought together with what is short.
 #[cold]
 #[inline(never)]
 fn large_sin_cos(x: f32) -> (f32, f32) {
-    reduce_large(x).sin_cos()
+    reduce_large(x).one_by_one()
 }
 
 /// (sin x/2, cos x/2): the bits of [`sin_cos`] of `0.5 * x`, whose product the quadrant does not wait for.
@@ -55,12 +57,7 @@ fn large_sin_cos(x: f32) -> (f32, f32) {
 #[allow(clippy::inline_always, reason = "as `sin_cos`")]
 #[must_use]
 pub fn sin_cos_half(x: f32) -> (f32, f32) {
-    let half = 0.5 * x;
-    if is_short_half(x) {
-        reduced(half, x * core::f32::consts::FRAC_1_PI + ROUND).sin_cos()
-    } else {
-        large_sin_cos(half)
-    }
+    if is_short_half(x) { short_half(x) } else { large_sin_cos(0.5 * x) }
 }
 
 /// (sin, cos) of the real number x + hi + lo, which is not rounded before the reduction.
@@ -75,17 +72,19 @@ pub fn sin_cos_half(x: f32) -> (f32, f32) {
 #[must_use]
 pub fn sin_cos_sum(x: f32, hi: f32, lo: f32) -> (f32, f32) {
     let (sum, error) = two_sum(x, hi);
-    if is_short(sum) { reduce(sum).plus(error + lo).sin_cos() } else { large_sin_cos_sum(sum, error, lo) }
+    if is_short(sum) { of(reduce(sum).plus(error + lo)) } else { large_sin_cos_sum(sum, error, lo) }
 }
 
 #[cold]
 #[inline(never)]
 fn large_sin_cos_sum(x: f32, hi: f32, lo: f32) -> (f32, f32) {
-    reduce_large_sum(x, hi, lo).sin_cos()
+    reduce_large_sum(x, hi, lo).one_by_one()
 }
 
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+one_by_one!(f32);
 short_angles!(f32);
-short_sines!(f32, sin_cos);
+short_sines!(f32, one_by_one);
 
 /// a + b as a rounded sum and its error, exactly.
 #[inline]
@@ -124,7 +123,7 @@ impl Reduced {
 
     /// The polynomials, exchanged and negated as the quadrant says. Every sum is arranged so that −0 stays −0.
     #[inline]
-    fn sin_cos(self) -> (f32, f32) {
+    fn one_by_one(self) -> (f32, f32) {
         let Self { quadrant, y, t } = self;
         let z = y * y;
         let half = 0.5 * z;

@@ -95,26 +95,8 @@ fn large_sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
     reduce_large_sum(x, hi, lo).one_by_one()
 }
 
-/// [`sin_cos`] without its branch.
 #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
-#[inline]
-fn short(x: f64) -> (f64, f64) {
-    reduce(x).one_by_one()
-}
-
-/// [`sin_cos_half`] without its branch.
-#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
-#[inline]
-fn short_half(x: f64) -> (f64, f64) {
-    reduced(0.5 * x, x * core::f64::consts::FRAC_1_PI + ROUND).one_by_one()
-}
-
-#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
-#[inline]
-fn of(reduced: Reduced) -> (f64, f64) {
-    reduced.one_by_one()
-}
-
+one_by_one!(f64);
 short_angles!(f64);
 short_sines!(f64, one_by_one);
 
