@@ -114,6 +114,7 @@ macro_rules! fused_sines {
 pub(super) use fused_sines;
 
 /// `short`, `short_half` and `of` one by one.
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
 macro_rules! fused_one_by_one {
     ($scalar:ident) => {
         #[inline]
@@ -132,4 +133,5 @@ macro_rules! fused_one_by_one {
         }
     };
 }
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
 pub(super) use fused_one_by_one;

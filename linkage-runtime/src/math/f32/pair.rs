@@ -1,4 +1,4 @@
-//! Sine and cosine in the two halves of a register, see `halves`. A register has room for two such pairs: the other one is the same.
+//! Sine and cosine in the two halves of a register, see `halves`.
 #![allow(
     unsafe_code,
     reason = "calls of functions that name their instructions, a load of what a register holds, a barrier to the compiler"
@@ -9,8 +9,10 @@ use core::arch::x86_64::{
     _mm_load_ps as load, _mm_mul_ps as mul, _mm_or_ps as or, _mm_set1_ps as spread, _mm_shuffle_ps, _mm_sub_ps as sub,
     _mm_xor_ps as xor,
 };
+#[cfg(target_feature = "fma")]
+use core::arch::x86_64::{_mm_fmadd_ps as fmadd, _mm_fnmadd_ps as fnmadd};
 
-halves!(f32, u32);
+halves!(f32, u32, 3);
 
 #[inline]
 #[target_feature(enable = "sse2")]
@@ -18,36 +20,15 @@ fn exchanged(halves: Register) -> Register {
     _mm_shuffle_ps::<0b10_11_00_01>(halves, halves)
 }
 
-pub(super) mod plain {
-    use super::super::super::halves::QUADRANTS;
-    use super::super::sin_cos::{COSINE, FRAC_PI_2, ROUND, Reduced, SINE};
-    use super::{
-        Halves, Register, SIGN, Spread, add, and, andnot, both, exchanged, first, mul, or, row, spread, sub, twice, xor,
-    };
-
-    plain_halves!(f32, u32, 3);
-
-    #[inline]
-    #[target_feature(enable = "sse2")]
-    fn polynomial(z: Register, [c0, c1, c2]: [Register; 3]) -> Register {
-        add(c0, mul(z, add(c1, mul(z, c2))))
-    }
+#[inline]
+#[target_feature(enable = "sse2")]
+fn polynomial(z: Register, [c0, c1, c2]: [Register; 3]) -> Register {
+    add(c0, mul(z, add(c1, mul(z, c2))))
 }
 
 #[cfg(target_feature = "fma")]
-pub(super) mod fused {
-    use core::arch::x86_64::{_mm_fmadd_ps as fmadd, _mm_fnmadd_ps as fnmadd};
-
-    use super::super::super::halves::QUADRANTS;
-    use super::super::fused::{COSINE, FRAC_PI_2, SINE};
-    use super::super::sin_cos::{ROUND, Reduced};
-    use super::{Halves, Register, SIGN, Spread, both, first, mul, row, spread, sub, twice, xor};
-
-    fused_halves!(f32, u32, 3);
-
-    #[inline]
-    #[target_feature(enable = "sse2,fma")]
-    fn polynomial(z: Register, [c0, c1, c2]: [Register; 3]) -> Register {
-        fmadd(z, fmadd(z, c2, c1), c0)
-    }
+#[inline]
+#[target_feature(enable = "sse2,fma")]
+fn fused_polynomial(z: Register, [c0, c1, c2]: [Register; 3]) -> Register {
+    fmadd(z, fmadd(z, c2, c1), c0)
 }

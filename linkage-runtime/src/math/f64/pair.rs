@@ -9,8 +9,10 @@ use core::arch::x86_64::{
     _mm_load_pd as load, _mm_mul_pd as mul, _mm_or_pd as or, _mm_set1_pd as spread, _mm_shuffle_pd, _mm_sub_pd as sub,
     _mm_xor_pd as xor,
 };
+#[cfg(target_feature = "fma")]
+use core::arch::x86_64::{_mm_fmadd_pd as fmadd, _mm_fnmadd_pd as fnmadd};
 
-halves!(f64, u64);
+halves!(f64, u64, 6);
 
 #[inline]
 #[target_feature(enable = "sse2")]
@@ -18,42 +20,20 @@ fn exchanged(halves: Register) -> Register {
     _mm_shuffle_pd::<1>(halves, halves)
 }
 
-pub(super) mod plain {
-    use super::super::super::halves::QUADRANTS;
-    use super::super::sin_cos::{COSINE, FRAC_PI_2, ROUND, Reduced, SINE};
-    use super::{
-        Halves, Register, SIGN, Spread, add, and, andnot, both, exchanged, first, mul, or, row, spread, sub, twice, xor,
-    };
-
-    plain_halves!(f64, u64, 6);
-
-    /// In pairs (Estrin 1960).
-    #[inline]
-    #[target_feature(enable = "sse2")]
-    fn polynomial(z: Register, [c0, c1, c2, c3, c4, c5]: [Register; 6]) -> Register {
-        let z2 = mul(z, z);
-        let (low, middle, high) = (add(c0, mul(z, c1)), add(c2, mul(z, c3)), add(c4, mul(z, c5)));
-        add(add(low, mul(z2, middle)), mul(mul(z2, z2), high))
-    }
+/// In pairs (Estrin 1960).
+#[inline]
+#[target_feature(enable = "sse2")]
+fn polynomial(z: Register, [c0, c1, c2, c3, c4, c5]: [Register; 6]) -> Register {
+    let z2 = mul(z, z);
+    let (low, middle, high) = (add(c0, mul(z, c1)), add(c2, mul(z, c3)), add(c4, mul(z, c5)));
+    add(add(low, mul(z2, middle)), mul(mul(z2, z2), high))
 }
 
 #[cfg(target_feature = "fma")]
-pub(super) mod fused {
-    use core::arch::x86_64::{_mm_fmadd_pd as fmadd, _mm_fnmadd_pd as fnmadd};
-
-    use super::super::super::halves::QUADRANTS;
-    use super::super::fused::{COSINE, FRAC_PI_2, SINE};
-    use super::super::sin_cos::{ROUND, Reduced};
-    use super::{Halves, Register, SIGN, Spread, both, first, mul, row, spread, sub, twice, xor};
-
-    fused_halves!(f64, u64, 6);
-
-    /// In pairs (Estrin 1960).
-    #[inline]
-    #[target_feature(enable = "sse2,fma")]
-    fn polynomial(z: Register, [c0, c1, c2, c3, c4, c5]: [Register; 6]) -> Register {
-        let z2 = mul(z, z);
-        let (low, middle, high) = (fmadd(z, c1, c0), fmadd(z, c3, c2), fmadd(z, c5, c4));
-        fmadd(z2, fmadd(z2, high, middle), low)
-    }
+#[inline]
+#[target_feature(enable = "sse2,fma")]
+fn fused_polynomial(z: Register, [c0, c1, c2, c3, c4, c5]: [Register; 6]) -> Register {
+    let z2 = mul(z, z);
+    let (low, middle, high) = (fmadd(z, c1, c0), fmadd(z, c3, c2), fmadd(z, c5, c4));
+    fmadd(z2, fmadd(z2, high, middle), low)
 }

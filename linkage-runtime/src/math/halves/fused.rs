@@ -1,7 +1,6 @@
 //! In fused operations.
 
-/// For a scalar with polynomials of so many coefficients, of which `polynomial` makes the sums of both halves; `fmadd` and `fnmadd` are the
-/// third number plus, or less, the product of the others.
+/// See `halves`.
 macro_rules! fused_halves {
     ($scalar:ident, $bits:ident, $terms:literal) => {
         ways_in!("sse2,fma");
@@ -33,7 +32,7 @@ macro_rules! fused_halves {
             let turn = row(&TURNS, quadrant);
             let z = mul(y, y);
             let y3 = mul(y, z);
-            let polynomial = polynomial(z, turn.coefficients.each_ref().map(|of| of.bits()));
+            let polynomial = fused_polynomial(z, turn.coefficients.each_ref().map(|of| of.bits()));
             let tail = fmadd(y, turn.half.bits(), xor(t, turn.tail_negated.bits()));
             let [own, other] =
                 [&turn.own, &turn.other].map(|Line(slope, at_zero)| fmadd(y, slope.bits(), at_zero.bits()));

@@ -5,12 +5,14 @@
 //! half begins as the sine or the cosine that it will be.
 //!
 //! Each scalar has a module `pair` with a type `Register` and these operations of both halves: `add`, `sub`, `mul`, `xor`, `and`, `andnot` (of
-//! which the first number is complemented), `or`; `spread` for a number in both halves; `load`; `first`, the number in the first half; and
-//! `exchanged`. A register of singles has room for two pairs: its other half repeats the first.
+//! which the first number is complemented), `or`; `spread` for a number in both halves; `load`; `first`, the number in the first half;
+//! `exchanged`; and `polynomial`, the sums with coefficients that are halves. Fused operations are `fmadd` and `fnmadd`, the third number plus, or
+//! less, the product of the others; then the sums are those of `fused_polynomial`. A register of singles has room for two pairs: its other half
+//! repeats the first.
 
-/// What belongs to both arithmetics: `Spread`, `Halves`, `both`, `row`, `twice`, `ways_in`.
+/// `plain` and `fused`, of a scalar with polynomials of so many coefficients, and what belongs to both.
 macro_rules! halves {
-    ($scalar:ident, $bits:ident) => {
+    ($scalar:ident, $bits:ident, $terms:literal) => {
         use super::sin_cos::Reduced;
 
         /// A reduced angle, its y and t in both halves.
@@ -123,6 +125,30 @@ macro_rules! halves {
                     unsafe { sin_cos(Spread::of(reduced)) }
                 }
             };
+        }
+
+        pub(super) mod plain {
+            use super::super::super::halves::QUADRANTS;
+            use super::super::sin_cos::{COSINE, FRAC_PI_2, ROUND, Reduced, SINE};
+            use super::{
+                Halves, Register, SIGN, Spread, add, and, andnot, both, exchanged, first, mul, or, polynomial, row, spread,
+                sub, twice, xor,
+            };
+
+            plain_halves!($scalar, $bits, $terms);
+        }
+
+        #[cfg(target_feature = "fma")]
+        pub(super) mod fused {
+            use super::super::super::halves::QUADRANTS;
+            use super::super::fused::{COSINE, FRAC_PI_2, SINE};
+            use super::super::sin_cos::{ROUND, Reduced};
+            use super::{
+                Halves, Register, SIGN, Spread, both, first, fmadd, fnmadd, fused_polynomial, mul, row, spread, sub, twice,
+                xor,
+            };
+
+            fused_halves!($scalar, $bits, $terms);
         }
     };
 }

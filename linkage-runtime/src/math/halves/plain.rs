@@ -1,6 +1,6 @@
 //! In sums and products that are rounded one by one.
 
-/// For a scalar with polynomials of so many coefficients, of which `polynomial` makes the sums of both halves.
+/// See `halves`.
 macro_rules! plain_halves {
     ($scalar:ident, $bits:ident, $terms:literal) => {
         ways_in!("sse2");
