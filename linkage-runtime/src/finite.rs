@@ -17,7 +17,7 @@ macro_rules! finite {
         }
 
         /// The same for loops that are vectorised, which look at several positions at once: by the sum, which is finite only if all are. Where
-        /// it is not, the numbers may be so large that they are finite all the same: a position with such a sum is solved by itself.
+        /// it is not, the numbers may be so large that they are finite all the same: then their block is solved one by one.
         #[inline]
         #[must_use]
         pub fn each_finite<const N: usize>(values: [$scalar; N]) -> bool {
@@ -182,6 +182,9 @@ mod tests {
         assert!(f64::all_finite([]) && f32::all_finite([]));
         every_place!(f64, all_finite, each_finite, f64::INFINITY; 1 2 3 4 5 6 7 8 9);
         every_place!(f32, all_finite, each_finite, f32::INFINITY; 1 2 3 4 5 6 7 8 9);
+        // Of opposite signs they leave nothing that is finite either.
+        assert!(!f64::each_finite([f64::INFINITY, f64::NEG_INFINITY, 1.0]) && !f64::each_finite([1.0, f64::NAN]));
+        assert!(!f64::each_finite([f64::MAX, f64::MAX, -f64::MAX]) && f64::all_finite([f64::MAX, f64::MAX, -f64::MAX]));
     }
 
     #[test]

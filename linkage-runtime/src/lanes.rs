@@ -3,7 +3,7 @@
 //! A position is computed without a branch: all results, and whether all checks hold. Loops over the positions of a block are then
 //! straight-line code, which the compiler turns into vector instructions; each of their operations is rounded as the scalar one is, so
 //! that the results have the same bits. Where a check fails, the function for a single position solves the whole block, one by one, and
-//! says why.
+//! says why a position has no answer.
 
 /// The functions for a scalar; `$bits` are as many as it has.
 macro_rules! lanes {
@@ -11,14 +11,18 @@ macro_rules! lanes {
         /// How many positions a block has.
         pub const BLOCK: usize = 64;
 
-        /// How many numbers a line of the cache has. No instruction computes more at once.
-        const LINE: usize = 64 / size_of::<$scalar>();
+        /// As a constant, since unoptimised builds ask of what is computed whether it is zero, where it divides.
+        const SIZE: usize = size_of::<$scalar>();
 
-        /// How many numbers lie in front of the first line of the cache that begins among these.
+        /// How many numbers a line of the cache has. No instruction computes more at once.
+        const LINE: usize = 64 / SIZE;
+
+        /// How many numbers lie in front of the first line of the cache that begins among these; where they are aligned to less than their
+        /// size, to within one.
         #[inline(always)]
         #[must_use]
         pub fn lead(results: &[$scalar]) -> usize {
-            (results.as_ptr().addr() / size_of::<$scalar>()).wrapping_neg() % LINE
+            (results.as_ptr().addr() / SIZE).wrapping_neg() % LINE
         }
 
         /// How many checks have failed. A sum, as such a loop becomes vector instructions whatever is checked; by numbers of the scalar's
@@ -36,7 +40,7 @@ macro_rules! lanes {
         pub type Column = [$scalar; BLOCK];
 
         /// What is computed at the positions of a block. One piece of memory: the compiler sees that columns do not overlap. It begins with a
-        /// line of the cache, so that no register is read out of two.
+        /// line of the cache, so that no stage reads a register out of two.
         #[derive(Debug)]
         #[repr(align(64))]
         pub struct Columns<const KEPT: usize, const RESULTS: usize> {
@@ -107,7 +111,7 @@ macro_rules! lanes {
         }
 
         /// Solves blocks of positions by the widest instructions that the processor has, up to the first position without an answer. The
-        /// results have a `lead`.
+        /// first results have this `lead`.
         #[cfg(feature = "std")]
         pub fn sweep<const KEPT: usize, const RESULTS: usize>(
             count: usize,
@@ -137,8 +141,8 @@ macro_rules! lanes {
                 let (mut given, mut columns) = (sweep.given(), Columns::new());
                 let mut end = 0_usize;
                 while end < count {
-                    // A block begins where a line of the results does, as what a register writes into two lines takes twice as long. So a few
-                    // positions behind the first block are computed twice.
+                    // A block begins where a line of the results does, as what a register writes into two lines takes twice as long. So the last
+                    // few positions of the first block are computed twice.
                     let first = end.saturating_sub((end + LINE - lead) % LINE);
                     end = count.min(first + BLOCK);
                     let (lanes, positions) = (end - first, first..end);
@@ -276,7 +280,8 @@ macro_rules! lanes {
             }
         }
 
-        /// Writes a block by whole lines of the cache. Where they do not begin with it, its first and last numbers are written beside them.
+        /// Writes a block by whole lines of the cache. Where they do not begin with it, its first and its last numbers are
+        /// written as well, across lines.
         #[inline(always)]
         fn put_block(to: &mut Column, column: &Column) {
             let lead = lead(to);
@@ -285,8 +290,8 @@ macro_rules! lanes {
                 put_line(to.last_chunk_mut(), column.last_chunk());
             }
             let (to, column) = (to.get_mut(lead..).unwrap_or_default(), column.get(lead..).unwrap_or_default());
-            for (to, line) in to.as_chunks_mut().0.iter_mut().zip(column.as_chunks().0) {
-                put_line(Some(to), Some(line));
+            for (to, line) in to.as_chunks_mut::<LINE>().0.iter_mut().zip(column.as_chunks().0) {
+                *to = *line;
             }
         }
 
@@ -330,7 +335,7 @@ mod tests {
             for lane in from..BLOCK {
                 let given = block.given[lane];
                 block.results[0][lane] = 1.0 / given;
-                count += failed(given != 0.0);
+                count += failed(given.is_normal());
             }
             count == 0
         }
@@ -361,11 +366,17 @@ mod tests {
 
     #[test]
     fn a_block_in_which_a_check_fails_is_solved_one_by_one_up_to_there() {
-        for zero in [0, 5, BLOCK - 1, BLOCK, 2 * BLOCK] {
+        let zeros = [0, 5, BLOCK - 7, BLOCK - 1, BLOCK, BLOCK + 1, 2 * BLOCK - 1, 2 * BLOCK];
+        for (lead, zero) in (0..8).flat_map(|lead| zeros.map(|zero| (lead, zero))) {
             let (mut of, mut results) = ([2.0; COUNT], [0.0; COUNT]);
             of[zero] = 0.0;
-            sweep(of.len(), 0, &mut Reciprocals { of: &of, results: &mut results }).expect_err("one is zero");
-            let begin = zero / BLOCK * BLOCK;
+            sweep(of.len(), lead, &mut Reciprocals { of: &of, results: &mut results }).expect_err("one is zero");
+            // The first block that ends behind it.
+            let (mut begin, mut end) = (0, BLOCK);
+            while end <= zero {
+                begin = end - (end + 8 - lead) % 8;
+                end = begin + BLOCK;
+            }
             let parts = [&results[..begin], &results[begin..zero], &results[zero..]];
             for (part, expected) in parts.into_iter().zip([0.5, -1.0, 0.0]) {
                 assert_eq!(part, &[expected; COUNT][..part.len()]);
@@ -373,25 +384,47 @@ mod tests {
         }
     }
 
-    /// The positions of each block.
+    /// A check may fail at a position that has an answer: the blocks behind are computed as others.
+    #[test]
+    fn a_block_is_solved_one_by_one_for_nothing() {
+        let (mut of, mut results) = ([2.0; COUNT], [0.0; COUNT]);
+        of[5] = f64::MIN_POSITIVE / 4.0;
+        sweep(of.len(), 0, &mut Reciprocals { of: &of, results: &mut results }).expect("all have one");
+        assert!(results[..BLOCK].iter().all(|one_by_one| *one_by_one < 0.0));
+        assert_eq!(results[BLOCK..], [0.5; COUNT - BLOCK]);
+    }
+
+    /// The positions of each block, of which the last lanes are computed.
     struct Blocks(Vec<Range<usize>>);
 
-    impl Lanes<0, 0> for Blocks {
+    impl Lanes<0, 1> for Blocks {
         type Given = ();
 
         fn given(&self) {}
 
-        fn solve(&self, (): &mut (), _: usize, _: &mut Columns<0, 0>, _: usize) -> bool {
+        fn solve(&self, (): &mut (), end: usize, columns: &mut Columns<0, 1>, from: usize) -> bool {
+            let [column] = columns.block(()).results;
+            for (lane, number) in column.iter_mut().enumerate() {
+                *number = if lane < from { -1.0 } else { number_of((end + lane).saturating_sub(BLOCK)) };
+            }
             true
         }
 
-        fn take(&mut self, positions: Range<usize>, []: &[Column; 0]) {
+        fn take(&mut self, positions: Range<usize>, [column]: &[Column; 1]) {
+            let computed = column.iter().filter(|number| **number >= 0.0).count();
+            assert_eq!(computed % (64 / size_of::<f64>()), 0, "registers are full");
+            let expected: Vec<f64> = positions.clone().map(number_of).collect();
+            assert_eq!(column[BLOCK - positions.len()..], expected);
             self.0.push(positions);
         }
 
         fn point(&mut self, _: usize) -> Result<(), Error> {
             Err(Error::NotFinite { what: "none of these" })
         }
+    }
+
+    fn number_of(position: usize) -> f64 {
+        f64::from(u8::try_from(position).expect("few"))
     }
 
     #[test]
@@ -431,7 +464,7 @@ mod tests {
         let numbers = [0.0; BLOCK];
         for begin in 0..BLOCK / 2 {
             let lead = lead(&numbers[begin..]);
-            assert!(lead < 8 && numbers[begin + lead..].as_ptr().addr() % 64 == 0);
+            assert!(lead < 8 && numbers[begin + lead..].as_ptr().addr() % 64 < size_of::<f64>());
         }
     }
 

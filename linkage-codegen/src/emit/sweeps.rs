@@ -323,8 +323,8 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
             }
         }
     };
-    let lead = fields.first().map(|first| quote!(math::lead(results.#first)));
-    Lanes { items, call: quote!(math::sweep(count, #lead, &mut #ty { #(#names),* })) }
+    let first = &fields[0];
+    Lanes { items, call: quote!(math::sweep(count, math::lead(results.#first), &mut #ty { #(#names),* })) }
 }
 
 /// Whether values are numbers, or vectors of which each stage that reads a component reads the other one too: then registers are full of what

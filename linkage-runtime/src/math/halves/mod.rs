@@ -7,8 +7,8 @@
 //! Each scalar has a module `pair` with a type `Register` and these operations of both halves: `add`, `sub`, `mul`, `xor`, `and`, `andnot` (of
 //! which the first number is complemented), `or`; `spread` for a number in both halves; `load`; `first`, the number in the first half;
 //! `exchanged`; and `polynomial`, the sums with coefficients that are halves. Fused operations are `fmadd` and `fnmadd`, the third number plus, or
-//! less, the product of the others; then the sums are those of `fused_polynomial`. A register of singles has room for two pairs: its other half
-//! repeats the first.
+//! less, the product of the others; then the sums are those of `fused_polynomial`. A register of singles has four places, of which
+//! the last two repeat the first two.
 
 /// `plain` and `fused`, of a scalar with polynomials of so many coefficients, and what belongs to both.
 macro_rules! halves {

@@ -25,6 +25,9 @@ macro_rules! plain_halves {
             Spread { quadrant: first(rounded).to_bits(), y, t }
         }
 
+        /// The sign of the second half. Where it is used it would be made in unoptimised builds, with ways to panic.
+        const SECOND_NEGATED: Halves = Halves::ZERO.with(1, SIGN);
+
         /// Both halves are own − (z · factor · polynomial + tail): of a sine own is y, of a cosine 1 − z/2, whose rounding goes into the tail. The
         /// own term of each half is the derivative of the other, and so the factor of its tail: (sin, cos)' = (cos, −sin).
         #[inline]
@@ -40,7 +43,7 @@ macro_rules! plain_halves {
             let half = mul(z, turn.half.bits());
             let own = sub(start, half);
             let lost = sub(half, sub(start, own));
-            let derivative = xor(exchanged(own), Halves::ZERO.with(1, SIGN).bits());
+            let derivative = xor(exchanged(own), SECOND_NEGATED.bits());
             let tail = add(lost, mul(t, derivative));
             both(sub(own, add(mul(mul(z, factor), p), tail)))
         }
