@@ -34,7 +34,7 @@ pub fn mul_addf(a: f32, b: f32, c: f32) -> f32 {
 /// Sine and cosine in fused operations, for `arithmetic fused;`: the coefficients of `sin_cos`, a shorter reduction, and bits of their own,
 /// the same on every target. Needs `mul_add`, `FRAC_PI_2` in three parts, `SINE` and `COSINE`, the coefficients of S and −C, `cubic`, which is
 /// y³ times such a polynomial, plus a tail, and `short`, `short_half` and `of` for an angle of the short reduction, half of one, and a reduced
-/// one: `fused_one_by_one`, or what has its bits.
+/// one: `one_by_one` of `fused_one_by_one`, or what has its bits.
 macro_rules! fused_sines {
     ($scalar:ident) => {
         use super::large::{reduce_large, reduce_large_sum};
@@ -83,7 +83,13 @@ macro_rules! fused_sines {
         /// Where the short reduction serves. Nothing is lost but by the sums that make y and t.
         #[inline]
         fn reduce(x: $scalar) -> Reduced {
-            reduced(x, mul_add(x, core::$scalar::consts::FRAC_2_PI, ROUND))
+            reduced(x, rounded(x, core::$scalar::consts::FRAC_2_PI))
+        }
+
+        /// How many quadrants an angle has, of so many for each radian, rounded in the last bits of a number.
+        #[inline]
+        fn rounded(x: $scalar, per_radian: $scalar) -> $scalar {
+            mul_add(x, per_radian, ROUND)
         }
 
         /// The same, the number of quadrants being known, rounded in the last bits of a number.
@@ -112,26 +118,3 @@ macro_rules! fused_sines {
     };
 }
 pub(super) use fused_sines;
-
-/// `short`, `short_half` and `of` one by one.
-#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
-macro_rules! fused_one_by_one {
-    ($scalar:ident) => {
-        #[inline]
-        fn short(x: $scalar) -> ($scalar, $scalar) {
-            reduce(x).fused_one_by_one()
-        }
-
-        #[inline]
-        fn short_half(x: $scalar) -> ($scalar, $scalar) {
-            reduced(0.5 * x, mul_add(x, core::$scalar::consts::FRAC_1_PI, ROUND)).fused_one_by_one()
-        }
-
-        #[inline]
-        fn of(reduced: Reduced) -> ($scalar, $scalar) {
-            reduced.fused_one_by_one()
-        }
-    };
-}
-#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
-pub(super) use fused_one_by_one;

@@ -136,25 +136,23 @@ macro_rules! short_sines {
     };
 }
 
-/// `short`, `short_half` and `of` one by one.
-#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+/// `short`, `short_half` and `of` with these polynomials: for angles of the short reduction, halves of such angles, and reduced ones.
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
 macro_rules! one_by_one {
-    ($scalar:ident) => {
-        /// `sin_cos` without its branch.
+    ($scalar:ident, $polynomials:ident) => {
         #[inline]
         fn short(x: $scalar) -> ($scalar, $scalar) {
-            reduce(x).one_by_one()
+            reduce(x).$polynomials()
         }
 
-        /// `sin_cos_half` without its branch.
         #[inline]
         fn short_half(x: $scalar) -> ($scalar, $scalar) {
-            reduced(0.5 * x, x * core::$scalar::consts::FRAC_1_PI + ROUND).one_by_one()
+            reduced(0.5 * x, rounded(x, core::$scalar::consts::FRAC_1_PI)).$polynomials()
         }
 
         #[inline]
         fn of(reduced: Reduced) -> ($scalar, $scalar) {
-            reduced.one_by_one()
+            reduced.$polynomials()
         }
     };
 }

@@ -1,8 +1,6 @@
 //! Sine and cosine in fused operations.
 #![allow(clippy::unreadable_literal, reason = "coefficients are shortest decimals of exact bit patterns")]
 
-#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
-use super::super::fused::fused_one_by_one;
 use super::super::fused::{fused_sines, mul_addf as mul_add};
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma"))]
 use super::pair::fused::{of, short, short_half};
@@ -28,4 +26,4 @@ fn cubic(y: f32, &[c0, c1, c2]: &[f32; 3], tail: f32) -> f32 {
 
 fused_sines!(f32);
 #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
-fused_one_by_one!(f32);
+one_by_one!(f32, fused_one_by_one);

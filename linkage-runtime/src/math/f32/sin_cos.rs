@@ -82,7 +82,7 @@ fn large_sin_cos_sum(x: f32, hi: f32, lo: f32) -> (f32, f32) {
 }
 
 #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
-one_by_one!(f32);
+one_by_one!(f32, one_by_one);
 short_angles!(f32);
 short_sines!(f32, one_by_one);
 
@@ -97,7 +97,13 @@ pub(super) fn two_sum(a: f32, b: f32) -> (f32, f32) {
 /// For |x| ≤ 402. Nothing is lost but by the last product and the last difference, which act on the tail.
 #[inline]
 pub(super) fn reduce(x: f32) -> Reduced {
-    reduced(x, x * core::f32::consts::FRAC_2_PI + ROUND)
+    reduced(x, rounded(x, core::f32::consts::FRAC_2_PI))
+}
+
+/// How many quadrants an angle has, of so many for each radian, rounded in the last bits of a number.
+#[inline]
+fn rounded(x: f32, per_radian: f32) -> f32 {
+    x * per_radian + ROUND
 }
 
 /// The same, the number of quadrants being known, rounded in the last bits of a number.

@@ -1,8 +1,6 @@
 //! Sine and cosine in fused operations.
 #![allow(clippy::unreadable_literal, reason = "coefficients are shortest decimals of exact bit patterns")]
 
-#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
-use super::super::fused::fused_one_by_one;
 use super::super::fused::{fused_sines, mul_add};
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma"))]
 use super::pair::fused::{of, short, short_half};
@@ -29,4 +27,4 @@ fn cubic(y: f64, &[c0, c1, c2, c3, c4, c5]: &[f64; 6], tail: f64) -> f64 {
 
 fused_sines!(f64);
 #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
-fused_one_by_one!(f64);
+one_by_one!(f64, fused_one_by_one);

@@ -96,7 +96,7 @@ fn large_sin_cos_sum(x: f64, hi: f64, lo: f64) -> (f64, f64) {
 }
 
 #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
-one_by_one!(f64);
+one_by_one!(f64, one_by_one);
 short_angles!(f64);
 short_sines!(f64, one_by_one);
 
@@ -111,7 +111,13 @@ pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 /// For |x| ≤ 4.1·10⁵. Nothing is lost but by the last product and the last difference, which act on the tail.
 #[inline]
 pub(super) fn reduce(x: f64) -> Reduced {
-    reduced(x, x * core::f64::consts::FRAC_2_PI + ROUND)
+    reduced(x, rounded(x, core::f64::consts::FRAC_2_PI))
+}
+
+/// How many quadrants an angle has, of so many for each radian, rounded in the last bits of a number.
+#[inline]
+fn rounded(x: f64, per_radian: f64) -> f64 {
+    x * per_radian + ROUND
 }
 
 /// The same, the number of quadrants being known, rounded in the last bits of a number.
