@@ -17,6 +17,7 @@ mod reciprocals;
 mod repeated;
 mod signs;
 mod sizes;
+mod squares;
 mod unused;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,7 +30,7 @@ use crate::graph::{Graph, Guard, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 21] = [
+pub const PASSES: [(&str, Pass); 22] = [
     ("lengths", lengths::leave),
     ("pivots", pivots::compare_directly),
     ("checks", checks::ask_once),
@@ -44,6 +45,7 @@ pub const PASSES: [(&str, Pass); 21] = [
     ("folded", constants::fold),
     ("constants of sums", constants::multiply_into_sums),
     ("multiples", multiples::find),
+    ("squares", squares::subtract),
     ("repeated", repeated::compute_once),
     ("signs", signs::absorb),
     ("finite", finite::check_once),
