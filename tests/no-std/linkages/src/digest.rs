@@ -244,6 +244,7 @@ macro_rules! scalar {
                 let [angle, x, y, ..] = *input;
                 digest.put(math::sqrt(x));
                 digest.put(math::sin_cos(angle));
+                digest.put(math::sin_cos_half(angle));
                 digest.put(math::sin_cos_sum(angle, x, y));
                 digest.put(math::atan2(y, x));
                 digest.put(math::unit(x, y));

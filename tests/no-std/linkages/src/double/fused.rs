@@ -43,8 +43,10 @@ pub fn solve(input: &super::Inputs, digest: &mut Digest) {
     #[allow(clippy::cast_possible_truncation, reason = "any number serves")]
     let (single, part) = (theta as f32, 1e-8 * b as f32);
     digest.put(math::f32::fused_sin_cos(single));
+    digest.put(math::f32::fused_sin_cos_half(single));
     digest.put(math::f32::fused_sin_cos_sum(single, 1.25, part));
     digest.put(math::f64::fused_sin_cos(theta));
+    digest.put(math::f64::fused_sin_cos_half(theta));
     digest.put(math::f64::fused_sin_cos_sum(theta, 1.25, 1e-17 * b));
     let loads = linkage::Loads { F: Vector2::new(50.0 * a, 50.0 * b) };
     digest.result(linkage::held_at(theta, &loads));
