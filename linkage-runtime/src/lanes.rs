@@ -446,17 +446,24 @@ mod tests {
     }
 
     /// Wherever lines of the cache begin.
-    #[test]
-    fn a_block_is_written_where_it_belongs() {
-        let column: Column = core::array::from_fn(|lane| f64::from(u8::try_from(lane).expect("few")));
-        for begin in 0..BLOCK / 4 {
-            for length in [1, 7, BLOCK - 1, BLOCK] {
-                let mut all = [-1.0; 2 * BLOCK];
-                put(&mut all, begin..begin + length, &column);
-                assert_eq!(all[begin..begin + length], column[BLOCK - length..]);
-                assert!(all[..begin].iter().chain(&all[begin + length..]).all(|other| *other < 0.0));
+    macro_rules! a_block_is_written_where_it_belongs {
+        ($scalar:ident) => {
+            let column: [$scalar; BLOCK] = core::array::from_fn(|lane| $scalar::from(u8::try_from(lane).expect("few")));
+            for begin in 0..64 / size_of::<$scalar>() {
+                for length in [1, 7, BLOCK - 1, BLOCK] {
+                    let mut all = [-1.0; 2 * BLOCK];
+                    crate::__private::$scalar::put(&mut all, begin..begin + length, &column);
+                    assert_eq!(all[begin..begin + length], column[BLOCK - length..]);
+                    assert!(all[..begin].iter().chain(&all[begin + length..]).all(|other| *other < 0.0));
+                }
             }
-        }
+        };
+    }
+
+    #[test]
+    fn blocks_are_written_where_they_belong() {
+        a_block_is_written_where_it_belongs!(f32);
+        a_block_is_written_where_it_belongs!(f64);
     }
 
     #[test]

@@ -36,10 +36,7 @@ pub(super) struct Reduced {
 ///
 /// Error: at most 0.95 ulp for every finite x, next to multiples of π/2 too. sin(−0) = −0. NaN if x is not finite.
 #[inline(always)]
-#[allow(
-    clippy::inline_always,
-    reason = "as a call of its own it keeps all else waiting, and loops over angles from being vectorised"
-)]
+#[allow(clippy::inline_always, reason = "as a call of its own it keeps all else waiting")]
 #[must_use]
 pub fn sin_cos(x: f32) -> (f32, f32) {
     if is_short(x) { short(x) } else { large_sin_cos(x) }

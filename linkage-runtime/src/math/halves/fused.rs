@@ -39,7 +39,9 @@ macro_rules! fused_halves {
             both(fnmadd(other, fmadd(y3, polynomial, tail), own))
         }
 
-        /// What a quadrant makes of the halves. From a table, because what is read takes none of the units that calculate.
+        /// What a quadrant makes of the halves. From a table, because what is read takes none of the units that calculate; a power of two from
+        /// row to row, so that a shift finds them.
+        #[repr(align(256))]
         struct Turn {
             /// Of ±S for a sine, −C for a cosine.
             coefficients: [Halves; $terms],

@@ -48,7 +48,9 @@ macro_rules! plain_halves {
             both(sub(own, add(mul(mul(z, factor), p), tail)))
         }
 
-        /// What a quadrant makes of the halves. From a table, because what is read takes none of the units that calculate.
+        /// What a quadrant makes of the halves. From a table, because what is read takes none of the units that calculate; a power of two from
+        /// row to row, so that a shift finds them.
+        #[repr(align(256))]
         struct Turn {
             /// Those of S or −C, negated where the half is.
             coefficients: [Halves; $terms],
