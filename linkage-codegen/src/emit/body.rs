@@ -186,9 +186,10 @@ impl<'a> Body<'a> {
                 Some(quote!(#value.is_finite()))
             }
             Step::FiniteResults(checked) => {
-                // A loop over positions waits for neither: what counts is how many there are.
+                // A loop over positions waits for neither: what counts are operations. Results are added up, and their sum is asked; each
+                // argument takes three, for its size, the comparison and what gathers them.
                 let (_, others) = body.moderate();
-                if body.program.moderate.is_empty() || others.len() >= checked.len() {
+                if body.program.moderate.is_empty() || checked.len() + 2 <= 3 * others.len() {
                     let values = body.array(checked);
                     Some(quote!(math::each_finite(#values)))
                 } else if others.is_empty() {
