@@ -1,0 +1,123 @@
+//! What plain and fused sines have in common: where the short reduction serves, the quadrant, and the ways in.
+
+/// Sine and cosine of an angle from those of its distance from the next multiple of π/2, in the bits of a scalar.
+macro_rules! by_quadrant {
+    ($scalar:ident, $bits:ident) => {
+        #[inline]
+        pub(super) fn by_quadrant(quadrant: $bits, sin: $scalar, cos: $scalar) -> ($scalar, $scalar) {
+            let (sin, cos) = if quadrant & 1 == 0 { (sin, cos) } else { (cos, sin) };
+            // The last bit as the sign; the one before it.
+            let quarter_turn = quadrant << ($bits::BITS - 1);
+            let half_turn = (quadrant >> 1) << ($bits::BITS - 1);
+            let turned = |part: $scalar, signs: $bits| $scalar::from_bits(part.to_bits() ^ signs);
+            (turned(sin, half_turn), turned(cos, half_turn ^ quarter_turn))
+        }
+    };
+}
+
+/// Whether the short reduction serves for an angle: up to `FAST`, and not for what is no number.
+macro_rules! short_angles {
+    ($scalar:ident) => {
+        /// Whether the short reduction serves for an angle.
+        ///
+        /// As integers, whose units have nothing else to do; and where floating point is software, a comparison of such numbers would be a call.
+        #[doc(hidden)]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
+        #[must_use]
+        pub fn is_short(x: $scalar) -> bool {
+            x.abs().to_bits() <= FAST.to_bits()
+        }
+
+        /// Whether it serves for half of an angle.
+        #[inline]
+        pub(super) fn is_short_half(x: $scalar) -> bool {
+            x.abs().to_bits() <= (2.0 * FAST).to_bits()
+        }
+
+        /// The same as `is_short` for loops that are vectorised, which look at several positions at once.
+        #[doc(hidden)]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "for loops that are vectorised")]
+        #[must_use]
+        pub fn each_short(x: $scalar) -> bool {
+            x.abs() <= FAST
+        }
+
+        /// Whether an angle is finite. Behind this its sine need not ask again whether it is short.
+        #[doc(hidden)]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
+        #[must_use]
+        pub fn is_angle(x: $scalar) -> bool {
+            is_short(x) || large_is_finite(x)
+        }
+
+        /// Out of line, so that it is not worked out beside the other question.
+        #[cold]
+        #[inline(never)]
+        fn large_is_finite(x: $scalar) -> bool {
+            x.is_finite()
+        }
+    };
+}
+
+/// Sine and cosine without a branch, in two parts: for angles for which the short reduction serves; elsewhere the numbers mean nothing. Loops
+/// over angles keep what lies between, so that the operations of the second part do not wait for those of the first.
+macro_rules! short_sines {
+    ($scalar:ident, $polynomials:ident) => {
+        short_sines!($scalar, $polynomials, short_angle, short_angle_sum, short_sin_cos);
+    };
+    ($scalar:ident, $polynomials:ident, $angle:ident, $angle_sum:ident, $sin_cos:ident) => {
+        /// The angle as quarter turns, in the last bits of the first number, and what is left, the second number less the third.
+        #[doc(hidden)]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "for loops that are vectorised")]
+        #[must_use]
+        pub fn $angle(x: $scalar) -> ($scalar, $scalar, $scalar) {
+            let Reduced { quadrant, y, t } = reduce(x);
+            ($scalar::from_bits(quadrant), y, t)
+        }
+
+        /// The same of the real number x + hi + lo: where the short reduction serves for x + hi.
+        #[doc(hidden)]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "for loops that are vectorised")]
+        #[must_use]
+        pub fn $angle_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar, $scalar) {
+            let (sum, error) = two_sum(x, hi);
+            let Reduced { quadrant, y, t } = reduce(sum).plus(error + lo);
+            ($scalar::from_bits(quadrant), y, t)
+        }
+
+        /// (sin, cos) of such an angle.
+        #[doc(hidden)]
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "for loops that are vectorised")]
+        #[must_use]
+        pub fn $sin_cos(quarters: $scalar, rest: $scalar, tail: $scalar) -> ($scalar, $scalar) {
+            Reduced { quadrant: quarters.to_bits(), y: rest, t: tail }.$polynomials()
+        }
+    };
+}
+
+/// `short`, `short_half` and `of` with these polynomials: for angles of the short reduction, halves of such angles, and reduced ones.
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2", target_feature = "fma")))]
+macro_rules! one_by_one {
+    ($scalar:ident, $polynomials:ident) => {
+        #[inline]
+        fn short(x: $scalar) -> ($scalar, $scalar) {
+            reduce(x).$polynomials()
+        }
+
+        #[inline]
+        fn short_half(x: $scalar) -> ($scalar, $scalar) {
+            reduced(0.5 * x, rounded(x, core::$scalar::consts::FRAC_1_PI)).$polynomials()
+        }
+
+        #[inline]
+        fn of(reduced: Reduced) -> ($scalar, $scalar) {
+            reduced.$polynomials()
+        }
+    };
+}
