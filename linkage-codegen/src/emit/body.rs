@@ -186,8 +186,8 @@ impl<'a> Body<'a> {
                 Some(quote!(#value.is_finite()))
             }
             Step::FiniteResults(checked) => {
-                // A loop over positions waits for neither: what counts are operations. Results are added up, and their sum is asked; each
-                // argument takes three, for its size, the comparison and what gathers them.
+                // A loop over positions waits for neither: what counts are operations. Each number that is asked takes three: for its size,
+                // for the comparison, and for what gathers them. Of results that is their sum, of arguments every one.
                 let (_, others) = body.moderate();
                 if body.program.moderate.is_empty() || checked.len() + 2 <= 3 * others.len() {
                     let values = body.array(checked);

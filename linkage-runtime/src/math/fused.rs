@@ -40,51 +40,18 @@ macro_rules! fused_sines {
         use super::large::{reduce_large, reduce_large_sum};
         use super::sin_cos::{ROUND, Reduced, by_quadrant, is_short, is_short_half, two_sum};
 
-        /// (sin x, cos x), as [`sin_cos`](super::sin_cos()), every product that a sum reads added without being rounded.
-        ///
-        /// Error: at most 0.96 ulp for every finite x. sin(−0) = −0. NaN if x is not finite.
-        #[inline(always)]
-        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
-        #[must_use]
-        pub fn fused_sin_cos(x: $scalar) -> ($scalar, $scalar) {
-            if is_short(x) { short(x) } else { large_sin_cos(x) }
+        sines! {
+            $scalar, fused_one_by_one;
+            /// (sin x, cos x), as [`sin_cos`](super::sin_cos()), every product that a sum reads added without being rounded.
+            ///
+            /// Error: at most 0.96 ulp for every finite x. sin(−0) = −0. NaN if x is not finite.
+            fused_sin_cos,
+            /// (sin x/2, cos x/2): the bits of [`fused_sin_cos`] of `0.5 * x`, whose product the quadrant does not wait for.
+            fused_sin_cos_half,
+            /// (sin, cos) of the real number x + hi + lo, as [`sin_cos_sum`](super::sin_cos_sum), with 0.96 ulp in place of 0.95.
+            fused_sin_cos_sum,
         }
-
-        /// (sin x/2, cos x/2): the bits of [`fused_sin_cos`] of `0.5 * x`, whose product the quadrant does not wait for.
-        #[inline(always)]
-        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
-        #[must_use]
-        pub fn fused_sin_cos_half(x: $scalar) -> ($scalar, $scalar) {
-            if is_short_half(x) { short_half(x) } else { large_sin_cos(0.5 * x) }
-        }
-
-        /// (sin, cos) of the real number x + hi + lo, as [`sin_cos_sum`](super::sin_cos_sum), with 0.96 ulp in place of 0.95.
-        #[inline]
-        #[must_use]
-        pub fn fused_sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
-            let (sum, error) = two_sum(x, hi);
-            if is_short(sum) { of(reduce(sum).plus(error + lo)) } else { large_sin_cos_sum(sum, error, lo) }
-        }
-
-        #[cold]
-        #[inline(never)]
-        fn large_sin_cos(x: $scalar) -> ($scalar, $scalar) {
-            reduce_large(x).fused_one_by_one()
-        }
-
-        #[cold]
-        #[inline(never)]
-        fn large_sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
-            reduce_large_sum(x, hi, lo).fused_one_by_one()
-        }
-
         short_sines!($scalar, fused_one_by_one, short_fused_angle, short_fused_angle_sum, short_fused_sin_cos);
-
-        /// Where the short reduction serves. Nothing is lost but by the sums that make y and t.
-        #[inline]
-        fn reduce(x: $scalar) -> Reduced {
-            reduced(x, rounded(x, core::$scalar::consts::FRAC_2_PI))
-        }
 
         /// How many quadrants an angle has, of so many for each radian, rounded in the last bits of a number.
         #[inline]
@@ -92,7 +59,8 @@ macro_rules! fused_sines {
             mul_add(x, per_radian, ROUND)
         }
 
-        /// The same, the number of quadrants being known, rounded in the last bits of a number.
+        /// The angle without its quadrants, whose number is known, rounded in the last bits of a number: where the short reduction serves. Nothing
+        /// is lost but by the sums that make y and t.
         #[inline]
         fn reduced(x: $scalar, rounded: $scalar) -> Reduced {
             let n = rounded - ROUND;

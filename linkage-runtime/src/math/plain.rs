@@ -6,63 +6,36 @@ macro_rules! plain_sines {
     ($scalar:ident, $bits:ident) => {
         use super::large::{reduce_large, reduce_large_sum};
 
-        /// An angle of `quadrant`·π/2 + (y − t), with |y| ≤ π/4 and a tail t of about an ulp of y, or ε/8, at most.
+        /// An angle of `quadrant`·π/2 + (y − t), with |y| ≤ π/4 and a tail t of about an ulp of y, or
+        /// ε/64, in single precision ε/8, at most.
         pub(super) struct Reduced {
             pub(super) quadrant: $bits,
             pub(super) y: $scalar,
             pub(super) t: $scalar,
         }
 
-        /// (sin x, cos x).
-        ///
-        /// Reduction with π/2 in three parts and a tail (Cody and Waite 1980, Ng 1992) up to 65 000 turns, in single precision 64, without a
-        /// branch; beyond, out of line, the exact product with 2/π in integers (Payne and Hanek 1983). Then sin y = y − y³S(y²) and
-        /// cos y = 1 − y²/2 + y⁴C(y²), with six coefficients each, in single precision three, found by Remez exchange.
-        ///
-        /// Error: at most 0.95 ulp for every finite x, next to multiples of π/2 too. sin(−0) = −0. NaN if x is not finite.
-        #[inline(always)]
-        #[allow(clippy::inline_always, reason = "as a call of its own it keeps all else waiting")]
-        #[must_use]
-        pub fn sin_cos(x: $scalar) -> ($scalar, $scalar) {
-            if is_short(x) { short(x) } else { large_sin_cos(x) }
+        sines! {
+            $scalar, one_by_one;
+            /// (sin x, cos x).
+            ///
+            /// Reduction with π/2 in three parts and a tail (Cody and Waite 1980, Ng 1992) up to 65 000 turns, in single precision 64, without a
+            /// branch; beyond, out of line, the exact product with 2/π in integers (Payne and Hanek 1983). Then sin y = y − y³S(y²) and
+            /// cos y = 1 − y²/2 + y⁴C(y²), with six coefficients each, in single precision three, found by Remez exchange.
+            ///
+            /// Error: at most 0.95 ulp for every finite x, next to multiples of π/2 too. sin(−0) = −0. NaN if x is not finite.
+            sin_cos,
+            /// (sin x/2, cos x/2): the bits of [`sin_cos`] of `0.5 * x`, whose product the quadrant does not wait for.
+            sin_cos_half,
+            /// (sin, cos) of the real number x + hi + lo, which is not rounded before the reduction.
+            ///
+            /// For a constant hi + lo in two parts, such as a phase: |hi| ≤ 4, |lo| ≤ ulp(hi). The rounding error of x + hi (Knuth's
+            /// two-sum) goes into the tail of the reduction.
+            ///
+            /// Error: at most 0.95 ulp plus ε²·max(4, |x|). The second part is below 0.05 ulp wherever the result exceeds
+            /// 45 ε·max(4, |x|); next to a multiple of π/2 it is of the size of what lo itself lacks. NaN if an argument is not
+            /// finite.
+            sin_cos_sum,
         }
-
-        /// Out of line to the end, so that nothing of it has to be brought together with what is short.
-        #[cold]
-        #[inline(never)]
-        fn large_sin_cos(x: $scalar) -> ($scalar, $scalar) {
-            reduce_large(x).one_by_one()
-        }
-
-        /// (sin x/2, cos x/2): the bits of [`sin_cos`] of `0.5 * x`, whose product the quadrant does not wait for.
-        #[inline(always)]
-        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
-        #[must_use]
-        pub fn sin_cos_half(x: $scalar) -> ($scalar, $scalar) {
-            if is_short_half(x) { short_half(x) } else { large_sin_cos(0.5 * x) }
-        }
-
-        /// (sin, cos) of the real number x + hi + lo, which is not rounded before the reduction.
-        ///
-        /// For a constant hi + lo in two parts, such as a phase: |hi| ≤ 4, |lo| ≤ ulp(hi). The rounding error of x + hi (Knuth's
-        /// two-sum) goes into the tail of the reduction.
-        ///
-        /// Error: at most 0.95 ulp plus ε²·max(4, |x|). The second part is below 0.05 ulp wherever the result exceeds
-        /// 45 ε·max(4, |x|); next to a multiple of π/2 it is of the size of what lo itself lacks. NaN if an argument is not
-        /// finite.
-        #[inline]
-        #[must_use]
-        pub fn sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
-            let (sum, error) = two_sum(x, hi);
-            if is_short(sum) { of(reduce(sum).plus(error + lo)) } else { large_sin_cos_sum(sum, error, lo) }
-        }
-
-        #[cold]
-        #[inline(never)]
-        fn large_sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
-            reduce_large_sum(x, hi, lo).one_by_one()
-        }
-
         #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
         one_by_one!($scalar, one_by_one);
         short_angles!($scalar);
@@ -76,19 +49,14 @@ macro_rules! plain_sines {
             (sum, (a - (sum - b_in_sum)) + (b - b_in_sum))
         }
 
-        /// For |x| up to `FAST`. Nothing is lost but by the last product and the last difference, which act on the tail.
-        #[inline]
-        pub(super) fn reduce(x: $scalar) -> Reduced {
-            reduced(x, rounded(x, core::$scalar::consts::FRAC_2_PI))
-        }
-
         /// How many quadrants an angle has, of so many for each radian, rounded in the last bits of a number.
         #[inline]
         fn rounded(x: $scalar, per_radian: $scalar) -> $scalar {
             x * per_radian + ROUND
         }
 
-        /// The same, the number of quadrants being known, rounded in the last bits of a number.
+        /// The angle without its quadrants, whose number is known, rounded in the last bits of a number: for |x| up to `FAST`. Nothing is lost but by
+        /// the last product and the last difference, which act on the tail.
         #[inline]
         fn reduced(x: $scalar, rounded: $scalar) -> Reduced {
             let n = rounded - ROUND;

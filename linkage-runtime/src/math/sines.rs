@@ -62,6 +62,58 @@ macro_rules! short_angles {
     };
 }
 
+/// Sine and cosine of an angle, of half of one and of a sum, with these polynomials: by the short reduction where it serves. Needs `rounded` and
+/// `reduced`, and `short`, `short_half` and `of`.
+macro_rules! sines {
+    (
+        $scalar:ident, $polynomials:ident;
+        $(#[$whole:meta])* $sin_cos:ident, $(#[$half:meta])* $sin_cos_half:ident, $(#[$sum:meta])* $sin_cos_sum:ident,
+    ) => {
+        $(#[$whole])*
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "as a call of its own it keeps all else waiting")]
+        #[must_use]
+        pub fn $sin_cos(x: $scalar) -> ($scalar, $scalar) {
+            if is_short(x) { short(x) } else { large_sin_cos(x) }
+        }
+
+        $(#[$half])*
+        #[inline(always)]
+        #[allow(clippy::inline_always, reason = "as `sin_cos`")]
+        #[must_use]
+        pub fn $sin_cos_half(x: $scalar) -> ($scalar, $scalar) {
+            if is_short_half(x) { short_half(x) } else { large_sin_cos(0.5 * x) }
+        }
+
+        $(#[$sum])*
+        #[inline]
+        #[must_use]
+        pub fn $sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
+            let (sum, error) = two_sum(x, hi);
+            if is_short(sum) { of(reduce(sum).plus(error + lo)) } else { large_sin_cos_sum(sum, error, lo) }
+        }
+
+        /// Out of line to the end, so that nothing of it has to be brought together with what is short.
+        #[cold]
+        #[inline(never)]
+        fn large_sin_cos(x: $scalar) -> ($scalar, $scalar) {
+            reduce_large(x).$polynomials()
+        }
+
+        #[cold]
+        #[inline(never)]
+        fn large_sin_cos_sum(x: $scalar, hi: $scalar, lo: $scalar) -> ($scalar, $scalar) {
+            reduce_large_sum(x, hi, lo).$polynomials()
+        }
+
+        /// The short reduction.
+        #[inline]
+        pub(super) fn reduce(x: $scalar) -> Reduced {
+            reduced(x, rounded(x, core::$scalar::consts::FRAC_2_PI))
+        }
+    };
+}
+
 /// Sine and cosine without a branch, in two parts: for angles for which the short reduction serves; elsewhere the numbers mean nothing. Loops
 /// over angles keep what lies between, so that the operations of the second part do not wait for those of the first.
 macro_rules! short_sines {

@@ -36,7 +36,7 @@ macro_rules! vectors {
         /// the magnitude is infinite.
         #[inline]
         fn scale(magnitude: $scalar) -> $scalar {
-            /// The exponents, as bits, of infinity and of one, and the last bit of an exponent.
+            // The exponents, as bits, of infinity and of one, and the last bit of an exponent.
             const EXPONENT: $bits = $scalar::INFINITY.to_bits();
             const ONE: $bits = <$scalar>::to_bits(1.0);
             const LAST: $bits = $scalar::MIN_POSITIVE.to_bits();

@@ -4,7 +4,8 @@
 //! It is the cosine of twice the angle. As c and s are rounded already, either form has it to within about an ε of one, and none has all its
 //! digits where it is small. Of other numbers `(x − y)(x + y)` stays: nearly equal squares lose the digits of their difference.
 //!
-//! Not where rounding errors are counted, which would have to know of it.
+//! With one square alone it would be a sum less as well, and is not done: a compiler pairs the new square with products of the loads, and the
+//! torque alone takes longer. Nor is it where rounding errors are counted, which would have to know of it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -69,14 +70,14 @@ fn cosine_and_sine(program: &Program, product: ValueId, uses: &[usize]) -> Optio
 }
 
 impl Program {
-    /// A square is computed in front of a value: under its heading, and with a name, as several read it.
+    /// A square is computed in front of a value: under its heading, and with a name and a meaning, as several read it.
     fn stand_beside(&mut self, value: ValueId, square: ValueId, of: ValueId) {
         let section = self.value(value).section.clone();
-        let name = self.value(of).label.as_ref().map(|label| format!("{}2", label.name));
+        let name = self.value(of).label.as_ref().map(|label| label.name.clone());
         let Value { label, section: heading, .. } = &mut self.values[square.index()];
         *heading = section;
         if label.is_none() {
-            *label = name.map(|name| Label { name, equation: String::new() });
+            *label = name.map(|name| Label { equation: format!("{name}²"), name: format!("{name}2") });
         }
     }
 }

@@ -66,6 +66,8 @@ macro_rules! fused_halves {
             }
         }
 
+        const _: () = assert!(size_of::<Turn>() == 256);
+
         static TURNS: [Turn; 4] =
             [Turn::of(QUADRANTS[0]), Turn::of(QUADRANTS[1]), Turn::of(QUADRANTS[2]), Turn::of(QUADRANTS[3])];
 

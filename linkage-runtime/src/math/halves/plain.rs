@@ -62,6 +62,8 @@ macro_rules! plain_halves {
             half: Halves,
         }
 
+        const _: () = assert!(size_of::<Turn>() == 256);
+
         static TURNS: [Turn; 4] =
             [Turn::of(QUADRANTS[0]), Turn::of(QUADRANTS[1]), Turn::of(QUADRANTS[2]), Turn::of(QUADRANTS[3])];
 
