@@ -5,7 +5,7 @@
 ///
 /// By patterns: neither an index nor an iterator, which keep a way to panic in unoptimised builds.
 macro_rules! finite {
-    ($scalar:ident, $four:ident, $infinite:literal, $moderate:literal) => {
+    ($scalar:ident, $bits:ident, $four:ident, $infinite:literal, $moderate:literal) => {
         /// Whether none is infinite or NaN.
         #[inline]
         #[must_use]
@@ -16,20 +16,21 @@ macro_rules! finite {
             $crate::finite::in_each!(values, value => value.is_finite())
         }
 
-        /// The same for loops that are vectorised, which look at several positions at once: by the sum, which is finite only if all are. Where
-        /// it is not, the numbers may be so large that they are finite all the same: then their block is solved one by one.
+        /// The same for loops that are vectorised, which look at several positions at once: marks if any is infinite or NaN. By the sum, which is
+        /// finite only if all are, and then leaves zero without itself. Where it is not, the numbers may be so large that they are finite
+        /// all the same: then their block is solved one by one.
         #[inline]
         #[must_use]
-        pub fn each_finite<const N: usize>(values: [$scalar; N]) -> bool {
+        pub fn not_finite<const N: usize>(values: [$scalar; N]) -> $bits {
             let (mut sum, mut rest) = match values.as_slice() {
                 [value, others @ ..] => (*value, others),
-                [] => return true,
+                [] => return 0,
             };
             while let [value, others @ ..] = rest {
                 sum += *value;
                 rest = others;
             }
-            sum.is_finite()
+            (sum - sum).to_bits()
         }
 
         /// Whether none is NaN or so large that what is made of all of them, behind the checks of a linkage, could be infinite.
@@ -158,39 +159,48 @@ pub(crate) mod registers {
 mod tests {
     use crate::__private::{f32, f64};
 
-    /// Each number for which something does not hold, in each place of one to nine numbers for which it does.
+    /// Each number for which something does not hold, in each place of one to nine numbers for which it does. `$each` is what loops ask.
     macro_rules! every_place {
-        ($scalar:ident, $all:ident, $each:ident, $beyond:expr; $($length:literal)+) => {$({
+        ($scalar:ident, $all:ident, $each:expr, $beyond:expr; $($length:literal)+) => {$({
             let least: $scalar = $beyond;
             let most = least.next_down();
             for x in [0.0, -0.0, 5e-324 as $scalar, -$scalar::MIN_POSITIVE, 1.0, most, -most] {
                 assert!($scalar::$all([x; $length]), "{x:e}");
-                assert_eq!($scalar::$each([x; $length]), [x; $length].iter().sum::<$scalar>().is_finite(), "{x:e}");
+                assert_eq!($each(&[x; $length]), [x; $length].iter().sum::<$scalar>().is_finite(), "{x:e}");
                 for not in [least, -least, $scalar::INFINITY, -$scalar::INFINITY, $scalar::NAN, -$scalar::NAN] {
                     for place in 0..$length {
                         let mut values = [x; $length];
                         values[place] = not;
-                        assert!(!$scalar::$all(values) && !$scalar::$each(values), "{values:?}");
+                        assert!(!$scalar::$all(values) && !$each(&values), "{values:?}");
                     }
                 }
             }
         })+};
     }
 
+    /// What a loop asks of results: whether what marks them leaves nothing.
+    macro_rules! unmarked {
+        ($scalar:ident, $values:expr) => {
+            $scalar::all_hold($scalar::not_finite($values))
+        };
+    }
+
     #[test]
     fn what_is_not_finite_is_found_in_every_place() {
         assert!(f64::all_finite([]) && f32::all_finite([]));
-        every_place!(f64, all_finite, each_finite, f64::INFINITY; 1 2 3 4 5 6 7 8 9);
-        every_place!(f32, all_finite, each_finite, f32::INFINITY; 1 2 3 4 5 6 7 8 9);
+        assert!(unmarked!(f64, []) && unmarked!(f32, []));
+        every_place!(f64, all_finite, |values: &_| unmarked!(f64, *values), f64::INFINITY; 1 2 3 4 5 6 7 8 9);
+        every_place!(f32, all_finite, |values: &_| unmarked!(f32, *values), f32::INFINITY; 1 2 3 4 5 6 7 8 9);
         // Of opposite signs they leave nothing that is finite either.
-        assert!(!f64::each_finite([f64::INFINITY, f64::NEG_INFINITY, 1.0]) && !f64::each_finite([1.0, f64::NAN]));
-        assert!(!f64::each_finite([f64::MAX, f64::MAX, -f64::MAX]) && f64::all_finite([f64::MAX, f64::MAX, -f64::MAX]));
+        assert!(!unmarked!(f64, [f64::INFINITY, f64::NEG_INFINITY, 1.0]) && !unmarked!(f64, [1.0, f64::NAN]));
+        let enormous = [f64::MAX, f64::MAX, -f64::MAX];
+        assert!(!unmarked!(f64, enormous) && f64::all_finite(enormous));
     }
 
     #[test]
     fn what_is_not_moderate_is_found_in_every_place() {
         assert!(f64::all_moderate([]) && f32::all_moderate([]));
-        every_place!(f64, all_moderate, each_moderate, 2f64.powi(257); 1 2 3 4 5 6 7 8 9);
-        every_place!(f32, all_moderate, each_moderate, 2f32.powi(33); 1 2 3 4 5 6 7 8 9);
+        every_place!(f64, all_moderate, |values: &_| f64::each_moderate(*values), 2f64.powi(257); 1 2 3 4 5 6 7 8 9);
+        every_place!(f32, all_moderate, |values: &_| f32::each_moderate(*values), 2f32.powi(33); 1 2 3 4 5 6 7 8 9);
     }
 }

@@ -25,15 +25,22 @@ macro_rules! lanes {
             (results.as_ptr().addr() / SIZE).wrapping_neg() % LINE
         }
 
-        /// How many checks have failed. A sum, as such a loop becomes vector instructions whatever is checked; by numbers of the scalar's
-        /// size, so that a register counts as many positions as it computes.
-        pub type Count = $bits;
+        /// What has failed, in bits that are gathered by "or": such a loop becomes vector instructions whatever is checked; of the scalar's
+        /// size, so that a register has those of as many positions as it computes. The last of them, `UNMARKED`, say nothing.
+        pub type Marks = $bits;
 
-        /// One for a check that fails, zero for one that holds.
+        /// All bits for a check that fails, none for one that holds.
         #[inline(always)]
         #[must_use]
-        pub fn failed(holds: bool) -> Count {
-            Count::from(!holds)
+        pub fn failed(holds: bool) -> Marks {
+            Marks::from(holds).wrapping_sub(1)
+        }
+
+        /// Whether no check has failed.
+        #[inline(always)]
+        #[must_use]
+        pub fn all_hold(marks: Marks) -> bool {
+            marks >> UNMARKED == 0
         }
 
         /// A number at each position of a block.
@@ -310,7 +317,9 @@ mod tests {
     use core::ops::Range;
     use std::vec::Vec;
 
-    use crate::__private::f64::{BLOCK, Column, Columns, Count, Given, Lanes, Parts, failed, lead, put, sweep};
+    use crate::__private::f64::{
+        BLOCK, Column, Columns, Given, Lanes, Marks, Parts, all_hold, failed, lead, put, sweep,
+    };
     use crate::{Error, Series};
 
     /// Two blocks, and one more.
@@ -330,14 +339,14 @@ mod tests {
         }
 
         fn solve(&self, given: &mut Self::Given, end: usize, columns: &mut Columns<0, 1>, from: usize) -> bool {
-            let mut count: Count = 0;
+            let mut marks: Marks = 0;
             let block = columns.block(given.block(end));
             for lane in from..BLOCK {
                 let given = block.given[lane];
                 block.results[0][lane] = 1.0 / given;
-                count += failed(given.is_normal());
+                marks |= failed(given.is_normal());
             }
-            count == 0
+            all_hold(marks)
         }
 
         fn take(&mut self, positions: Range<usize>, [column]: &[Column; 1]) {

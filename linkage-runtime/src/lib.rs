@@ -81,7 +81,7 @@ pub mod __private {
 
     pub mod f32 {
         pub use crate::math::f32::*;
-        crate::finite::finite!(f32, four_f32, 0x7F80_0000, 0x5000_0000);
+        crate::finite::finite!(f32, u32, four_f32, 0x7F80_0000, 0x5000_0000);
         crate::lanes::lanes!(f32, u32);
         crate::limits::limits!(f32);
         crate::linear::linear!(f32);
@@ -90,7 +90,7 @@ pub mod __private {
     }
     pub mod f64 {
         pub use crate::math::f64::*;
-        crate::finite::finite!(f64, four_f64, 0x7FF0_0000, 0x5000_0000_0000_0000);
+        crate::finite::finite!(f64, u64, four_f64, 0x7FF0_0000, 0x5000_0000_0000_0000);
         crate::lanes::lanes!(f64, u64);
         crate::limits::limits!(f64);
         crate::linear::linear!(f64);

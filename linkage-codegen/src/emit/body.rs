@@ -103,6 +103,23 @@ fn notes_of(value: &Value) -> (&str, &str) {
     (&value.section, value.label.as_ref().map_or("", |label| &label.equation))
 }
 
+/// What is checked beside statements without a branch.
+#[derive(Clone, Debug)]
+pub(super) enum Question {
+    /// Holds, or else the results mean nothing.
+    Holds(TokenStream),
+    /// Gives marks if they do not.
+    Marks(TokenStream),
+}
+
+impl Question {
+    pub(super) fn code(&self) -> &TokenStream {
+        match self {
+            Self::Holds(code) | Self::Marks(code) => code,
+        }
+    }
+}
+
 /// What becomes of a check.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Checks {
@@ -158,7 +175,7 @@ impl<'a> Body<'a> {
     }
 
     /// All statements, without a branch, and the conditions under which the results mean something.
-    pub(super) fn straight(mut self) -> (Vec<Statement<'a>>, Vec<TokenStream>, Self) {
+    pub(super) fn straight(mut self) -> (Vec<Statement<'a>>, Vec<Question>, Self) {
         self.checks = Checks::Gathered;
         self.angles = self.angles();
         let body = self;
@@ -168,10 +185,8 @@ impl<'a> Body<'a> {
             _ => None,
         });
         let statements = values.flat_map(|value| body.let_statements(value, &mut calls)).collect();
-        let angles: BTreeSet<(Kernel, Vec<ValueId>)> = body.kernels().collect();
-        let angles = angles.into_iter().filter_map(|(kernel, args)| body.angle(kernel, &args));
-        let angles = angles.map(|angle| quote!(math::each_short(#angle)));
-        // No angle is short that is not finite.
+        let angles = body.angles.values().map(|[quarters, ..]| Question::Marks(quote!(math::far(#quarters))));
+        // Every angle is far that is not finite.
         let sines = body.program.steps.iter().filter_map(|step| match step {
             Step::Let(value) => Some(*value).filter(|value| body.is_sine(*value)),
             _ => None,
@@ -179,11 +194,11 @@ impl<'a> Body<'a> {
         let shown = body.program.shown_by(sines);
         let checks = body.program.steps.iter().filter_map(|step| match step {
             Step::Let(_) => None,
-            Step::Check { guard, .. } => Some(body.condition(guard)),
+            Step::Check { guard, .. } => Some(Question::Holds(body.condition(guard))),
             Step::FiniteInput(value) if shown.contains(value) => None,
             Step::FiniteInput(value) => {
                 let value = body.code(*value).within(Binding::Atom);
-                Some(quote!(#value.is_finite()))
+                Some(Question::Holds(quote!(#value.is_finite())))
             }
             Step::FiniteResults(checked) => {
                 // A loop over positions waits for neither: what counts are operations. Each number that is asked takes three: for its size,
@@ -191,12 +206,12 @@ impl<'a> Body<'a> {
                 let (_, others) = body.moderate();
                 if body.program.moderate.is_empty() || checked.len() + 2 <= 3 * others.len() {
                     let values = body.array(checked);
-                    Some(quote!(math::each_finite(#values)))
+                    Some(Question::Marks(quote!(math::not_finite(#values))))
                 } else if others.is_empty() {
                     None
                 } else {
                     let arguments = body.array(&others);
-                    Some(quote!(math::each_moderate(#arguments)))
+                    Some(Question::Holds(quote!(math::each_moderate(#arguments))))
                 }
             }
         });
@@ -217,20 +232,6 @@ impl<'a> Body<'a> {
 
     fn is_sine(&self, value: ValueId) -> bool {
         matches!(self.program.op(value), Some(Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_), .. }))
-    }
-
-    /// The angle that a sine and cosine reduce.
-    fn angle(&self, kernel: Kernel, args: &[ValueId]) -> Option<TokenStream> {
-        let [angle] = args else { return None };
-        match kernel {
-            Kernel::SinCos => Some(self.value(*angle)),
-            Kernel::SinCosSum(phase) => {
-                let angle = self.code(*angle).within(Binding::Sum);
-                let (high, _) = split(&self.graph.number(phase), self.graph.scalar());
-                Some(quote!(#angle + #high))
-            }
-            _ => None,
-        }
     }
 
     /// The program as equations, a line each, under the headings of its sections; a line above says what an equation means.

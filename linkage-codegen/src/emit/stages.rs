@@ -12,14 +12,14 @@ use std::collections::BTreeMap;
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::quote;
 
-use super::body::Statement;
+use super::body::{Question, Statement};
 
 /// What is to be computed at each position.
 pub(super) struct Work<'a> {
     /// In an order in which each reads only what stands before it.
     pub(super) statements: Vec<Statement<'a>>,
     /// Under which the results mean something.
-    pub(super) conditions: Vec<TokenStream>,
+    pub(super) conditions: Vec<Question>,
     pub(super) results: Vec<TokenStream>,
 }
 
@@ -69,7 +69,7 @@ pub(super) struct Stage<'a> {
     /// What it takes out of columns.
     pub(super) reads: Vec<(Ident, Column)>,
     pub(super) statements: Vec<Statement<'a>>,
-    pub(super) conditions: Vec<TokenStream>,
+    pub(super) conditions: Vec<Question>,
     /// What it leaves in columns.
     pub(super) keeps: Vec<(Column, TokenStream)>,
 }
@@ -189,7 +189,7 @@ pub(super) fn stages<'a>(work: Work<'a>, given: &[Ident]) -> Vec<Stage<'a>> {
         number
     };
     for condition in conditions {
-        stages[reading(&condition)].conditions.push(condition);
+        stages[reading(condition.code())].conditions.push(condition);
     }
     let given = given.iter().enumerate().map(|(place, name)| (name.to_string(), Column::Given(place)));
     let mut columns: BTreeMap<String, Column> = given.collect();
@@ -279,12 +279,12 @@ fn find_levels(tasks: &mut [Task]) {
 
 /// Lets tasks stand at the level where their results are read, if no more numbers have to be kept till there than they have results. A
 /// quotient does so only where nothing else takes long: what divides is busy with one quotient or root at a time.
-fn sink(tasks: &mut [Task], conditions: &[TokenStream]) {
+fn sink(tasks: &mut [Task], conditions: &[Question]) {
     let level_of: BTreeMap<String, usize> =
         tasks.iter().flat_map(|task| task.defines.keys().map(|name| (name.clone(), task.level))).collect();
     let mut read = Levels::default();
-    for tokens in conditions {
-        let names = names(tokens);
+    for condition in conditions {
+        let names = names(condition.code());
         let level = names.keys().filter_map(|name| level_of.get(name).copied()).max().unwrap_or(0);
         read.at(level, &names);
     }
@@ -392,7 +392,7 @@ mod tests {
     use proc_macro2::{Ident, TokenStream};
     use quote::{format_ident, quote};
 
-    use super::{Column, LENGTH, Stage, Statement, Words, Work, stages};
+    use super::{Column, LENGTH, Question, Stage, Statement, Words, Work, stages};
 
     fn ident(name: &str) -> Ident {
         format_ident!("{name}")
@@ -400,7 +400,7 @@ mod tests {
 
     fn staged(
         statements: Vec<TokenStream>,
-        conditions: Vec<TokenStream>,
+        conditions: Vec<Question>,
         results: Vec<TokenStream>,
         given: &[Ident],
     ) -> Vec<Stage<'static>> {
@@ -419,7 +419,7 @@ mod tests {
             let (from, to) = (format_ident!("x{link}"), format_ident!("x{}", link + 1));
             statements.push(quote!(let #to = #from + #from * sine;));
             if link % 10 == 0 {
-                conditions.push(quote!((#to > angle)));
+                conditions.push(Question::Holds(quote!((#to > angle))));
                 results.push(quote!(#to));
             }
         }

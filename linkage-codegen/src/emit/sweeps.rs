@@ -6,7 +6,7 @@ use std::ops::Range;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::body::with_notes;
+use super::body::{Question, with_notes};
 use super::functions::{InputNames, body, lane_bindings, outputs};
 use super::literals::ident;
 use super::stages::{self, Column, Stage, Work};
@@ -284,8 +284,8 @@ fn lanes(linkage: &Linkage, sweep: &Sweep, fields: &[Ident], point: &TokenStream
     let kept_count = Literal::usize_unsuffixed(kept.max().unwrap_or(0));
     // What reads neither drives nor loads has no checks.
     let checked = stages.iter().any(|stage| !stage.conditions.is_empty());
-    let count = checked.then(|| quote!(let mut failed: math::Count = 0;));
-    let holds = if checked { quote!(failed == 0) } else { quote!(true) };
+    let count = checked.then(|| quote!(let mut failed: math::Marks = 0;));
+    let holds = if checked { quote!(math::all_hold(failed)) } else { quote!(true) };
     let loops = stages.into_iter().map(|stage| loop_over(stage, &lanes_given));
     let doc = format!(" The positions of the sweep `{}`, of which several are computed at once.", sweep.name);
     let items = quote! {
@@ -366,16 +366,28 @@ fn loop_over(Stage { reads, statements, conditions, keeps }: Stage, given: &[Tok
         let place = of(column);
         quote!(#place = #value;)
     });
-    let holds = conditions.into_iter().reduce(|all, one| quote!(#all & #one));
-    let counted = holds.map(|all| quote!(failed = failed.wrapping_add(math::failed(#all));));
+    let failures = failures(conditions).map(|failures| quote!(failed |= #failures;));
     quote! {
         for lane in lanes.clone() {
             #(#reads)*
             #statements
             #(#keeps)*
-            #counted
+            #failures
         }
     }
+}
+
+/// The marks of all that fails, if anything can.
+fn failures(conditions: Vec<Question>) -> Option<TokenStream> {
+    let (mut holds, mut marks) = (Vec::new(), Vec::new());
+    for condition in conditions {
+        match condition {
+            Question::Holds(condition) => holds.push(condition),
+            Question::Marks(condition) => marks.push(condition),
+        }
+    }
+    let all = holds.into_iter().reduce(|all, one| quote!(#all & #one));
+    all.map(|all| quote!(math::failed(#all))).into_iter().chain(marks).reduce(|all, one| quote!(#all | #one))
 }
 
 /// A sweep with its types.

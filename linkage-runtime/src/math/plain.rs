@@ -1,7 +1,7 @@
 //! Sine and cosine in sums and products that are rounded one by one.
 
-/// Needs `FAST`, up to where the short reduction serves, `FRAC_PI_2` in three parts, `ROUND`, `SINE` and `COSINE`, the coefficients of S and C,
-/// `polynomial`, which adds such up, and on x86-64 `short`, `short_half` and `of`.
+/// Needs `FAST`, up to where the short reduction serves, `FRAC_PI_2` in three parts, `ROUND`, `UNMARKED`, `SINE` and `COSINE`, the coefficients of S
+/// and C, `polynomial`, which adds such up, and on x86-64 `short`, `short_half` and `of`.
 macro_rules! plain_sines {
     ($scalar:ident, $bits:ident) => {
         use super::large::{reduce_large, reduce_large_sum};
@@ -38,7 +38,7 @@ macro_rules! plain_sines {
         }
         #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
         one_by_one!($scalar, one_by_one);
-        short_angles!($scalar);
+        short_angles!($scalar, $bits);
         short_sines!($scalar, one_by_one);
 
         /// a + b as a rounded sum and its error, exactly.

@@ -17,7 +17,7 @@ macro_rules! by_quadrant {
 
 /// Whether the short reduction serves for an angle: up to `FAST`, and not for what is no number.
 macro_rules! short_angles {
-    ($scalar:ident) => {
+    ($scalar:ident, $bits:ident) => {
         /// Whether the short reduction serves for an angle.
         ///
         /// As integers, whose units have nothing else to do; and where floating point is software, a comparison of such numbers would be a call.
@@ -35,13 +35,16 @@ macro_rules! short_angles {
             x.abs().to_bits() <= (2.0 * FAST).to_bits()
         }
 
-        /// The same as `is_short` for loops that are vectorised, which look at several positions at once.
+        /// For loops that are vectorised: marks, from the quarter turns of an angle, that its sine is left to the function for a single position.
+        /// There are none, but for the last bits, `UNMARKED`, up to half of what the short reduction serves for; there always are beyond that, and
+        /// of what is no number.
         #[doc(hidden)]
         #[inline(always)]
         #[allow(clippy::inline_always, reason = "for loops that are vectorised")]
         #[must_use]
-        pub fn each_short(x: $scalar) -> bool {
-            x.abs() <= FAST
+        pub fn far(quarters: $scalar) -> $bits {
+            const LEAST: $bits = ROUND.to_bits() - (1 << (UNMARKED - 1));
+            quarters.to_bits().wrapping_sub(LEAST)
         }
 
         /// Whether an angle is finite. Behind this its sine need not ask again whether it is short.
@@ -172,4 +175,35 @@ macro_rules! one_by_one {
             reduced.$polynomials()
         }
     };
+}
+
+#[cfg(test)]
+mod tests {
+    /// Of quarter turns, what is far and what is not.
+    macro_rules! far_angles_are_marked {
+        ($scalar:ident) => {
+            use crate::__private::$scalar::{UNMARKED, all_hold, far, is_short, short_angle, short_fused_angle};
+
+            let nearest =
+                |x: $scalar| [short_angle(x).0, short_fused_angle(x).0].map(|quarters| all_hold(far(quarters)));
+            let most = (1..UNMARKED).fold(1.0, |most: $scalar, _| 2.0 * most);
+            for quarters in [0.0, 0.25, 1.0, most - 1.0, most - 0.75] {
+                let x = quarters * core::$scalar::consts::FRAC_PI_2;
+                assert_eq!([nearest(x), nearest(-x)], [[true; 2]; 2], "{x}");
+                assert!(is_short(x));
+            }
+            let beyond = (most + 1.0) * core::$scalar::consts::FRAC_PI_2;
+            for x in [beyond, 3.0 * beyond, 1e6 * beyond, 1e20, $scalar::MAX, $scalar::INFINITY, $scalar::NAN] {
+                assert_eq!([nearest(x), nearest(-x)], [[false; 2]; 2], "{x}");
+            }
+        };
+    }
+
+    #[test]
+    fn far_angles_are_marked_and_near_ones_are_short() {
+        {
+            far_angles_are_marked!(f64);
+        }
+        far_angles_are_marked!(f32);
+    }
 }

@@ -15,6 +15,6 @@ pub use fused::{
     fused_sin_cos, fused_sin_cos_half, fused_sin_cos_sum, short_fused_angle, short_fused_angle_sum, short_fused_sin_cos,
 };
 pub use sin_cos::{
-    each_short, is_angle, is_short, short_angle, short_angle_sum, short_sin_cos, sin_cos, sin_cos_half, sin_cos_sum,
+    UNMARKED, far, is_angle, is_short, short_angle, short_angle_sum, short_sin_cos, sin_cos, sin_cos_half, sin_cos_sum,
 };
 pub use vector::{polar, unit};

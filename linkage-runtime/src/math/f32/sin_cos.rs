@@ -15,6 +15,10 @@ pub(super) const FRAC_PI_2: [f32; 3] = [1.5707703, 2.6063062e-5, 6.0771006e-11];
 /// Adding and subtracting 1.5·2²³ rounds to an integer, whose last bits are then the last bits of the sum.
 pub(super) const ROUND: f32 = 12582912.0;
 
+/// How many bits the marks of checks leave to the quarter turns of angles that are not far, from −2⁷ to 2⁷.
+#[doc(hidden)]
+pub const UNMARKED: u32 = 8;
+
 /// The coefficients of S and C, see [`sin_cos`]: of least relative error on |y| ≤ π/4, rounded one after the other, the rest refitted. S is
 /// weighted by 1 + 8(4y/π)⁸, because its rounding errors count most at π/4: 0.13 ulp at most, 0.016 ulp there; C 0.002 ulp.
 pub(super) const SINE: [f32; 3] = [0.16666646, -0.008331764, 0.00019471647];

@@ -15,6 +15,10 @@ pub(super) const FRAC_PI_2: [f64; 3] = [1.5707963267923333, 2.5633441515839558e-
 /// Adding and subtracting 1.5·2⁵² rounds to an integer, whose last bits are then the last bits of the sum.
 pub(super) const ROUND: f64 = 6755399441055744.0;
 
+/// How many bits the marks of checks leave to the quarter turns of angles that are not far, from −2¹⁷ to 2¹⁷.
+#[doc(hidden)]
+pub const UNMARKED: u32 = 18;
+
 /// The coefficients of S and C, see [`sin_cos`]: of least relative error on |y| ≤ π/4, rounded one after the other, the rest refitted. S is
 /// weighted by 1 + 8(4y/π)⁸, because its rounding errors count most at π/4: 0.063 ulp at most, 0.006 ulp there; C 0.001 ulp.
 pub(super) const SINE: [f64; 6] = [
