@@ -743,6 +743,45 @@ fn constants_are_multiplied_when_compiled() {
     assert!(left.is_empty(), "{} of {multiplied}: {left:#?}", left.len());
 }
 
+/// The terms of a sum, through what nothing else reads and what has no name: of what each is a multiple, and whether a constant says so.
+fn terms(program: &Program, graph: &Graph, uses: &[usize], sum: ValueId) -> Vec<(ValueId, bool)> {
+    let is_inner = |value| program.is_inner(value, uses);
+    let Some((terms_of, _)) = program.op(sum).and_then(Op::terms) else { return Vec::new() };
+    let each = terms_of.into_iter().flat_map(|term| {
+        let deeper = if is_inner(term) { terms(program, graph, uses, term) } else { Vec::new() };
+        let multiple = program.multiple(graph, term).filter(|_| is_inner(term));
+        let own = multiple.map_or((term, false), |(_, of)| (of, true));
+        if deeper.is_empty() { vec![own] } else { deeper }
+    });
+    each.collect()
+}
+
+/// No sum has two multiples of one value as terms, but where rounding errors are counted.
+#[test]
+fn like_terms_are_added_when_compiled() {
+    let (mut sums, mut left) = (0, Vec::new());
+    for (name, linkage) in linkages() {
+        let programs = programs(&linkage);
+        for (function, program, graph) in programs.iter().filter(|(_, program, _)| !program.counts_rounding) {
+            let uses = program.uses();
+            for step in &program.steps {
+                let Step::Let(value) = step else { continue };
+                let terms = terms(program, graph, &uses, *value);
+                sums += usize::from(terms.len() > 2);
+                let is_double = |(index, (of, is_multiple)): (usize, &(ValueId, bool))| {
+                    let before = terms[..index].iter().filter(|(other, _)| other == of);
+                    before.map(|(_, other)| *other).any(|other| other || *is_multiple)
+                };
+                if terms.iter().enumerate().any(is_double) {
+                    left.push(format!("{name}, {function}: {:?}", program.value(*value)));
+                }
+            }
+        }
+    }
+    assert!(sums > 700, "only {sums}");
+    assert!(left.is_empty(), "{} of {sums}: {left:#?}", left.len());
+}
+
 /// The names that functions bind and never read behind that, and how many they bind.
 #[derive(Default)]
 struct Reading {

@@ -11,6 +11,7 @@ mod fused;
 mod headings;
 mod late;
 mod lengths;
+mod like_terms;
 mod multiples;
 mod pivots;
 mod reciprocals;
@@ -30,12 +31,13 @@ use crate::graph::{Graph, Guard, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 22] = [
+pub const PASSES: [(&str, Pass); 24] = [
     ("lengths", lengths::leave),
     ("pivots", pivots::compare_directly),
     ("checks", checks::ask_once),
     ("reciprocals", reciprocals::share),
     ("constants", constants::merge),
+    ("like terms", like_terms::add),
     ("arms", arms::scale),
     ("unused", unused::remove),
     ("signs", signs::absorb),
@@ -47,6 +49,7 @@ pub const PASSES: [(&str, Pass); 22] = [
     ("multiples", multiples::find),
     ("squares", squares::subtract),
     ("repeated", repeated::compute_once),
+    ("like terms", like_terms::add),
     ("signs", signs::absorb),
     ("finite", finite::check_once),
     ("arguments", finite::ask_late),
