@@ -1,7 +1,7 @@
 //! How long the compiler takes, as a library call on the declaration of an example: `cargo run --example compile_time six_bar`.
 //!
-//! Unoptimised, as the macro runs in a development build of its users; `--release` shows the rest. The least of many times is printed:
-//! others are those of a busy machine.
+//! The macro runs unoptimised for its users unless they have optimised `build-override` in a profile: with `--profile unoptimised` and with
+//! `--release`. The least of many times is printed: others are those of a busy machine.
 
 use std::path::Path;
 use std::time::{Duration, Instant};

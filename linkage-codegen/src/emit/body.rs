@@ -2,6 +2,7 @@
 
 mod naming;
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::{Ident, TokenStream};
@@ -47,6 +48,8 @@ pub(super) struct Body<'a> {
     /// The name of every value that has its own statement, or is an input.
     names: BTreeMap<ValueId, Ident>,
     checks: Checks,
+    /// What values are for of which no label says what they mean.
+    purposes: BTreeMap<ValueId, String>,
     /// Of sines that are found in two statements, what lies between.
     angles: BTreeMap<(Kernel, Vec<ValueId>), [Ident; 3]>,
 }
@@ -54,14 +57,14 @@ pub(super) struct Body<'a> {
 /// A `let` statement.
 pub(super) struct Statement<'a> {
     section: &'a str,
-    meaning: &'a str,
+    meaning: Cow<'a, str>,
     pub(super) code: TokenStream,
 }
 
 #[cfg(test)]
 impl From<TokenStream> for Statement<'_> {
     fn from(code: TokenStream) -> Self {
-        Self { section: "", meaning: "", code }
+        Self { section: "", meaning: Cow::Borrowed(""), code }
     }
 }
 
@@ -69,17 +72,17 @@ impl From<TokenStream> for Statement<'_> {
 #[derive(Default)]
 struct Notes<'a> {
     section: &'a str,
-    meaning: &'a str,
+    meaning: Cow<'a, str>,
 }
 
 impl<'a> Notes<'a> {
     /// What stands above the next value. What holds for the one before as well, as for the components of a vector, is not said again.
-    fn above(&mut self, section: &'a str, meaning: &'a str) -> (Option<&'a str>, Option<&'a str>) {
+    fn above(&mut self, section: &'a str, meaning: &Cow<'a, str>) -> (Option<&'a str>, Option<Cow<'a, str>>) {
         let heading = Some(section).filter(|section| !section.is_empty() && *section != self.section);
-        let is_said = heading.is_none() && meaning == self.meaning;
+        let is_said = heading.is_none() && *meaning == self.meaning;
         self.section = heading.unwrap_or(self.section);
-        self.meaning = meaning;
-        (heading, Some(meaning).filter(|meaning| !meaning.is_empty() && !is_said))
+        self.meaning = meaning.clone();
+        (heading, Some(meaning.clone()).filter(|meaning| !meaning.is_empty() && !is_said))
     }
 
     /// The statement with what stands above it.
@@ -96,11 +99,6 @@ impl<'a> Notes<'a> {
 pub(super) fn with_notes(statements: &[Statement]) -> TokenStream {
     let mut notes = Notes::default();
     statements.iter().map(|statement| notes.with(statement)).collect()
-}
-
-/// The section of a value, and what it means.
-fn notes_of(value: &Value) -> (&str, &str) {
-    (&value.section, value.label.as_ref().map_or("", |label| &label.equation))
 }
 
 /// What is checked beside statements without a branch.
@@ -144,7 +142,14 @@ impl<'a> Body<'a> {
             used.insert(name.clone());
             names.insert(value, ident(&name));
         }
-        let mut body = Self { program, graph, names, checks: Checks::Reported, angles: BTreeMap::new() };
+        let mut body = Self {
+            program,
+            graph,
+            names,
+            checks: Checks::Reported,
+            purposes: BTreeMap::new(),
+            angles: BTreeMap::new(),
+        };
         let mut uses = program.uses();
         // The results of one call read their arguments together.
         let mut calls = BTreeSet::new();
@@ -165,7 +170,18 @@ impl<'a> Body<'a> {
                 body.names.insert(*value, ident(&name));
             }
         }
+        body.purposes = body.purposes();
         body
+    }
+
+    /// The section of a value, and what it means, or what it is for.
+    fn notes_of(&self, value: ValueId) -> (&'a str, Cow<'a, str>) {
+        let Value { section, label, .. } = self.program.value(value);
+        let meaning = match label {
+            Some(label) if !label.equation.is_empty() => Cow::Borrowed(label.equation.as_str()),
+            _ => self.purposes.get(&value).cloned().map(Cow::Owned).unwrap_or_default(),
+        };
+        (section, meaning)
     }
 
     /// The same, of a function that gives nothing where a check fails.
@@ -242,8 +258,8 @@ impl<'a> Body<'a> {
         for step in &self.program.steps {
             let Step::Let(of) = step else { continue };
             let Some(name) = names(*of) else { continue };
-            let (section, meaning) = notes_of(self.program.value(*of));
-            let (heading, meaning) = notes.above(section, meaning);
+            let (section, meaning) = self.notes_of(*of);
+            let (heading, meaning) = notes.above(section, &meaning);
             lines.extend(heading.map(|heading| format!("{heading}:")));
             lines.extend(meaning.map(|meaning| format!("  {meaning}")));
             let formula = Formula { model, terms: Values { program: self.program, names: &names, of: *of } };
@@ -428,7 +444,7 @@ impl<'a> Body<'a> {
             }
         };
         let function = self.sin_cos("sin_cos");
-        let meaning = "the angle in quarter turns, and what is left of it: the rest less the tail";
+        let meaning = Cow::Borrowed("the angle in quarter turns, and what is left of it: the rest less the tail");
         Some((
             Statement { section: "", meaning, code: quote!(let (#quarters, #rest, #tail) = #reduced;) },
             quote!(math::#function(#quarters, #rest, #tail)),
@@ -454,7 +470,7 @@ impl<'a> Body<'a> {
                 Step::FiniteResults(checked) => self.finite_results(checked),
             };
             // Behind a check it is said again.
-            notes.meaning = "";
+            notes.meaning = Cow::Borrowed("");
             statements.extend(statement);
         }
         (statements, self)
@@ -483,7 +499,7 @@ impl<'a> Body<'a> {
             },
             _ => None,
         };
-        let (section, meaning) = notes_of(self.program.value(value));
+        let (section, meaning) = self.notes_of(value);
         let Some((kernel, args, parts)) = call else {
             let code = self.written_out(value).tokens;
             return vec![Statement { section, meaning, code: quote!(let #name = #code;) }];

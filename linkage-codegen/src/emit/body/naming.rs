@@ -138,6 +138,28 @@ impl Body<'_> {
         readers.into_iter().zip(compared).map(|(reader, limit)| reader.or(limit)).collect()
     }
 
+    /// What each value is for: a result, or the named ones that are computed from it, by way of unnamed ones.
+    pub(super) fn purposes(&self) -> BTreeMap<ValueId, String> {
+        let mut served: BTreeMap<ValueId, Vec<String>> = BTreeMap::new();
+        for step in self.program.steps.iter().rev() {
+            let Step::Let(value) = step else { continue };
+            let own = match self.given_name(*value).and_then(|_| self.names.get(value)) {
+                Some(name) => vec![name.to_string()],
+                None => served.get(value).cloned().unwrap_or_default(),
+            };
+            for of in self.program.operands_of(step) {
+                let known = served.entry(of).or_default();
+                // The steps are read backwards.
+                for name in own.iter().rev().filter(|name| !known.contains(name)).cloned().collect::<Vec<_>>() {
+                    known.insert(0, name);
+                }
+            }
+        }
+        let parts = served.into_iter().map(|(value, names)| (value, part_of(&names)));
+        let results = self.program.outputs.iter().map(|(_, result)| (*result, "a result".to_owned()));
+        parts.chain(results).collect()
+    }
+
     /// The name of a result; of one of those that are compared with each other, that it is one.
     fn result_name(&self, value: ValueId) -> Option<String> {
         let (path, _) = self.program.outputs.iter().find(|(_, output)| *output == value)?;
@@ -180,6 +202,17 @@ fn in_common(one: &str, other: &str) -> String {
     let words = &words[words.iter().position(begins).unwrap_or(words.len())..];
     let says_nothing = |word: &&str| ["x", "y", "cos", "sin"].contains(word) || !begins(word);
     if words.iter().all(says_nothing) { String::new() } else { words.join("_") }
+}
+
+/// That a value is part of these.
+fn part_of(names: &[String]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => format!("part of {one}"),
+        [one, other] => format!("part of {one} and {other}"),
+        [one, other, third] => format!("part of {one}, {other} and {third}"),
+        [one, other, ..] => format!("part of {one}, {other} and others"),
+    }
 }
 
 /// What a check is about, as a part of a name.

@@ -280,19 +280,22 @@ mod tests {
 
     #[test]
     fn what_would_be_lost_or_rounded_stays() {
-        let sum = |k: f64, own: f64| {
+        let sum = |k: f64, own: Option<f64>| {
             after(|making, x, y| {
                 let small = making.times(k, x);
-                let term = if own == 1.0 { x } else { making.times(own, x) };
+                let term = own.map_or(x, |own| making.times(own, x));
                 let rest = making.computed(Op::Sub(term, y));
                 making.computed(Op::Add(rest, small))
             })
         };
         // The rounding of a term, and a small part of one that has no rounding of its own.
-        assert_eq!(sum(1e-16, 3.0), "((3x - y) + 0.0000000000000001x)");
-        assert_eq!(sum(0.01, 1.0), "((x - y) + 0.01x)");
-        assert_eq!([sum(0.01, 3.0), sum(-0.01, 1.0), sum(0.5, 1.0)], ["(3.01x - y)", "(0.99x - y)", "(1.5x - y)"]);
-        assert_eq!([sum(-3.0, 2.0), sum(-4.0, 2.0)], ["-((x + y))", "-((2x + y))"]);
+        assert_eq!(sum(1e-16, Some(3.0)), "((3x - y) + 0.0000000000000001x)");
+        assert_eq!(sum(0.01, None), "((x - y) + 0.01x)");
+        assert_eq!(
+            [sum(0.01, Some(3.0)), sum(-0.01, None), sum(0.5, None)],
+            ["(3.01x - y)", "(0.99x - y)", "(1.5x - y)"]
+        );
+        assert_eq!([sum(-3.0, Some(2.0)), sum(-4.0, Some(2.0))], ["-((x + y))", "-((2x + y))"]);
     }
 
     #[test]
