@@ -77,17 +77,17 @@ struct Notes<'a> {
 
 impl<'a> Notes<'a> {
     /// What stands above the next value. What holds for the one before as well, as for the components of a vector, is not said again.
-    fn above(&mut self, section: &'a str, meaning: &Cow<'a, str>) -> (Option<&'a str>, Option<Cow<'a, str>>) {
+    fn above(&mut self, section: &'a str, meaning: Cow<'a, str>) -> (Option<&'a str>, Option<Cow<'a, str>>) {
         let heading = Some(section).filter(|section| !section.is_empty() && *section != self.section);
-        let is_said = heading.is_none() && *meaning == self.meaning;
-        self.section = heading.unwrap_or(self.section);
-        self.meaning = meaning.clone();
-        (heading, Some(meaning.clone()).filter(|meaning| !meaning.is_empty() && !is_said))
+        let is_said = heading.is_none() && meaning == self.meaning;
+        let said = (!meaning.is_empty() && !is_said).then(|| meaning.clone());
+        (self.section, self.meaning) = (heading.unwrap_or(self.section), meaning);
+        (heading, said)
     }
 
     /// The statement with what stands above it.
     fn with(&mut self, Statement { section, meaning, code }: &Statement<'a>) -> TokenStream {
-        let (heading, meaning) = self.above(section, meaning);
+        let (heading, meaning) = self.above(section, meaning.clone());
         let [heading, meaning] =
             [heading.map(|heading| format!(" — {heading} —")), meaning.map(|meaning| format!(" {meaning}"))]
                 .map(|text| text.map(|text| quote!(#[doc = #text])));
@@ -259,7 +259,7 @@ impl<'a> Body<'a> {
             let Step::Let(of) = step else { continue };
             let Some(name) = names(*of) else { continue };
             let (section, meaning) = self.notes_of(*of);
-            let (heading, meaning) = notes.above(section, &meaning);
+            let (heading, meaning) = notes.above(section, meaning);
             lines.extend(heading.map(|heading| format!("{heading}:")));
             lines.extend(meaning.map(|meaning| format!("  {meaning}")));
             let formula = Formula { model, terms: Values { program: self.program, names: &names, of: *of } };
