@@ -218,8 +218,9 @@ fn where_no_mass_resists_there_is_no_acceleration() -> Result<(), Error> {
         assert!(near.acceleration(1.0)? > 0.0);
     }
     let control = light::control_at(1.0, &motion)?;
-    assert!(matches!(control.acceleration(f64::NAN), Err(Error::NotFinite { .. })));
-    assert!(matches!(control.acceleration(1e308), Err(Error::NotFinite { .. })));
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, -f64::MAX] {
+        assert!(matches!(control.acceleration(bad), Err(Error::NotFinite { .. })), "{bad}");
+    }
     assert_eq!(control.acceleration(control.h)?.to_bits(), 0.0f64.to_bits());
     Ok(())
 }
@@ -238,7 +239,12 @@ fn of_two_drives_the_mass_is_a_symmetric_matrix() -> Result<(), Error> {
         assert!((efforts - SVector::from([dynamics.effort_a, dynamics.effort_b])).norm() < 1e-12 * control.h.norm());
         let found = control.acceleration(efforts)?;
         assert!((found - wanted).norm() < 1e-11, "{found}");
-        assert!(matches!(control.acceleration(SVector::from([f64::NAN, 0.0])), Err(Error::NotFinite { .. })));
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, -f64::MAX] {
+            for efforts in [[bad, 0.0], [0.0, bad], [bad, bad], [bad, -bad]] {
+                let refused = control.acceleration(SVector::from(efforts));
+                assert!(matches!(refused, Err(Error::NotFinite { .. })), "{efforts:?}: {refused:?}");
+            }
+        }
         let straight = five_bar::control_at(a, b, &motion)?;
         assert!((straight.M - control.M).norm() < 1e-14 && (straight.h - control.h).norm() < 1e-12);
         // Without loads what is left of h is quadratic in the rates.

@@ -2,7 +2,7 @@
 //! has one the sweep says what the function for a single position says, or has its bits.
 #![allow(non_snake_case, reason = "couples have the names of the declaration")]
 
-use linkage_runtime::{Error, Series, SweepError, linkage};
+use linkage_runtime::{Error, Series, SweepError, Vector2, linkage};
 
 /// Some blocks of positions and a part of one, in which one position is not as the others.
 const COUNT: usize = 130;
@@ -159,4 +159,79 @@ fn a_sum_of_parts_is_finite_or_refused() -> Result<(), Error> {
     (parts.M.T, parts.N.T) = (f64::MAX, f64::MAX);
     assert!(matches!(parts.total(), Err(Error::NotFinite { .. })));
     Ok(())
+}
+
+linkage! {
+    /// A triad with a plate of a length that is given at run time: placed by iteration, each position solved by itself.
+    mod triad;
+    units { mm, N }
+    param reach: length = 180mm;
+    ground     { O: (0, 0), Q: (500mm, 100mm), P: (400mm, -100mm) }
+    link crank { O -> A: 28mm }
+    link rod   { A -> E: 230mm }
+    link plate { E: (0, 0), C: (100mm, 70mm), D: (70mm, -90mm), G: (50mm, 0) }
+    link upper { Q -> C: 192mm }
+    link lower { P -> D: reach }
+    mass plate: 1kg at G;
+    revolute O: ground -> crank;
+    revolute A: crank  -> rod;
+    revolute E: rod    -> plate;
+    revolute C: plate  -> upper;
+    revolute D: plate  -> lower;
+    revolute Q: ground -> upper;
+    revolute P: ground -> lower;
+    drive theta: O;
+    start theta: 30deg;
+    start rod:   (30mm, 20mm), angle 30deg;
+    start plate: (240mm, 140mm), angle 0;
+    start upper: (500mm, 100mm), angle 140deg;
+    start lower: (400mm, -100mm), angle 120deg;
+    load F: force(plate.G);
+    load I: inertia;
+    scene held:   equilibrium -> (effort_theta, E, error_bound);
+    scene turned: sweep(held);
+}
+
+/// A position that follows another one by iteration: those before a bad one have the numbers that they have without it.
+#[test]
+fn what_is_not_finite_is_refused_where_positions_follow_each_other() {
+    const COUNT: usize = 20;
+    let linkage = triad::Linkage::new(&triad::Params::default()).unwrap();
+    let run = |change: &dyn Fn(&mut [[f64; COUNT]; 5])| {
+        let mut given: [[f64; COUNT]; 5] = [[0.5; COUNT], [2.0; COUNT], [1.0; COUNT], [3.0; COUNT], [-20.0; COUNT]];
+        let mut theta = 0.5;
+        for place in &mut given[0] {
+            *place = theta;
+            theta += 0.05;
+        }
+        change(&mut given);
+        let [theta, theta_rate, theta_acceleration, x, y] = &given;
+        let loads: [Vector2<f64>; COUNT] = core::array::from_fn(|index| Vector2::new(x[index], y[index]));
+        let inputs = triad::TurnedInputs {
+            theta: Series::Each(theta),
+            theta_rate: Series::Each(theta_rate),
+            theta_acceleration: Series::Each(theta_acceleration),
+            F: Series::Each(&loads),
+        };
+        let mut rows = [[f64::NAN; COUNT]; 6];
+        let [effort_theta, E_x, E_y, error_bound_effort_theta, error_bound_E_x, error_bound_E_y] = &mut rows;
+        let results =
+            triad::Turned { effort_theta, E_x, E_y, error_bound_effort_theta, error_bound_E_x, error_bound_E_y };
+        (triad::turned(&linkage, &inputs, results), rows.map(|row| row.map(f64::to_bits)))
+    };
+    let (all, good) = run(&|_| {});
+    assert_eq!(all, Ok(()));
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, -f64::MAX] {
+        for at in [0, 7, COUNT - 1] {
+            for which in 0..5 {
+                let (swept, rows) = run(&|given| given[which][at] = bad);
+                let what = format!("input {which} = {bad} at {at}: {swept:?}");
+                assert!(matches!(swept, Err(SweepError::Position { index, .. }) if index == at), "{what}");
+                for (row, good) in rows.iter().zip(&good) {
+                    assert_eq!(row[..at], good[..at], "{what}");
+                    assert!(row[at..].iter().all(|bits| f64::from_bits(*bits).is_nan()), "{what}");
+                }
+            }
+        }
+    }
 }

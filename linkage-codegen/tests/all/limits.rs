@@ -917,9 +917,35 @@ mod emitted {
         let error = adjustable::Limits::of(&params(5.0, 5.0)).unwrap_err();
         assert!(matches!(error, Error::CannotAssemble { joint: "I", .. }), "{error:?}");
         assert!(matches!(adjustable::Limits::of(&params(61.0, -1.0)).unwrap_err(), Error::Parameter { .. }));
-        assert!(matches!(adjustable::Limits::of(&params(f64::NAN, 5.0)).unwrap_err(), Error::NotFinite { .. }));
         let huge = adjustable::Params { rocker_length: 1e200, ..params(61.0, 1e200) };
         assert!(matches!(adjustable::Limits::of(&huge).unwrap_err(), Error::NotFinite { .. }));
+    }
+
+    #[test]
+    fn what_is_not_finite_is_refused_in_every_parameter() {
+        let adjustable::Params { crank_length, coupler_length, rocker_length, rod_length } = params(61.0, 100.0);
+        let good = [crank_length, coupler_length, rocker_length, rod_length];
+        let limits = |[crank_length, coupler_length, rocker_length, rod_length]: [f64; 4]| {
+            adjustable::Limits::of(&adjustable::Params { crank_length, coupler_length, rocker_length, rod_length })
+        };
+        assert!(limits(good).is_ok());
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, -f64::MAX] {
+            for which in 0..good.len() {
+                let mut params = good;
+                params[which] = bad;
+                match limits(params) {
+                    Err(Error::NotFinite { .. }) => {}
+                    // What is finite may be no length, or one with which nothing can be assembled.
+                    Err(Error::Parameter { .. } | Error::CannotAssemble { .. }) if bad.is_finite() => {}
+                    other => panic!("parameter {which} = {bad}: {other:?}"),
+                }
+            }
+            let stroke = bad as f32;
+            assert!(
+                matches!(cylinders::Limits::of(&cylinders::Params { stroke }), Err(Error::NotFinite { .. })),
+                "{bad}"
+            );
+        }
     }
 
     #[test]

@@ -3,8 +3,8 @@
 //!
 //! The functions are those of every example and of the declarations beside them, as the interpreter carries them out: what it finds is what
 //! the emitted code computes, as `emitted.rs` and `emitted_random.rs` hold. Sweeps, `Limits`, and the accelerations that follow from an
-//! equation of motion are given such numbers as emitted code: in the root package's `sweeps.rs`, `sweeps_of_motion.rs`, `control.rs`, and
-//! in `limits.rs`.
+//! equation of motion are given such numbers as emitted code: in the root package's `sweeps.rs`, `sweeps_not_finite.rs`,
+//! `sweeps_of_motion.rs`, `control.rs`, and in `limits.rs`.
 
 use crate::support::declarations::{coordinates, given, linkages, poses};
 use crate::support::numbers::{Double, Single};
