@@ -940,11 +940,10 @@ mod emitted {
                     other => panic!("parameter {which} = {bad}: {other:?}"),
                 }
             }
-            let stroke = bad as f32;
-            assert!(
-                matches!(cylinders::Limits::of(&cylinders::Params { stroke }), Err(Error::NotFinite { .. })),
-                "{bad}"
-            );
+        }
+        for stroke in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, -f32::MAX] {
+            let refused = cylinders::Limits::of(&cylinders::Params { stroke });
+            assert!(matches!(refused, Err(Error::NotFinite { .. })), "{stroke}: {refused:?}");
         }
     }
 
