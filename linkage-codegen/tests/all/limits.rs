@@ -941,7 +941,7 @@ mod emitted {
                 }
             }
         }
-        for stroke in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, -f32::MAX] {
+        for stroke in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
             let refused = cylinders::Limits::of(&cylinders::Params { stroke });
             assert!(matches!(refused, Err(Error::NotFinite { .. })), "{stroke}: {refused:?}");
         }
