@@ -4,7 +4,8 @@
 
 Every function has the shape `int name(const double *given, double *found)`. Given are the driver's angle, or a pose, and the loads;
 found are, for each set of loads, the forces in the joints as x, y and then the torque, in the benchmark's order. Poses are closed by
-hand in both: neither has closed forms of its own.
+hand in both: neither has closed forms of its own. Each function is written twice, the second time with a name that ends in `_f32`, in
+a file whose name does, to be compiled with `single.h`.
 
 * `casadi_hand`: forces from two moment equations for each dyad, as an expert writes them; CasADi eliminates common subexpressions.
 * `casadi_qr`: all equations of the free bodies, by CasADi's sparse QR, whose structure is known when the code is written.
@@ -12,6 +13,7 @@ hand in both: neither has closed forms of its own.
 * `sympy`: the same by `linsolve`, then `cse`.
 """
 
+import re
 import sys
 from pathlib import Path
 
@@ -365,12 +367,19 @@ def sympy_files():
     yield sympy_function("sympy_p3b", [theta] + loads, steps + rights, slider_crank_results(found))
 
 
+def in_single(code):
+    """The same under a name of its own; what its numbers are is for the compiler."""
+    (name,) = re.findall(r"^int (\w+)\(const double", code, re.MULTILINE)
+    return re.sub(rf"\b{name}", f"{name}_f32", code)
+
+
 def main():
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     for library, files in [("casadi", casadi_files()), ("sympy", sympy_files())]:
         for index, code in enumerate(files):
             (folder / f"{library}_{index}.c").write_text(code)
+            (folder / f"{library}_{index}_f32.c").write_text(in_single(code))
 
 
 main()

@@ -199,7 +199,7 @@ pub(crate) mod swept {
             }
         )+};
     }
-    four_bars!(four_bar f64 four_bar_single f32 four_bar_fused f64);
+    four_bars!(four_bar f64 four_bar_single f32 four_bar_fused f64 four_bar_fused_single f32);
 }
 
 /// The six-bar, in a scalar.

@@ -1,6 +1,7 @@
 //! Code that other generators wrote, from a shared library: see `generators/` beside the manifest.
 //!
-//! The library is C, compiled for this processor; each function has the shape `int name(const double *given, double *found)`.
+//! The library is C, compiled for this processor; each function has the shape `int name(const double *given, double *found)`, or the same with
+//! `float` and a name that ends in `_f32`.
 
 use std::sync::OnceLock;
 
@@ -20,7 +21,29 @@ const METHODS: [(&str, &str); 4] = [
     ("sympy", "SymPy, linsolve and cse"),
 ];
 
-type Function = unsafe extern "C" fn(*const f64, *mut f64) -> i32;
+type Function<T> = unsafe extern "C" fn(*const T, *mut T) -> i32;
+
+/// A scalar that the library has functions for.
+pub(crate) trait Foreign: Scalar {
+    /// How their names end.
+    const ENDING: &str;
+    fn nearest(number: f64) -> Self;
+}
+
+impl Foreign for f64 {
+    const ENDING: &str = "";
+    fn nearest(number: f64) -> Self {
+        number
+    }
+}
+
+impl Foreign for f32 {
+    const ENDING: &str = "_f32";
+    #[allow(clippy::cast_possible_truncation, reason = "to single precision")]
+    fn nearest(number: f64) -> Self {
+        number as Self
+    }
+}
 
 /// Loads the library, from which all items take competitors from then on.
 pub(crate) fn load(file: &str) -> Result<(), String> {
@@ -30,25 +53,26 @@ pub(crate) fn load(file: &str) -> Result<(), String> {
 }
 
 /// A function of the library.
-fn function(name: &str) -> Result<Function, String> {
+fn function<T: Foreign>(name: &str) -> Result<Function<T>, String> {
+    let name = format!("{name}{}", T::ENDING);
     let library = LIBRARY.get().ok_or("no library is loaded")?;
-    #[allow(unsafe_code, reason = "all functions of the library have this type")]
-    let function = unsafe { library.get::<Function>(name.as_bytes()) };
+    #[allow(unsafe_code, reason = "all functions of the library have this type, by how their names end")]
+    let function = unsafe { library.get::<Function<T>>(name.as_bytes()) };
     function.map(|function| *function).map_err(|error| format!("{name}: {error}"))
 }
 
 /// A function of the library, and what it is given: a pose or the driver's angle, and the loads.
 #[derive(Clone, Copy)]
-struct Foreign<const GIVEN: usize> {
-    function: Function,
-    given: [f64; GIVEN],
+struct Call<T, const GIVEN: usize> {
+    function: Function<T>,
+    given: [T; GIVEN],
 }
 
-impl<const GIVEN: usize> Start for Foreign<GIVEN> {
+impl<T: Foreign, const GIVEN: usize> Start for Call<T, GIVEN> {
     fn depend(&mut self, change: f64) -> bool {
         // Of the loads, as with all others, where a pose is given; it is the longest of what is given.
         let which = if GIVEN > LONGEST { GIVEN - 1 } else { 0 };
-        self.given[which] += change;
+        self.given[which] = T::nearest(self.given[which].into() + change);
         true
     }
 }
@@ -58,32 +82,33 @@ const LONGEST: usize = 5;
 
 /// What is found: for each set of loads the forces as x, y, then the torque.
 #[derive(Clone, Copy)]
-struct Found<const N: usize, const PARTS: usize>([f64; N]);
+struct Found<T, const N: usize, const PARTS: usize>([T; N]);
 
-impl<const N: usize, const PARTS: usize> Default for Found<N, PARTS> {
+impl<T: Foreign, const N: usize, const PARTS: usize> Default for Found<T, N, PARTS> {
     fn default() -> Self {
-        Self([0.0; N])
+        Self([T::default(); N])
     }
 }
 
-impl<const N: usize, const PARTS: usize> Results for Found<N, PARTS> {
-    const MISTAKE: f64 = <f64 as Scalar>::MISTAKE;
+impl<T: Foreign, const N: usize, const PARTS: usize> Results for Found<T, N, PARTS> {
+    const MISTAKE: f64 = <T as Scalar>::MISTAKE;
     fn parts(&self) -> Vec<(f64, Vec<Vector2<f64>>)> {
-        let part = |numbers: &[f64]| {
+        let part = |numbers: &[T]| {
             let (torque, forces) = numbers.split_last().expect("a torque");
-            (*torque, forces.chunks_exact(2).map(|force| Vector2::new(force[0], force[1])).collect())
+            let force = |force: &[T]| Vector2::new(force[0].into(), force[1].into());
+            ((*torque).into(), forces.chunks_exact(2).map(force).collect())
         };
         self.0.chunks_exact(N / PARTS).map(part).collect()
     }
     fn last(&self) -> f64 {
-        self.0[N - 1] + self.0[N / PARTS - 1]
+        self.0[N - 1].into() + self.0[N / PARTS - 1].into()
     }
 }
 
 /// Adds the library's functions for an item, if one is loaded; `given` lays out the first of an argument: the angle, or a pose.
 ///
 /// `GIVEN` numbers are given, `N` found, for `PARTS` sets of loads.
-pub(crate) fn add<L: crate::items::Loads, const GIVEN: usize, const N: usize, const PARTS: usize>(
+pub(crate) fn add<T: Foreign, L: crate::items::Loads, const GIVEN: usize, const N: usize, const PARTS: usize>(
     competitors: &mut Vec<Competitor>,
     item: &str,
     turn: &Turn<L>,
@@ -92,19 +117,19 @@ pub(crate) fn add<L: crate::items::Loads, const GIVEN: usize, const N: usize, co
     if LIBRARY.get().is_none() {
         return;
     }
+    let item = item.trim_end_matches("-f32").to_lowercase();
     for (prefix, method) in METHODS {
-        let name = format!("{prefix}_{}", item.to_lowercase());
-        let function = function(&name).expect("the library has a function for each item");
+        let function = function(&format!("{prefix}_{item}")).expect("the library has a function for each item");
         let prepare = |case: &Case<f64, L>| {
-            let mut given = vec![case.start];
+            let mut given = vec![T::nearest(case.start)];
             if GIVEN > LONGEST {
-                given = posed(case.start);
+                given = posed(given[0]);
             }
-            given.extend(loads(&case.loads).iter().flat_map(|force| [force.x, force.y]));
-            let given = given.try_into().expect("as many numbers as the function is given");
-            Case { start: Foreign::<GIVEN> { function, given }, loads: case.loads }
+            given.extend(loads(&case.loads).iter().flat_map(|force| [force.x, force.y]).map(T::nearest));
+            let Ok(given) = given.try_into() else { unreachable!("as many numbers as the function is given") };
+            Case { start: Call::<T, GIVEN> { function, given }, loads: case.loads }
         };
-        competitors.push(turn.posed(method, prepare, |case, found: &mut Found<N, PARTS>| {
+        competitors.push(turn.posed(method, prepare, |case, found: &mut Found<T, N, PARTS>| {
             #[allow(unsafe_code, reason = "it reads and writes as many numbers as the arrays have, and keeps nothing")]
             let status = unsafe { (case.start.function)(case.start.given.as_ptr(), found.0.as_mut_ptr()) };
             status == 0
@@ -113,9 +138,9 @@ pub(crate) fn add<L: crate::items::Loads, const GIVEN: usize, const N: usize, co
 }
 
 /// The four-bar's pose as the library's functions have it.
-fn posed(theta: f64) -> Vec<f64> {
+fn posed<T: Foreign>(theta: T) -> Vec<T> {
     let function = function("casadi_pose").expect("the library has a pose");
-    let mut pose = [0.0; 7];
+    let mut pose = [T::default(); 7];
     #[allow(unsafe_code, reason = "it is given one number and finds seven")]
     let status = unsafe { function(&raw const theta, pose.as_mut_ptr()) };
     assert_eq!(status, 0, "a pose");

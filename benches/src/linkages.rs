@@ -49,6 +49,7 @@ pub(crate) mod swept {
     four_bar!(four_bar, f64, plain; scene torques: sweep(torque); scene cycle: sweep(statics););
     four_bar!(four_bar_single, f32, plain; scene torques: sweep(torque); scene cycle: sweep(statics););
     four_bar!(four_bar_fused, f64, fused; scene torques: sweep(torque); scene cycle: sweep(statics););
+    four_bar!(four_bar_fused_single, f32, fused; scene torques: sweep(torque); scene cycle: sweep(statics););
 }
 
 /// The six-bar, in a scalar.
@@ -147,14 +148,33 @@ mod tests {
         let of = [
             ("P1, four-bar", super::four_bar::OPERATIONS),
             ("P1, four-bar, fused", super::four_bar_fused::OPERATIONS),
+            ("P1, four-bar, f32", super::four_bar_single::OPERATIONS),
+            ("P1, four-bar, f32, fused", super::four_bar_fused_single::OPERATIONS),
             ("P2, six-bar", super::six_bar::OPERATIONS),
             ("P2, six-bar, fused", super::six_bar_fused::OPERATIONS),
+            ("P2, six-bar, f32", super::six_bar_single::OPERATIONS),
+            ("P2, six-bar, f32, fused", super::six_bar_fused_single::OPERATIONS),
             ("P3, slider-crank", super::slider_crank::OPERATIONS),
             ("P3, slider-crank, fused", super::slider_crank_fused::OPERATIONS),
+            ("P3, slider-crank, f32", super::slider_crank_single::OPERATIONS),
+            ("P3, slider-crank, f32, fused", super::slider_crank_fused_single::OPERATIONS),
         ];
         let text = of.map(|(title, operations)| format!("{title}\n{operations}\n")).join("\n");
         insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
             insta::assert_snapshot!("operations", text);
         });
+    }
+
+    /// A linkage with sweeps has the same functions for single positions, which its sweeps carry out.
+    #[test]
+    fn swept_linkages_have_the_same_operations() {
+        for [with, without] in [
+            [super::swept::four_bar::OPERATIONS, super::four_bar::OPERATIONS],
+            [super::swept::four_bar_single::OPERATIONS, super::four_bar_single::OPERATIONS],
+            [super::swept::four_bar_fused::OPERATIONS, super::four_bar_fused::OPERATIONS],
+            [super::swept::four_bar_fused_single::OPERATIONS, super::four_bar_fused_single::OPERATIONS],
+        ] {
+            assert_eq!(with, without);
+        }
     }
 }

@@ -30,6 +30,7 @@ pub(crate) fn print(rounds: usize) -> Result<(), String> {
             double::rows(count, rounds)?;
             single::rows(count, rounds)?;
             fused::rows(count, rounds)?;
+            fused_single::rows(count, rounds)?;
         }
     }
     Ok(())
@@ -244,3 +245,4 @@ macro_rules! sweeps {
 sweeps!(double, f64, "", four_bar, 1e-9);
 sweeps!(single, f32, "", four_bar_single, 1e-2);
 sweeps!(fused, f64, " fused", four_bar_fused, 1e-9);
+sweeps!(fused_single, f32, " fused", four_bar_fused_single, 1e-2);

@@ -84,10 +84,10 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     let loads = |loads: &Loads| vec![loads.F13, loads.F14];
     for Item { id, competitors, .. } in &mut items {
         match *id {
-            "P1a" => generators::add::<_, 11, 9, 1>(competitors, id, &turn, loads),
-            "P1b" => generators::add::<_, 5, 9, 1>(competitors, id, &turn, loads),
-            "P1c" => generators::add::<_, 5, 1, 1>(competitors, id, &turn, loads),
-            _ => generators::add::<_, 5, 18, 2>(competitors, id, &parts, loads),
+            "P1a" => generators::add::<f64, _, 11, 9, 1>(competitors, id, &turn, loads),
+            "P1b" => generators::add::<f64, _, 5, 9, 1>(competitors, id, &turn, loads),
+            "P1c" => generators::add::<f64, _, 5, 1, 1>(competitors, id, &turn, loads),
+            _ => generators::add::<f64, _, 5, 18, 2>(competitors, id, &parts, loads),
         }
     }
     items.into()

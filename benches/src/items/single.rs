@@ -3,7 +3,8 @@
 use super::dense::{self, eliminations};
 use super::{Case, Extent, Item, Turn, four_bar, six_bar, slider_crank};
 use crate::expert::four_bar_single as expert;
-use crate::linkages::{four_bar_fused_single, four_bar_single};
+use crate::generators;
+use crate::linkages::{self, four_bar_fused_single, four_bar_single};
 
 pub(super) fn items(extent: Extent) -> Vec<Item> {
     let extent = Extent { single: true, ..extent };
@@ -75,6 +76,15 @@ fn of_four_bar(extent: Extent) -> Vec<Item> {
     for (item, eliminations) in items.iter_mut().zip(eliminations) {
         item.competitors.extend(eliminations);
     }
+    let loads = |loads: &linkages::four_bar::Loads| vec![loads.F13, loads.F14];
+    for Item { id, competitors, .. } in &mut items {
+        match *id {
+            "P1a-f32" => generators::add::<f32, _, 11, 9, 1>(competitors, id, &turn, loads),
+            "P1b-f32" => generators::add::<f32, _, 5, 9, 1>(competitors, id, &turn, loads),
+            "P1c-f32" => generators::add::<f32, _, 5, 1, 1>(competitors, id, &turn, loads),
+            _ => generators::add::<f32, _, 5, 18, 2>(competitors, id, &parts, loads),
+        }
+    }
     items
 }
 
@@ -89,6 +99,8 @@ fn of_six_bar(extent: Extent) -> Item {
     let eliminations =
         eliminations!(|method, call| turn.posed(method, given, call), "15x15", six_bar::single::statics_at_eliminated);
     competitors.extend(eliminations);
+    let loads = |loads: &linkages::six_bar::Loads| vec![loads.F, loads.G];
+    generators::add::<f32, _, 5, 15, 1>(&mut competitors, "P2b-f32", &turn, loads);
     Item {
         id: "P2b-f32",
         title: "six-bar with weights in f32: all forces and the torque, from the driver's angle",
@@ -109,6 +121,8 @@ fn of_slider_crank(extent: Extent) -> Item {
         slider_crank::single::statics_at_eliminated
     );
     competitors.extend(eliminations);
+    let loads = |loads: &linkages::slider_crank::Loads| vec![loads.gas];
+    generators::add::<f32, _, 3, 9, 1>(&mut competitors, "P3b-f32", &turn, loads);
     Item {
         id: "P3b-f32",
         title: "slider-crank in f32: all forces and the torque, from the driver's angle",

@@ -22,7 +22,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
         "15x15",
         double::statics_at_eliminated
     ));
-    generators::add::<_, 5, 15, 1>(&mut competitors, "P2b", &turn, |loads: &Loads| vec![loads.F, loads.G]);
+    generators::add::<f64, _, 5, 15, 1>(&mut competitors, "P2b", &turn, |loads: &Loads| vec![loads.F, loads.G]);
     vec![Item {
         id: "P2b",
         title: "six-bar with weights: all forces and the torque, from the driver's angle",

@@ -21,7 +21,7 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
         "9x9",
         double::statics_at_eliminated
     ));
-    generators::add::<_, 3, 9, 1>(&mut competitors, "P3b", &turn, |loads: &Loads| vec![loads.gas]);
+    generators::add::<f64, _, 3, 9, 1>(&mut competitors, "P3b", &turn, |loads: &Loads| vec![loads.gas]);
     vec![Item { id: "P3b", title: "slider-crank: all forces and the torque, from the driver's angle", competitors }]
 }
 

@@ -2,7 +2,7 @@
 
 use crate::support::families::{
     BARS, Family, SCENES, boom, check, defaults, four_bar, length, loads, oscillating_block, planet, scotch_yoke,
-    searched, shaper, single, slider_crank, slotted_crank, slotted_yoke, tangent_mechanism,
+    searched, shaper, single, slider_crank, slotted_crank, slotted_yoke, tangent_mechanism, welded,
 };
 use crate::support::linkages::{Class, Random};
 use crate::support::measures::{Measures, measure};
@@ -25,6 +25,16 @@ fn random_slider_cranks(seed: u64, count: usize, poses: usize) -> impl Iterator<
     (0..count).map(move |_| {
         let lengths = [length(&mut random, 0.1, 1.0), length(&mut random, 0.3, 3.0), length(&mut random, -0.5, 0.5)];
         let text = slider_crank(lengths, &mut random);
+        let drives = (0..poses).map(|_| random.range(-7.0, 7.0)).collect();
+        Family { text, longest: lengths.into_iter().fold(0.0, f64::max), drives, loads: loads(&mut random) }
+    })
+}
+
+fn welded_four_bars(seed: u64, count: usize, poses: usize) -> impl Iterator<Item = Family> {
+    let mut random = Random(seed);
+    (0..count).map(move |_| {
+        let lengths = [0; 3].map(|_| length(&mut random, 0.1, 2.0));
+        let text = welded(lengths, &mut random);
         let drives = (0..poses).map(|_| random.range(-7.0, 7.0)).collect();
         Family { text, longest: lengths.into_iter().fold(0.0, f64::max), drives, loads: loads(&mut random) }
     })
@@ -110,6 +120,13 @@ fn triads_and_rings() {
 fn ten_thousand_poses_of_slots() {
     assert!(check(shapers(21, (800, 20)), "levers with slots") > 10_000);
     assert!(check(slotted_cranks(22, (800, 20)), "links in a crank's slot") > 10_000);
+    assert!(check(slotted_yokes(23, (520, 20)), "yokes with slots") > 10_000);
+}
+
+#[test]
+#[ignore = "long"]
+fn ten_thousand_poses_of_welded_four_bars() {
+    assert!(check(welded_four_bars(24, 900, 20), "welded four-bars") > 10_000);
 }
 
 #[test]

@@ -61,7 +61,7 @@ impl Measures {
 }
 
 /// Measures a pose and the scenes `all` (equilibrium, all results) and `work` (virtual work, all results) from it; of a single dyad also what
-/// the function of `all` that goes straight from the drives leaves of the equations there. All loads are forces that are given at run time.
+/// the functions that go straight from the drives find there. All loads are forces that are given at run time.
 ///
 /// Residuals of forces are taken at the directions that the pose's vectors have, brought to unit size.
 pub fn measure<T: Number>(
@@ -83,17 +83,23 @@ pub fn measure<T: Number>(
     let free_bodies_under = |solution: &[Extended]| -> Vec<FreeBody> {
         linkage.model.moving_links().map(|link| free_body(&here, &general, solution, link)).collect()
     };
+    let unknown = &linkage.model.unknowns[0];
     let solution = unknowns(linkage, &general, &all);
     let bodies = free_bodies_under(&solution);
     let mut backward = backward_error(linkage, &general, &solution, longest) / epsilon;
     let mut free_body = free_bodies(linkage, &bodies) / epsilon;
-    if is_single_dyad(linkage) {
-        let straight = unknowns(linkage, &general, &scene::<T>(linkage, "all", arguments)?);
+    // Of equilibrium, and by virtual work.
+    let torques =
+        |all: &HashMap<String, T>, work: &HashMap<String, T>| [all, work].map(|of| of[&unknown.name].to_f64());
+    let mut both = vec![torques(&all, &work)];
+    if has_its_pose(linkage) {
+        let [all, work] = [scene::<T>(linkage, "all", arguments)?, scene(linkage, "work", arguments)?];
+        let straight = unknowns(linkage, &general, &all);
         backward = backward.max(backward_error(linkage, &general, &straight, longest) / epsilon);
         free_body = free_body.max(free_bodies(linkage, &free_bodies_under(&straight)) / epsilon);
+        both.push(torques(&all, &work));
     }
     // Where the unknown acts equilibrium takes its terms from, virtual work from the loads.
-    let unknown = &linkage.model.unknowns[0];
     let held = match unknown.kind {
         UnknownKind::Drive(drive) => {
             let ends = linkage.model.joint(linkage.model.drive(drive).joint).ends().map(|end| end.link);
@@ -105,20 +111,22 @@ pub fn measure<T: Number>(
         + virtual_velocities(&general).map_or(0.0, |velocities| {
             work_terms(&here, &velocities) + passed_power(linkage, &general, &velocities, &solution)
         });
-    let torque = over((all[&unknown.name].to_f64() - work[&unknown.name].to_f64()).abs(), terms) / epsilon;
+    let torque = both.iter().fold(0.0f64, |most, [one, other]| most.max(over((one - other).abs(), terms) / epsilon));
     let found = Measures { unit, closure, backward, free_body, torque };
     assert!([unit, closure, backward, free_body, torque].into_iter().all(f64::is_finite), "{found:?}");
     Ok(found)
 }
 
-/// Whether a driven link moves one dyad, with a slide at most. Near a dead centre of others the function straight from the drives may have
-/// another pose, by as much as rounding makes of it there.
-fn is_single_dyad(linkage: &Linkage) -> bool {
+/// Whether a driven link moves one dyad, whose functions straight from the drives have the pose that is measured. Near a dead centre of others they
+/// may have another one, by as much as rounding makes of it there; and an RPP dyad's travels differ from it by ε of all lengths, however short they
+/// are.
+fn has_its_pose(linkage: &Linkage) -> bool {
     let model = &linkage.model;
     let kinds = || model.joint_ids().map(|joint| &model.joint(joint).kind);
     let slides = kinds().filter(|kind| matches!(kind, JointKind::Prismatic { .. })).count();
     let pins = kinds().filter(|kind| matches!(kind, JointKind::Revolute)).count();
-    linkage.topology.motion.len() == 2 && slides <= 1 && slides + pins == 4
+    let travels = linkage.plan.motion_rules.contains(&"RPP dyad");
+    linkage.topology.motion.len() == 2 && slides + pins == 4 && !travels
 }
 
 /// The sides of the longest loop, at least four: a leg's, and those of the ways over links that are placed before.
