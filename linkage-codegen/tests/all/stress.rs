@@ -559,6 +559,8 @@ impl Hard {
         match (self.name, kind.is_block()) {
             // Beyond a change point, where the branches of a loop cross, no motion leads to a pose, but an iteration in many digits may come past.
             (FOLDS, true) => [20, 5],
+            // Measured of links in a crank's slot, the worst: one in nine.
+            (FOLDS, false) => [100, 5],
             ("random" | "5, 14 aligned" | "7 loads" | "10 cancelling", false) => [100, 100],
             _ => [100, 20],
         }
