@@ -180,3 +180,57 @@ fn a_ring_of_given_size_turns_its_pinion() -> Result<(), Error> {
     assert!(matches!(refused, Err(Error::Parameter { .. })), "{refused:?}");
     Ok(())
 }
+
+/// A wheel on a coupler that a parameter makes as long as it has to be for the gear: what the gear divides by is a constant.
+macro_rules! wheel_on_a_coupler {
+    ($name:ident, $scalar:ident, $results:tt) => {
+        linkage! {
+            mod $name;
+            scalar $scalar;
+            units { mm, N }
+            param along: length = 100mm;
+            ground { O: (0, 0), R: (300mm, 0) }
+            link crank   { O: (0, 0), A: (60mm, 0) }
+            link coupler { A: (0, 0), B: (200mm, 50mm), W: (along, 10mm) }
+            link rocker  { R: (0, 0), B: (180mm, 0) }
+            link wheel   { W: (0, 0) }
+            revolute O: ground  -> crank;
+            revolute A: coupler -> crank;
+            revolute B: rocker  -> coupler;
+            revolute R: ground  -> rocker;
+            revolute W: wheel   -> coupler;
+            gear G: crank.A -> wheel.W, radii (140mm, 40mm), internal;
+            drive q: O;
+            assemble B: left(A -> R);
+            load M: moment(wheel);
+            scene held: equilibrium -> $results;
+            scene work: virtual_work;
+        }
+    };
+}
+wheel_on_a_coupler!(on_coupler, f64, (effort_q, G));
+wheel_on_a_coupler!(on_coupler_single, f32, (effort_q, G));
+wheel_on_a_coupler!(on_coupler_bounded, f64, (effort_q, error_bound));
+
+#[test]
+#[allow(clippy::cast_possible_truncation, reason = "to single precision")]
+fn a_wheel_on_an_adjustable_coupler() -> Result<(), Error> {
+    let along = (100f64 * 100.0 - 10.0 * 10.0).sqrt();
+    let linkage = on_coupler::Linkage::new(&on_coupler::Params { along })?;
+    let single = on_coupler_single::Linkage::new(&on_coupler_single::Params { along: 99.498_74 })?;
+    let bounded = on_coupler_bounded::Linkage::new(&on_coupler_bounded::Params { along })?;
+    for q in [0.4, 2.0, -1.5] {
+        let held = on_coupler::held_at(&linkage, q, &on_coupler::Loads { M: 300.0 })?;
+        assert!((held.G.tangential.abs() - 7.5).abs() < 1e-13, "{held:?}");
+        let work = on_coupler::work_at(&linkage, q, &on_coupler::Loads { M: 300.0 })?;
+        assert!((held.effort_q - work.effort_q).abs() < 1e-10, "{held:?}, {work:?}");
+        let in_single = on_coupler_single::held_at(&single, q as f32, &on_coupler_single::Loads { M: 300.0 })?;
+        assert!((f64::from(in_single.effort_q) - held.effort_q).abs() < 1e-2, "{held:?}, {in_single:?}");
+        let bound = on_coupler_bounded::held_at(&bounded, q, &on_coupler_bounded::Loads { M: 300.0 })?;
+        assert!((bound.effort_q - held.effort_q).abs() <= 2.0 * bound.error_bound.effort_q, "{held:?}, {bound:?}");
+    }
+    // Wheels that are not held at their distance are refused.
+    let apart = on_coupler::Linkage::new(&on_coupler::Params { along: 120.0 });
+    assert!(matches!(apart, Err(Error::Parameter { .. })), "{apart:?}");
+    Ok(())
+}

@@ -166,7 +166,9 @@ impl<'a> Body<'a> {
                 || matches!(program.op(*value), Some(Op::Kernel { kernel, .. }) if *kernel != Kernel::MulAdd)
                 || program.outputs.iter().any(|(_, output)| output == value);
             if own {
-                let name = new_name(&mut used, &body.wanted_name(*value, &readers, &coefficients));
+                // A name that is made of a keyword is none.
+                let wanted = body.wanted_name(*value, &readers, &coefficients).replace("r#", "");
+                let name = new_name(&mut used, &wanted);
                 body.names.insert(*value, ident(&name));
             }
         }
@@ -280,6 +282,24 @@ impl<'a> Body<'a> {
         }
     }
 
+    /// Whether the written-out expression of a value has the type of its literals alone.
+    fn is_literal(&self, value: ValueId) -> bool {
+        let is_literal = |of: &ValueId| !self.names.contains_key(of) && self.is_literal(*of);
+        match self.program.op(value) {
+            Some(Op::Constant(_)) => true,
+            Some(Op::Neg(a) | Op::Where { then: a, .. }) => is_literal(a),
+            Some(Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b)) => is_literal(a) && is_literal(b),
+            _ => false,
+        }
+    }
+
+    fn scalar(&self) -> Ident {
+        ident(match self.graph.scalar() {
+            Scalar::F64 => "f64",
+            Scalar::F32 => "f32",
+        })
+    }
+
     fn written_out(&self, value: ValueId) -> Code {
         let Definition::Computed(op) = &self.program.value(value).definition else { return Code::atom(quote!(0.0)) };
         let within = |id: &ValueId, binding| self.code(*id).within(binding);
@@ -310,6 +330,10 @@ impl<'a> Body<'a> {
             Op::Div(a, b) => {
                 let (a, b) = (within(a, Binding::Product), within(b, Binding::Sign));
                 Code { tokens: quote!(#a / #b), binding: Binding::Product }
+            }
+            Op::Abs(a) if !self.names.contains_key(a) && self.is_literal(*a) => {
+                let (scalar, a) = (self.scalar(), plain(a));
+                Code::atom(quote!(#scalar::abs(#a)))
             }
             Op::Abs(a) => {
                 let a = within(a, Binding::Atom);
@@ -479,7 +503,9 @@ impl<'a> Body<'a> {
     fn calls(&self) -> Calls {
         let mut calls: Calls = BTreeMap::new();
         for step in &self.program.steps {
+            // One that is written out where it is read has no statement.
             if let Step::Let(value) = step
+                && self.names.contains_key(value)
                 && let Some(Op::Kernel { kernel, args, part }) = self.program.op(*value)
             {
                 calls.entry((*kernel, args.clone())).or_default().push((*part, *value));
@@ -502,21 +528,24 @@ impl<'a> Body<'a> {
         let (section, meaning) = self.notes_of(value);
         let Some((kernel, args, parts)) = call else {
             let code = self.written_out(value).tokens;
-            return vec![Statement { section, meaning, code: quote!(let #name = #code;) }];
+            // What holds literals only says of which type they are: methods are called on it.
+            let ty = self.is_literal(value).then(|| self.scalar()).map(|scalar| quote!(: #scalar));
+            return vec![Statement { section, meaning, code: quote!(let #name #ty = #code;) }];
         };
         let pattern = self.pattern(kernel, &parts);
-        match self.in_two(kernel, args) {
-            Some((first, code)) => {
-                vec![
-                    Statement { section, ..first },
-                    Statement { section, meaning, code: quote!(let #pattern = #code;) },
-                ]
-            }
-            None => {
-                let code = self.call(kernel, args);
-                vec![Statement { section, meaning, code: quote!(let #pattern = #code;) }]
-            }
-        }
+        let (first, code) = match self.in_two(kernel, args) {
+            Some((first, code)) => (Some(Statement { section, ..first }), code),
+            None => (None, self.call(kernel, args)),
+        };
+        let call = Statement { section, meaning, code: quote!(let #pattern = #code;) };
+        // One result may have several names: those of a line of the derivation, and of a result that is the same.
+        let others = parts.iter().enumerate().filter_map(|(index, (part, value))| {
+            let (_, known) = parts[..index].iter().find(|(known, _)| known == part)?;
+            let [name, known] = [value, known].map(|value| self.names.get(value));
+            let (section, meaning) = self.notes_of(*value);
+            Some(Statement { section, meaning, code: quote!(let #name = #known;) })
+        });
+        first.into_iter().chain([call]).chain(others).collect()
     }
 
     /// What the results of a call are bound to.

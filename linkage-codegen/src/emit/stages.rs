@@ -44,7 +44,10 @@ struct Task<'a> {
 impl<'a> Task<'a> {
     fn new(statement: Statement<'a>) -> Self {
         let pattern = statement.code.clone().into_iter().skip(1);
-        let pattern = pattern.take_while(|token| !matches!(token, TokenTree::Punct(punct) if punct.as_char() == '='));
+        // In front of a type, if there is one.
+        let is_end =
+            |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if [':', '='].contains(&punct.as_char()));
+        let pattern = pattern.take_while(|token| !is_end(token));
         let defines = names(&pattern.collect());
         let words = Words::of(&statement.code);
         let (operations, reduces_an_angle, is_long) = (words.operations(), words.reduce_an_angle(), words.are_long());

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use super::cycles::is_side;
 use crate::graph::number::Number;
-use crate::graph::{Graph, Op};
+use crate::graph::{Condition, Graph, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn merge(program: Program, graph: &Graph) -> Program {
@@ -20,34 +20,49 @@ pub(super) fn merge(program: Program, graph: &Graph) -> Program {
     merging.finish()
 }
 
-/// Sums, products and quotients of constants are constants, which are rounded once. Graphs have none; factors that are taken out of sums leave
-/// some. One with a name is a line of the derivation.
+/// Sums, products and quotients of constants are constants, which are rounded once, and a check that they pass is none. Graphs have none; factors
+/// that are taken out of sums leave some, and so do constants that hang on a condition. One that is read stays a line of the derivation if it has a
+/// name.
 pub(super) fn fold(mut program: Program, graph: &Graph) -> Program {
     if program.counts_rounding {
         return program;
     }
     for step in core::mem::take(&mut program.steps) {
-        if let Step::Let(value) = step
-            && let Some(op) = program.op(value).cloned()
-        {
-            let number = |value: ValueId| program.constant(graph, value);
-            if program.value(value).label.is_none()
-                && let Some(number) = constant(&op, number)
-            {
-                let number = graph.intern_number(&number);
-                program.values[value.index()].definition = Definition::Computed(Op::Constant(number));
-                continue;
+        let number = |value: ValueId| program.constant(graph, value);
+        match step {
+            Step::Let(value) => {
+                let Some(op) = program.op(value).cloned() else { continue };
+                if let Some(number) = constant(&op, number) {
+                    let number = graph.intern_number(&number);
+                    program.values[value.index()].definition = Definition::Computed(Op::Constant(number));
+                    if program.value(value).label.is_none() {
+                        continue;
+                    }
+                } else if let Op::Mul(x, k) = op
+                    && number(k).is_some()
+                    && number(x).is_none()
+                {
+                    program.values[value.index()].definition = Definition::Computed(Op::Mul(k, x));
+                }
             }
-            if let Op::Mul(x, k) = op
-                && number(k).is_some()
-                && number(x).is_none()
-            {
-                program.values[value.index()].definition = Definition::Computed(Op::Mul(k, x));
-            }
+            Step::Check { ref guard, .. } if holds(&guard.condition, number) => continue,
+            _ => {}
         }
         program.steps.push(step);
     }
-    program
+    super::unused::remove(program, graph)
+}
+
+/// Whether a condition is one of constants, for which it holds.
+fn holds(condition: &Condition<ValueId>, number: impl Fn(ValueId) -> Option<Number>) -> bool {
+    match *condition {
+        Condition::Above { value, limit } => {
+            number(value).zip(number(limit)).is_some_and(|(value, limit)| value.compare(&limit).is_gt())
+        }
+        Condition::AtLeast { value, limit } => {
+            number(value).zip(number(limit)).is_some_and(|(value, limit)| value.compare(&limit).is_ge())
+        }
+    }
 }
 
 /// What an operation makes of constants alone.
