@@ -59,7 +59,10 @@ pub(super) fn options(ast: &Ast, sink: &Sink) -> Options {
                 options.runtime = Some(path.clone());
             }
             Item::Emit(name) => match name.text.as_str() {
-                "source" if cfg!(feature = "source") => options.emit_source = true,
+                "source" if cfg!(feature = "source") => {
+                    once("`emit source`", name.place());
+                    options.emit_source = true;
+                }
                 "source" => sink.report(
                     Diagnostic::new(name.place(), "the module can hold its own source only with the feature `source`")
                         .help("in Cargo.toml: linkage-runtime = { …, features = [\"source\"] }"),

@@ -124,7 +124,13 @@ pub(super) fn two_ends(input: ParseStream<'_>) -> Result<[End; 2]> {
 
 /// How two links are written of which only the first stands as it should; what stands behind it may be the second.
 pub(super) fn both_links(from: &Name, behind: ParseStream<'_>) -> String {
+    let is_point = behind.peek(Token![.]);
     take(behind);
+    if is_point {
+        // The name of a point of the first, and the arrow.
+        take(behind);
+        let _ = behind.parse::<Token![->]>();
+    }
     match name(behind) {
         Ok(to) => format!("{from} -> {to}"),
         Err(_) if from.text == "ground" => "ground -> crank".to_owned(),

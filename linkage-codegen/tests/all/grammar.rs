@@ -42,3 +42,21 @@ fn every_item_has_an_example() {
         assert!(begins, "`{item}` has no example");
     }
 }
+
+/// What is said to slips that are near something else.
+#[test]
+fn slips_are_told_what_is_meant() {
+    for (slip, expected) in [
+        ("unknown T: torque(ground.O -> crank.O);", "write `torque(ground -> crank)`"),
+        ("unknown T: torque(ground, crank);", "write `torque(ground -> crank)`"),
+        ("emit source; emit source;", "`emit source` is chosen already"),
+    ] {
+        let text = format!(
+            "mod slips; ground {{ O: (0, 0) }} link crank {{ O -> A: 1m }} revolute O: ground -> crank; drive q: O;
+             load F: force(crank.A); scene held: equilibrium; {slip}"
+        );
+        let refusal = linkage_codegen::analyse(text.parse().expect("tokens")).expect_err(slip);
+        let messages: Vec<&str> = refusal.errors.iter().map(Diagnostic::message).collect();
+        assert!(messages.len() == 1 && messages[0].contains(expected), "{slip}: {messages:?}");
+    }
+}
