@@ -89,16 +89,18 @@ linkage! {
 
 #[test]
 fn a_sense_is_read_by_the_stages_of_a_sweep() -> Result<(), SweepError> {
-    let x: [f64; 20] = core::array::from_fn(|index| 0.45 + 0.1 * f64::from(u8::try_from(index).unwrap_or(0)) / 20.0);
-    let x = x.map(|x| if leg::state_at(x, &leg::Motion { x_rate: 0.4 }).is_ok() { x } else { 0.0 });
-    let Some(good) = x.iter().copied().find(|x| *x > 0.0) else { panic!("no pose") };
-    let x = x.map(|x| if x > 0.0 { x } else { good });
+    let mut x = [0.35; 20];
+    for index in 1..x.len() {
+        x[index] = x[index - 1] + 0.005;
+    }
     let ([mut M, mut h, mut rounding], rates) = ([[0.0; 20]; 3], [0.4; 20]);
     let inputs = leg::StatesInputs { x: Series::Each(&x), x_rate: Series::Each(&rates) };
     leg::states(&inputs, leg::States { M: &mut M, h: &mut h, rounding: &mut rounding })?;
     for (index, x) in x.into_iter().enumerate() {
         let one = leg::state_at(x, &leg::Motion { x_rate: 0.4 }).expect("a pose");
-        assert_eq!([M[index], h[index]].map(f64::to_bits), [one.M, one.h].map(f64::to_bits));
+        let swept = [M[index], h[index], rounding[index]];
+        assert_eq!(swept.map(f64::to_bits), [one.M, one.h, one.rounding].map(f64::to_bits));
+        assert!(one.M > 1e3 * one.rounding && one.rounding > 0.0, "{one:?}");
     }
     Ok(())
 }

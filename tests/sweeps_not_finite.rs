@@ -162,7 +162,7 @@ fn a_sum_of_parts_is_finite_or_refused() -> Result<(), Error> {
 }
 
 linkage! {
-    /// A triad with a plate of a length that is given at run time: placed by iteration, each position solved by itself.
+    /// A triad with a leg whose length is given at run time: placed by iteration, each position from the one before.
     mod triad;
     units { mm, N }
     param reach: length = 180mm;
@@ -192,7 +192,7 @@ linkage! {
     scene turned: sweep(held);
 }
 
-/// A position that follows another one by iteration: those before a bad one have the numbers that they have without it.
+/// Of positions that follow each other by iteration those before a bad one have the numbers that they have without it.
 #[test]
 fn what_is_not_finite_is_refused_where_positions_follow_each_other() {
     const COUNT: usize = 20;

@@ -4,7 +4,7 @@ use super::dense::{self, eliminations};
 use super::{Case, Extent, Item, Reactions, Turn};
 use crate::exact::{Big, Exact, Joint, Kind, Load, Vector, equilibrium, in_frame, left, vector};
 use crate::expert::four_bar as expert;
-use crate::generators;
+use crate::generators::{self, Foreign};
 use crate::linkages::four_bar::{Loads, Pose};
 use crate::linkages::four_bar_fused;
 
@@ -81,16 +81,21 @@ pub(super) fn items(extent: Extent) -> Vec<Item> {
     for (item, eliminations) in items.iter_mut().zip(eliminations) {
         item.competitors.extend(eliminations);
     }
+    add_generators::<f64>(&mut items, &turn, &parts);
+    items.into()
+}
+
+/// What other generators wrote for the items, P1a to P1d in a scalar, if a library of it is loaded.
+pub(super) fn add_generators<T: Foreign>(items: &mut [Item], turn: &Turn<Loads>, parts: &Turn<Loads>) {
     let loads = |loads: &Loads| vec![loads.F13, loads.F14];
-    for Item { id, competitors, .. } in &mut items {
-        match *id {
-            "P1a" => generators::add::<f64, _, 11, 9, 1>(competitors, id, &turn, loads),
-            "P1b" => generators::add::<f64, _, 5, 9, 1>(competitors, id, &turn, loads),
-            "P1c" => generators::add::<f64, _, 5, 1, 1>(competitors, id, &turn, loads),
-            _ => generators::add::<f64, _, 5, 18, 2>(competitors, id, &parts, loads),
+    for Item { id, competitors, .. } in items {
+        match id.trim_end_matches("-f32") {
+            "P1a" => generators::add::<T, _, 11, 9, 1>(competitors, id, turn, loads),
+            "P1b" => generators::add::<T, _, 5, 9, 1>(competitors, id, turn, loads),
+            "P1c" => generators::add::<T, _, 5, 1, 1>(competitors, id, turn, loads),
+            _ => generators::add::<T, _, 5, 18, 2>(competitors, id, parts, loads),
         }
     }
-    items.into()
 }
 
 /// The torque and the forces, as generated functions name them.

@@ -76,15 +76,7 @@ fn of_four_bar(extent: Extent) -> Vec<Item> {
     for (item, eliminations) in items.iter_mut().zip(eliminations) {
         item.competitors.extend(eliminations);
     }
-    let loads = |loads: &linkages::four_bar::Loads| vec![loads.F13, loads.F14];
-    for Item { id, competitors, .. } in &mut items {
-        match *id {
-            "P1a-f32" => generators::add::<f32, _, 11, 9, 1>(competitors, id, &turn, loads),
-            "P1b-f32" => generators::add::<f32, _, 5, 9, 1>(competitors, id, &turn, loads),
-            "P1c-f32" => generators::add::<f32, _, 5, 1, 1>(competitors, id, &turn, loads),
-            _ => generators::add::<f32, _, 5, 18, 2>(competitors, id, &parts, loads),
-        }
-    }
+    four_bar::add_generators::<f32>(&mut items, &turn, &parts);
     items
 }
 

@@ -294,10 +294,7 @@ impl<'a> Body<'a> {
     }
 
     fn scalar(&self) -> Ident {
-        ident(match self.graph.scalar() {
-            Scalar::F64 => "f64",
-            Scalar::F32 => "f32",
-        })
+        ident(self.graph.scalar().name())
     }
 
     fn written_out(&self, value: ValueId) -> Code {
@@ -503,10 +500,9 @@ impl<'a> Body<'a> {
     fn calls(&self) -> Calls {
         let mut calls: Calls = BTreeMap::new();
         for step in &self.program.steps {
-            // One that is written out where it is read has no statement.
             if let Step::Let(value) = step
-                && self.names.contains_key(value)
                 && let Some(Op::Kernel { kernel, args, part }) = self.program.op(*value)
+                && kernel.parts() > 1
             {
                 calls.entry((*kernel, args.clone())).or_default().push((*part, *value));
             }
@@ -518,7 +514,8 @@ impl<'a> Body<'a> {
     fn let_statements(&self, value: ValueId, calls: &mut Calls) -> Vec<Statement<'a>> {
         let Some(name) = self.names.get(&value) else { return Vec::new() };
         let call = match self.program.op(value) {
-            Some(Op::Kernel { kernel, args, .. }) => match calls.remove(&(*kernel, args.clone())) {
+            Some(Op::Kernel { kernel, args, .. }) if kernel.parts() > 1 => match calls.remove(&(*kernel, args.clone()))
+            {
                 Some(parts) => Some((*kernel, args, parts)),
                 // The first result that was read has brought the statement for all.
                 None => return Vec::new(),
@@ -537,15 +534,7 @@ impl<'a> Body<'a> {
             Some((first, code)) => (Some(Statement { section, ..first }), code),
             None => (None, self.call(kernel, args)),
         };
-        let call = Statement { section, meaning, code: quote!(let #pattern = #code;) };
-        // One result may have several names: those of a line of the derivation, and of a result that is the same.
-        let others = parts.iter().enumerate().filter_map(|(index, (part, value))| {
-            let (_, known) = parts[..index].iter().find(|(known, _)| known == part)?;
-            let [name, known] = [value, known].map(|value| self.names.get(value));
-            let (section, meaning) = self.notes_of(*value);
-            Some(Statement { section, meaning, code: quote!(let #name = #known;) })
-        });
-        first.into_iter().chain([call]).chain(others).collect()
+        first.into_iter().chain([Statement { section, meaning, code: quote!(let #pattern = #code;) }]).collect()
     }
 
     /// What the results of a call are bound to.
@@ -556,7 +545,6 @@ impl<'a> Body<'a> {
         };
         let parts: Vec<TokenStream> = (0..kernel.parts()).map(part).collect();
         match (kernel, &parts[..]) {
-            (_, [one]) => one.clone(),
             (Kernel::Solve(_), [unknowns @ .., distance]) => quote!(([#(#unknowns),*], #distance)),
             (Kernel::Search { search, .. }, _) => super::search::pattern(&self.graph.search(search), &parts),
             _ => quote!((#(#parts),*)),

@@ -10,14 +10,24 @@ use crate::support::numbers::{Double, Extended, Single};
 use crate::support::{Arguments, Number, compile, pose, scene};
 use linkage_codegen::Linkage;
 
-fn random_four_bars(seed: u64, count: usize, poses: usize) -> impl Iterator<Item = Family> {
+/// Linkages with legs of any length, whose cranks turn.
+fn with_legs<const N: usize>(
+    seed: u64,
+    count: usize,
+    poses: usize,
+    text: fn([f64; N], &mut Random) -> String,
+) -> impl Iterator<Item = Family> {
     let mut random = Random(seed);
     (0..count).map(move |_| {
-        let lengths = [0; 4].map(|_| length(&mut random, 0.1, 2.0));
-        let text = four_bar(lengths, &mut random);
+        let lengths = [0; N].map(|_| length(&mut random, 0.1, 2.0));
+        let text = text(lengths, &mut random);
         let drives = (0..poses).map(|_| random.range(-7.0, 7.0)).collect();
         Family { text, longest: lengths.into_iter().fold(0.0, f64::max), drives, loads: loads(&mut random) }
     })
+}
+
+fn random_four_bars(seed: u64, count: usize, poses: usize) -> impl Iterator<Item = Family> {
+    with_legs(seed, count, poses, four_bar)
 }
 
 fn random_slider_cranks(seed: u64, count: usize, poses: usize) -> impl Iterator<Item = Family> {
@@ -31,13 +41,7 @@ fn random_slider_cranks(seed: u64, count: usize, poses: usize) -> impl Iterator<
 }
 
 fn welded_four_bars(seed: u64, count: usize, poses: usize) -> impl Iterator<Item = Family> {
-    let mut random = Random(seed);
-    (0..count).map(move |_| {
-        let lengths = [0; 3].map(|_| length(&mut random, 0.1, 2.0));
-        let text = welded(lengths, &mut random);
-        let drives = (0..poses).map(|_| random.range(-7.0, 7.0)).collect();
-        Family { text, longest: lengths.into_iter().fold(0.0, f64::max), drives, loads: loads(&mut random) }
-    })
+    with_legs(seed, count, poses, welded)
 }
 
 type Text = fn([f64; 3], &mut Random) -> String;

@@ -561,14 +561,14 @@ impl Hard {
             (FOLDS, true) => [20, 5],
             // Measured of links in a crank's slot, the worst: one in nine.
             (FOLDS, false) => [100, 5],
-            ("random" | "5, 14 aligned" | "7 loads" | "10 cancelling", false) => [100, 100],
+            (_, false) if self.unknown == REGULAR => [100, 100],
             _ => [100, 20],
         }
     }
 }
 
 /// Of how many bounds of results at poses that are told one may say that nothing is known, in doubles and in single precision.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 struct Unknown {
     double: usize,
     single: usize,

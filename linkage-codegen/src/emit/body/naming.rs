@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use proc_macro2::Ident;
+
 use super::Body;
 use crate::emit::forms::{Forms, scaled};
 use crate::emit::formula::Values;
@@ -138,26 +140,30 @@ impl Body<'_> {
         readers.into_iter().zip(compared).map(|(reader, limit)| reader.or(limit)).collect()
     }
 
-    /// What each value is for: a result, or the named ones that are computed from it, by way of unnamed ones.
+    /// What each value is for of which no label says what it means: a result, or the named ones that are computed from it, by way of unnamed ones.
     pub(super) fn purposes(&self) -> BTreeMap<ValueId, String> {
-        let mut served: BTreeMap<ValueId, Vec<String>> = BTreeMap::new();
+        let says_nothing =
+            |value: &ValueId| self.program.value(*value).label.as_ref().is_none_or(|label| label.equation.is_empty());
+        let mut served: BTreeMap<ValueId, Vec<ValueId>> = BTreeMap::new();
         for step in self.program.steps.iter().rev() {
             let Step::Let(value) = step else { continue };
-            let own = match self.given_name(*value).and_then(|_| self.names.get(value)) {
-                Some(name) => vec![name.to_string()],
+            let own = match self.given_name(*value) {
+                Some(_) => vec![*value],
                 None => served.get(value).cloned().unwrap_or_default(),
             };
-            for of in self.program.operands_of(step) {
+            for of in self.program.operands_of(step).into_iter().filter(says_nothing) {
                 let known = served.entry(of).or_default();
                 // The steps are read backwards.
-                for name in own.iter().rev().filter(|name| !known.contains(name)).cloned().collect::<Vec<_>>() {
-                    known.insert(0, name);
-                }
+                let new: Vec<ValueId> = own.iter().copied().filter(|value| !known.contains(value)).collect();
+                known.splice(0..0, new);
             }
         }
-        let parts = served.into_iter().map(|(value, names)| (value, part_of(&names)));
+        let part_of = |(value, of): (ValueId, Vec<ValueId>)| {
+            let names: Vec<&Ident> = of.iter().filter_map(|value| self.names.get(value)).collect();
+            (value, part_of(&names))
+        };
         let results = self.program.outputs.iter().map(|(_, result)| (*result, "a result".to_owned()));
-        parts.chain(results).collect()
+        served.into_iter().map(part_of).chain(results).collect()
     }
 
     /// The name of a result; of one of those that are compared with each other, that it is one.
@@ -205,7 +211,7 @@ fn in_common(one: &str, other: &str) -> String {
 }
 
 /// That a value is part of these.
-fn part_of(names: &[String]) -> String {
+fn part_of(names: &[&Ident]) -> String {
     match names {
         [] => String::new(),
         [one] => format!("part of {one}"),

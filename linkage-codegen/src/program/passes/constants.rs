@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use super::cycles::is_side;
 use crate::graph::number::Number;
-use crate::graph::{Condition, Graph, Op};
+use crate::graph::{Graph, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn merge(program: Program, graph: &Graph) -> Program {
@@ -45,24 +45,18 @@ pub(super) fn fold(mut program: Program, graph: &Graph) -> Program {
                     program.values[value.index()].definition = Definition::Computed(Op::Mul(k, x));
                 }
             }
-            Step::Check { ref guard, .. } if holds(&guard.condition, number) => continue,
-            _ => {}
+            Step::Check { ref guard, .. } => {
+                if let [Some(value), Some(limit)] = guard.condition.operands().map(number)
+                    && guard.condition.holds(&value, &limit)
+                {
+                    continue;
+                }
+            }
+            Step::FiniteInput(_) | Step::FiniteResults(_) => {}
         }
         program.steps.push(step);
     }
     super::unused::remove(program, graph)
-}
-
-/// Whether a condition is one of constants, for which it holds.
-fn holds(condition: &Condition<ValueId>, number: impl Fn(ValueId) -> Option<Number>) -> bool {
-    match *condition {
-        Condition::Above { value, limit } => {
-            number(value).zip(number(limit)).is_some_and(|(value, limit)| value.compare(&limit).is_gt())
-        }
-        Condition::AtLeast { value, limit } => {
-            number(value).zip(number(limit)).is_some_and(|(value, limit)| value.compare(&limit).is_ge())
-        }
-    }
 }
 
 /// What an operation makes of constants alone.
