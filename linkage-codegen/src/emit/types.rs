@@ -1,5 +1,7 @@
 //! The types of a module: loads, parameters, pose, results.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
@@ -30,7 +32,7 @@ pub(super) fn run_time_loads(model: &Model) -> Vec<LoadId> {
 /// `Loads`: a field for each load that is given at run time; none if there is none. Of a model that is not whole only names are sure.
 pub(super) fn loads(model: &Model, whole: bool) -> TokenStream {
     let scalar = scalar(model);
-    let mut springs = TokenStream::new();
+    let (mut springs, mut named) = (TokenStream::new(), BTreeSet::new());
     let fields: Vec<TokenStream> = run_time_loads(model)
         .into_iter()
         .map(|load| {
@@ -42,7 +44,10 @@ pub(super) fn loads(model: &Model, whole: bool) -> TokenStream {
                 LoadKind::Force { .. } | LoadKind::Gravity { .. } => quote!(Vector2<#scalar>),
                 LoadKind::Spring { .. } | LoadKind::Torsion { .. } => {
                     let ty = ident(&load.type_name());
-                    springs.extend(spring(model, load));
+                    // In a declaration that is wrong two may have one name.
+                    if named.insert(load.type_name()) {
+                        springs.extend(spring(model, load));
+                    }
                     quote!(#ty)
                 }
                 // Nothing of it is given.

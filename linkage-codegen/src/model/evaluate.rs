@@ -221,9 +221,12 @@ impl<'m> Scope<'m> {
                     .help("a value is a number with its unit, such as `80mm`, or a parameter"))
             }
             (None, _) => {
+                // Two letters are close to some unit or other, and none has a digit.
+                let may_be_unit = name.len() > 2 && name.chars().all(char::is_alphabetic);
                 let mut known: Vec<&str> = self.names.of(Role::Param).collect();
-                unit_names().for_each(|unit| known.push(unit));
-                known.extend(FUNCTIONS);
+                if may_be_unit {
+                    unit_names().chain(FUNCTIONS).for_each(|word| known.push(word));
+                }
                 let problem = format!("there is no parameter or unit `{name}`");
                 let found = Diagnostic::new(place, problem);
                 Err(match closest(name, known) {
@@ -317,13 +320,18 @@ impl<'m> Scope<'m> {
     }
 }
 
-/// What is written otherwise elsewhere: a moment as one word, an inch by its abbreviation.
+/// What is written otherwise elsewhere: the unit of a moment, of an impulse or of `kg m²` as one word, an inch by its abbreviation.
 fn meant(suffix: &str) -> Option<String> {
     if suffix == "in" {
         return Some("inch".to_owned());
     }
     let places = suffix.char_indices().map(|(place, _)| suffix.split_at(place));
     let is = |name: &str, dimension: Dimension| unit(name).is_some_and(|unit| unit.dimension == dimension);
-    let mut moments = places.filter(|(force, arm)| is(force, Dimension::FORCE) && is(arm, Dimension::LENGTH));
-    moments.next().map(|(force, arm)| format!("{force}*{arm}"))
+    let products = [
+        (Dimension::FORCE, Dimension::LENGTH),
+        (Dimension::MASS, Dimension::LENGTH),
+        (Dimension::FORCE, Dimension::TIME),
+    ];
+    let mut joined = places.filter(|(left, right)| products.iter().any(|(a, b)| is(left, *a) && is(right, *b)));
+    joined.next().map(|(left, right)| format!("{left}*{right}"))
 }

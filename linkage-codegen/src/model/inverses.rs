@@ -6,6 +6,7 @@
 use super::ids::{ClosureId, DriveId, JointId};
 use super::motion::Asked;
 use super::names::{Names, Role};
+use super::scenes::{ERROR_BOUND, cannot, end_of};
 use super::{Method, Model, Scene, Sweep, Wanted, resolve, type_name};
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::graph::Order;
@@ -145,6 +146,13 @@ fn results(model: &Model, given: &ast::Scene, names: &Names, sink: &Sink) -> Vec
     let mut results = Vec::new();
     for item in listed {
         let found = match item {
+            ResultItem::Name(name) if name.text == ERROR_BOUND && names.entry(ERROR_BOUND).is_none() => {
+                sink.report(
+                    cannot(given, name.place(), ERROR_BOUND, "the bound of the errors")
+                        .help("`equilibrium` and `virtual_work` give it, and scenes of motion"),
+                );
+                continue;
+            }
             ResultItem::Name(name) => Some((name, None)),
             ResultItem::Point(name, what) => match what.text.as_str() {
                 "rate" => Some((name, Some(Order::Rate))),
@@ -160,7 +168,7 @@ fn results(model: &Model, given: &ast::Scene, names: &Names, sink: &Sink) -> Vec
             _ => None,
         };
         let Some((name, order)) = found else {
-            let place = super::scenes::end_of(item).place();
+            let place = end_of(item).place();
             sink.report(
                 Diagnostic::new(place, "`inverse` gives the motion of the drives")
                     .help("its results are such as `theta`, `theta.rate` and `theta.acceleration`"),

@@ -104,15 +104,19 @@ fn unread_points(model: &mut Model, link: LinkId, words: Vec<Name>) {
 
 fn points(model: &mut Model, link: LinkId, body: &ast::Link, names: &Names, sink: &Sink) {
     let mut frame_given = false;
-    for place in &body.places {
+    for (index, place) in body.places.iter().enumerate() {
         match place {
             PointPlace::Frame(from, to, length) => {
                 if frame_given || !model.link(link).points.is_empty() {
-                    let problem = if frame_given { "a link has one frame" } else { "the frame comes first in a link" };
-                    sink.report(
-                        Diagnostic::new(from.place().to(to.place()), problem)
-                            .help(format!("give `{to}` by its coordinates in the frame: `{to}: (x, y)`")),
-                    );
+                    let (problem, help) = if frame_given {
+                        ("a link has one frame", format!("give `{to}` by its coordinates in the frame: `{to}: (x, y)`"))
+                    } else {
+                        (
+                            "the frame comes first in a link",
+                            format!("put `{from} -> {to}` in front of the other points"),
+                        )
+                    };
+                    sink.report(Diagnostic::new(from.place().to(to.place()), problem).help(help));
                 }
                 frame_given = true;
                 let length = sink.absorb(frame_length(model, names, link, (from, to), length));
@@ -135,7 +139,17 @@ fn points(model: &mut Model, link: LinkId, body: &ast::Link, names: &Names, sink
                 polar_distance(model, link, id, vector, names);
             }
             PointPlace::Distances(name, distances) => {
-                let found = sink.absorb(by_distances(model, names, link, name, distances));
+                let found = match measured_from_later(&body.places[index..], distances) {
+                    // The frame itself is refused there.
+                    Some((_, PointPlace::Frame(..))) => None,
+                    Some((later, _)) => {
+                        let problem =
+                            format!("the point `{later}` is declared behind the one that is measured from it");
+                        sink.report(Diagnostic::new(later.place(), problem).help(format!("put `{later}` in front")));
+                        None
+                    }
+                    None => sink.absorb(by_distances(model, names, link, name, distances)),
+                };
                 let (at, legs) = found.unwrap_or_else(|| {
                     let at = model.unread_vector();
                     ((at.x.id(), at.y.id()), Vec::new())
@@ -146,6 +160,19 @@ fn points(model: &mut Model, link: LinkId, body: &ast::Link, names: &Names, sink
             PointPlace::Unread(words) => unread_points(model, link, words.clone()),
         }
     }
+}
+
+/// The first end of the distances that is declared only here or further on, and where.
+fn measured_from_later<'a>(places: &'a [PointPlace], distances: &'a Distances) -> Option<(&'a Name, &'a PointPlace)> {
+    let declares = |place: &PointPlace, end: &Name| match place {
+        PointPlace::Frame(from, to, _) => [from, to].into_iter().any(|point| point.text == end.text),
+        PointPlace::At(point, _) | PointPlace::Distances(point, _) | PointPlace::Origin(point) => {
+            point.text == end.text
+        }
+        PointPlace::Unread(_) => false,
+    };
+    let ends = [&distances.from, &distances.to].into_iter();
+    ends.filter_map(|end| Some((end, places.iter().find(|place| declares(place, end))?))).next()
 }
 
 type Ids = (NodeId, NodeId);

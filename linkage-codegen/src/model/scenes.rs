@@ -761,7 +761,7 @@ fn named_result(
 /// The word for the bounds of all errors among a scene's results.
 pub(crate) const ERROR_BOUND: &str = "error_bound";
 
-fn cannot(given: &ast::Scene, place: Place, result: &str, what: &str) -> Diagnostic {
+pub(super) fn cannot(given: &ast::Scene, place: Place, result: &str, what: &str) -> Diagnostic {
     Diagnostic::new(place, format!("`{}` cannot give `{result}`: {what} is not among its results", given.method))
 }
 
@@ -860,10 +860,15 @@ fn check_generated_names(model: &Model, sink: &Sink) {
             method(&scene.name, &made, &other);
             continue;
         }
-        for made in types_of(model, scene) {
-            let own = format!("the scene `{}` has that", scene.name);
+        for (made, of) in types_of(model, scene) {
+            let (what, own) = match of {
+                None => ("the results".to_owned(), format!("the scene `{}` has that", scene.name)),
+                Some(of) => {
+                    (format!("`{of}` among the results"), format!("`{of}` in the scene `{}` has that", scene.name))
+                }
+            };
             if let Some(other) = types.insert(made.clone(), own) {
-                clash(&scene.name, format!("the results of `{}` would be the type `{made}`, and {other}", scene.name));
+                clash(&scene.name, format!("{what} of `{}` would be the type `{made}`, and {other}", scene.name));
                 break;
             }
         }
@@ -895,26 +900,34 @@ fn check_generated_names(model: &Model, sink: &Sink) {
     }
 }
 
-/// The types that a scene brings.
-fn types_of(model: &Model, scene: &Scene) -> Vec<String> {
-    types_named(model, scene, &type_name(&scene.name.text))
+/// The types that a scene brings, each with what of its results has it; the first is that of all.
+fn types_of(model: &Model, scene: &Scene) -> Vec<(String, Option<String>)> {
+    types_named(model, scene, &type_name(&scene.name.text), None)
 }
 
-fn types_named(model: &Model, scene: &Scene, base: &str) -> Vec<String> {
+fn types_named(model: &Model, scene: &Scene, base: &str, path: Option<&str>) -> Vec<(String, Option<String>)> {
+    let own = (base.to_owned(), path.map(str::to_owned));
+    let within = |name: &str| path.map_or_else(|| name.to_owned(), |path| format!("{path}.{name}"));
     if let Some(derivative) = &scene.derivative {
         // A record for each variable, and in it for each number of a load, of the results of the other scene.
         let records = derivative.by.iter().flat_map(|variable| {
-            let own = format!("{base}{}", type_name(&variable.name(model)));
+            let (name, of) = (variable.name(model), &model.scenes[derivative.of]);
+            let base = format!("{base}{}", type_name(&name));
             let numbers: Vec<&str> = match variable.by {
                 By::Load(load) => model.load(load).kind.given(model).filter(|value| !value.is_empty()).collect(),
                 _ => Vec::new(),
             };
-            let inner = numbers.iter().map(|number| format!("{own}{}", type_name(number)));
-            let of = &model.scenes[derivative.of];
-            let inner: Vec<String> = inner.flat_map(|name| types_named(model, of, &name)).collect();
-            if inner.is_empty() { types_named(model, of, &own) } else { [vec![own], inner].concat() }
+            if numbers.is_empty() {
+                return types_named(model, of, &base, Some(&name));
+            }
+            let inner = numbers.iter().flat_map(|number| {
+                let path = format!("{name}.{number}");
+                types_named(model, of, &format!("{base}{}", type_name(number)), Some(&path))
+            });
+            let inner: Vec<_> = inner.collect();
+            [vec![(base, Some(name))], inner].concat()
         });
-        return core::iter::once(base.to_owned()).chain(records).collect();
+        return core::iter::once(own).chain(records).collect();
     }
     let per_link = |load: &LoadId| model.load(*load).kind.is_per_link();
     let records = scene.loads.iter().filter(|load| match scene.method {
@@ -922,7 +935,7 @@ fn types_named(model: &Model, scene: &Scene, base: &str) -> Vec<String> {
         Method::Superposition => per_link(load),
         _ => false,
     });
-    let records = records.map(|load| format!("{base}{}", type_name(&model.load(*load).name.text)));
+    let records = records.map(|load| model.load(*load).name.text.clone());
     let resolved = scene.results.iter().filter_map(|wanted| match wanted {
         Wanted::Joint(_) | Wanted::Point(_) | Wanted::Angle(_) if scene.method == Method::Coefficients => {
             model.result_name(*wanted)
@@ -931,8 +944,9 @@ fn types_named(model: &Model, scene: &Scene, base: &str) -> Vec<String> {
         Wanted::Resolved(..) | Wanted::Inertia(_) | Wanted::Offset(_) => model.result_name(*wanted),
         _ => None,
     });
-    let records = records.chain(resolved.map(|name| format!("{base}{}", type_name(&name))));
-    let parts = (scene.method == Method::Superposition).then(|| format!("{base}Contribution"));
-    let bounds = scene.results.contains(&Wanted::ErrorBound).then(|| format!("{base}ErrorBound"));
-    core::iter::once(base.to_owned()).chain(parts).chain(bounds).chain(records).collect()
+    let parts = (scene.method == Method::Superposition).then(|| "contribution".to_owned());
+    let bounds = scene.results.contains(&Wanted::ErrorBound).then(|| ERROR_BOUND.to_owned());
+    let named = parts.into_iter().chain(bounds).chain(records).chain(resolved);
+    let records = named.map(|name| (format!("{base}{}", type_name(&name)), Some(within(&name))));
+    core::iter::once(own).chain(records).collect()
 }

@@ -21,7 +21,7 @@ pub(crate) use scenes::METHODS;
 
 use ast::{Ast, Item};
 use recovery::{at_item, pass_over, unread};
-use tokens::{between, place_of, take};
+use tokens::{NO_ATTRIBUTES, NO_ATTRIBUTES_HELP, between, place_of, take};
 
 use crate::diagnostics::{Diagnostic, Place, Sink};
 
@@ -123,10 +123,7 @@ fn declaration(input: ParseStream<'_>, sink: &Sink) -> Option<Ast> {
     let mut items = Vec::new();
     while !input.is_empty() {
         if let Some(place) = attributes_of_item(input) {
-            sink.report(
-                Diagnostic::new(place, "items have no attributes or documentation comments")
-                    .help("document the module above `mod`, and write plain comments `// …` beside items"),
-            );
+            sink.report(Diagnostic::new(place, NO_ATTRIBUTES).help(NO_ATTRIBUTES_HELP));
             continue;
         }
         items.push(item(input, sink));

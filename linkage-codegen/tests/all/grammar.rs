@@ -50,6 +50,15 @@ fn slips_are_told_what_is_meant() {
         ("unknown T: torque(ground.O -> crank.O);", "write `torque(ground -> crank)`"),
         ("unknown T: torque(ground, crank);", "write `torque(ground -> crank)`"),
         ("emit source; emit source;", "`emit source` is chosen already"),
+        ("mass crank: 1kg at A, inertia 3kgm^2;", "did you mean `kg*m`?"),
+        ("mass crank: 1kg at (l2, 0);", "`param l2: length;`"),
+        ("mass /// the crank's\n crank: 1kg at A;", "no attributes or documentation comments"),
+        ("link rod { A, /// end\n B: (1m, 0) }", "no attributes or documentation comments"),
+        ("link rod { C: left(A -> B, 1m, 1m), A -> B: 1m }", "put `A -> B` in front of the other points"),
+        ("link rod { A, C: left(A -> B, 1m, 1m), B: (1m, 0) }", "`B` is declared behind the one"),
+        ("link rod { A, C: left(A -> C, 1m, 1m) }", "`C` is declared behind the one"),
+        ("scene back: inverse(O) -> (q, error_bound);", "`inverse` cannot give `error_bound`"),
+        ("load f: force(crank.A); scene d: derivative(held) by (f, F);", "`F` among the results of `d`"),
     ] {
         let text = format!(
             "mod slips; ground {{ O: (0, 0) }} link crank {{ O -> A: 1m }} revolute O: ground -> crank; drive q: O;
