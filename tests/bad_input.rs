@@ -100,6 +100,28 @@ macro_rules! scalar {
                 scene check:   verify;
             }
 
+            linkage! {
+                /// Points by functions that take some parameters and no others.
+                mod functions;
+                units { mm, N }
+                scalar $scalar;
+                param reach: length;
+                param ratio: number;
+
+                ground     { O: (0, 0) }
+                link lever { O, P: (sqrt(reach^2 - 400mm^2), 0), Q: 10mm @ acos(ratio), R: 10mm @ asin(2*ratio),
+                             S: (1mm/ratio, 0) }
+                revolute O: ground -> lever;
+                drive theta: O;
+
+                load F: force(lever.P) = (0N, 1N);
+                load G: force(lever.Q) = (0N, 2N);
+                load H: force(lever.R) = (0N, 3N);
+                load J: force(lever.S) = (0N, 4N);
+
+                scene statics: equilibrium;
+            }
+
             const PI: $scalar = std::$scalar::consts::PI;
             const MAX: $scalar = $scalar::MAX;
             const NOT_FINITE: [$scalar; 3] = [$scalar::NAN, $scalar::INFINITY, $scalar::NEG_INFINITY];
@@ -163,6 +185,30 @@ macro_rules! scalar {
             fn a_parameter_that_is_not_finite() {
                 for base in NOT_FINITE {
                     all_fail(opening(base, 1.0), &[], |error| *error == Error::NotFinite { what: "base" });
+                }
+            }
+
+            #[test]
+            fn a_parameter_that_a_function_does_not_take() {
+                let statics = |reach, ratio| {
+                    let linkage = functions::Linkage::new(&functions::Params { reach, ratio })?;
+                    functions::statics_at(&linkage, 0.0).map(|found| found.effort_theta)
+                };
+                // Forces upwards balance against the sum of moments: 1·√(r² − 400) + 2·10 cos acos + 3·10 cos asin + 4/ratio.
+                let moments = 15.0 + 20.0 * 0.5 + 8.0;
+                let found: $scalar = statics(25.0, 0.5).expect("within both domains, at the end of one");
+                assert!((found + moments).abs() < 1e-5, "{found}");
+                for (reach, ratio, expected) in [
+                    (19.0, 0.5, Some("`reach^2 - 400*mm^2`, whose root is taken, must not be negative")),
+                    (25.0, 0.51, Some("`2*ratio`, of which `asin` is taken, must be from −1 to 1")),
+                    (25.0, -1.5, Some("`ratio`, of which `acos` is taken, must be from −1 to 1")),
+                    (25.0, 0.0, None),
+                ] {
+                    let expected = match expected {
+                        Some(requirement) => Error::Parameter { requirement },
+                        None => Error::NotFinite { what: "what is made of the parameters" },
+                    };
+                    assert_eq!(statics(reach, ratio), Err(expected));
                 }
             }
 

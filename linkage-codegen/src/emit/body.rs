@@ -660,6 +660,7 @@ impl<'a> Body<'a> {
             (true, true) => "a rate, an acceleration, a load or a result",
             (true, false) => "a rate, an acceleration or a result",
             (false, true) => "a load or a result",
+            (false, false) if self.program.prepares() => "what is made of the parameters",
             (false, false) => "a result",
         };
         let late = self.asked_late();

@@ -42,8 +42,14 @@ impl<'m> Scope<'m> {
         let found = self.scalar(value, kind)?;
         match found.sign() {
             Some(-1) => Err(Diagnostic::new(value.place, format!("{what} cannot be negative"))),
-            Some(_) => Ok(found),
-            None => Ok(found.require_at_least(found, self.model.graph.zero(), Failure::Parameter { requirement })),
+            _ => Ok(self.required_not_negative(found, requirement)),
+        }
+    }
+
+    fn required_not_negative(&self, value: Expr<'m>, requirement: String) -> Expr<'m> {
+        match value.sign() {
+            Some(_) => value,
+            None => value.require_at_least(value, self.model.graph.zero(), Failure::Parameter { requirement }),
         }
     }
 
@@ -280,7 +286,11 @@ impl<'m> Scope<'m> {
                         format!("{} has no square root", arg.dimension.unwrap_or_default()),
                     ));
                 };
-                Ok(Quantity { expr: arg.expr.sqrt(), dimension: Some(dimension) })
+                let requirement = format!("`{}`, whose root is taken, must not be negative", args[0]);
+                Ok(Quantity {
+                    expr: self.required_not_negative(arg.expr, requirement).sqrt(),
+                    dimension: Some(dimension),
+                })
             }
             "sin" => Ok(number(self.scalar(&args[0], Kind::Angle)?.direction().y)),
             "cos" => Ok(number(self.scalar(&args[0], Kind::Angle)?.direction().x)),
@@ -310,6 +320,8 @@ impl<'m> Scope<'m> {
                     return Err(Diagnostic::new(args[0].place, format!("`{name}` takes a number from −1 to 1"))
                         .help("it is a ratio of two lengths of one triangle: check which is the longer one"));
                 }
+                let requirement = || format!("`{}`, of which `{name}` is taken, must be from −1 to 1", args[0]);
+                let rest = if name == "atan" { rest } else { self.required_not_negative(rest, requirement()) };
                 Ok(angle(match name {
                     "asin" => graph.atan2(x, rest.sqrt()),
                     "acos" => graph.atan2(rest.sqrt(), x),

@@ -146,6 +146,13 @@ impl Program {
         self.steps.iter().filter_map(|step| if let Step::Let(value) = step { Some(*value) } else { None })
     }
 
+    /// Whether parameters are all that it reads.
+    #[must_use]
+    pub fn prepares(&self) -> bool {
+        let mut inputs = self.inputs().map(|(_, input)| input).peekable();
+        inputs.peek().is_some() && inputs.all(|input| matches!(input, Input::Symbol(Symbol::Parameter(_))))
+    }
+
     /// Whether any load is read.
     #[must_use]
     pub fn reads_loads(&self) -> bool {

@@ -159,7 +159,53 @@ impl Value {
     }
 }
 
+/// As it may be written.
+impl core::fmt::Display for Value {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let above =
+            |value: &Self, least| if value.kind.binds() > least { format!("{value}") } else { format!("({value})") };
+        let term = |value: &Self| above(value, Binding::Sum);
+        let factor = |value: &Self| above(value, Binding::Product);
+        match &self.kind {
+            ValueKind::Number(digits, unit) => write!(f, "{digits}{}", unit.as_deref().unwrap_or_default()),
+            ValueKind::Name(name) => f.write_str(name),
+            ValueKind::Negative(a) => write!(f, "-{}", factor(a)),
+            ValueKind::Sum(a, b) => write!(f, "{a} + {b}"),
+            ValueKind::Difference(a, b) => write!(f, "{a} - {}", term(b)),
+            ValueKind::Product(a, b) => write!(f, "{}*{}", term(a), term(b)),
+            ValueKind::Quotient(a, b) => write!(f, "{}/{}", term(a), factor(b)),
+            ValueKind::Power(base, exponent) => match &base.kind {
+                ValueKind::Number(one, Some(unit)) if one == "1" => write!(f, "{unit}^{exponent}"),
+                _ => write!(f, "{}^{exponent}", above(base, Binding::Power)),
+            },
+            ValueKind::Call(function, args) => {
+                let args: Vec<String> = args.iter().map(Self::to_string).collect();
+                write!(f, "{function}({})", args.join(", "))
+            }
+        }
+    }
+}
+
+/// How firmly an operation holds its operands together.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Sum,
+    Product,
+    Power,
+    Atom,
+}
+
 impl ValueKind {
+    fn binds(&self) -> Binding {
+        match self {
+            Self::Sum(..) | Self::Difference(..) | Self::Negative(_) => Binding::Sum,
+            Self::Product(..) | Self::Quotient(..) => Binding::Product,
+            // Behind a literal a power is that of its unit.
+            Self::Power(..) | Self::Number(_, Some(_)) => Binding::Power,
+            Self::Number(..) | Self::Name(_) | Self::Call(..) => Binding::Atom,
+        }
+    }
+
     fn extent(&self) -> Extent {
         let above = |inner: &[&Value], times: usize| Extent {
             depth: 1 + inner.iter().map(|value| value.extent.depth).max().unwrap_or(0),

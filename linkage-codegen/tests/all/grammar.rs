@@ -51,6 +51,14 @@ fn slips_are_told_what_is_meant() {
         ("unknown T: torque(ground, crank);", "write `torque(ground -> crank)`"),
         ("emit source; emit source;", "`emit source` is chosen already"),
         ("mass crank: 1kg at A, inertia 3kgm^2;", "did you mean `kg*m`?"),
+        (
+            "param r: length = 1m; load G: force(crank.A) = (1N*sqrt(2 - r^2/m^2*(1 + 2)), 0N);",
+            "`2 - r^2/m^2*(1 + 2)`, whose root",
+        ),
+        (
+            "param r: number = 2; load G: force(crank.A) = 1N @ acos(r);",
+            "`r`, of which `acos` is taken, must be from −1 to 1",
+        ),
         ("mass crank: 1kg at (l2, 0);", "`param l2: length;`"),
         ("mass /// the crank's\n crank: 1kg at A;", "no attributes or documentation comments"),
         ("link rod { A, /// end\n B: (1m, 0) }", "no attributes or documentation comments"),
