@@ -18,6 +18,7 @@ use crate::program::{Definition, Input, Program, Step, Value, ValueId};
 /// How tightly an expression binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {
+    Choice,
     Sum,
     Product,
     Sign,
@@ -363,7 +364,7 @@ impl<'a> Body<'a> {
                     quote!(#value > #limit)
                 });
                 let (conditions, then) = (conditions.reduce(|all, one| quote!(#all && #one)), plain(then));
-                Code { tokens: quote!(if #conditions { #then } else { 0.0 }), binding: Binding::Sum }
+                Code { tokens: quote!(if #conditions { #then } else { 0.0 }), binding: Binding::Choice }
             }
             Op::Kernel { kernel, args, part } => {
                 let call = self.call(*kernel, args);

@@ -171,8 +171,8 @@ fn measured_from_later<'a>(places: &'a [PointPlace], distances: &'a Distances) -
         }
         PointPlace::Unread(_) => false,
     };
-    let ends = [&distances.from, &distances.to].into_iter();
-    ends.filter_map(|end| Some((end, places.iter().find(|place| declares(place, end))?))).next()
+    let mut ends = [&distances.from, &distances.to].into_iter();
+    ends.find_map(|end| Some((end, places.iter().find(|place| declares(place, end))?)))
 }
 
 type Ids = (NodeId, NodeId);
