@@ -1,9 +1,9 @@
 //! What a scene does not need is not computed: shown on the programs and on the emitted code, of every example and of what no example has too.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::support::compile;
-use crate::support::declarations::{declarations, linkages};
+use crate::support::declarations::{declarations, fused_linkages, linkages};
 use crate::support::linkages::Random;
 use linkage_codegen::graph::{Failure, Graph, Kernel, NodeId, Op, Order, Sought, Symbol};
 use linkage_codegen::model::{Load, LoadKind, Unknown, UnknownKind, Wanted};
@@ -823,6 +823,36 @@ fn like_terms_are_added_when_compiled() {
     }
     assert!(sums > 700, "only {sums}");
     assert!(left.is_empty(), "{} of {sums}: {left:#?}", left.len());
+}
+
+/// No value is computed twice, in either arithmetic: but what has two names, which are lines of the derivation.
+#[test]
+fn no_program_computes_the_same_twice() {
+    let (mut computed, mut twice) = (0, Vec::new());
+    for (name, linkage) in linkages().into_iter().chain(fused_linkages()) {
+        for (function, program, _) in programs(&linkage) {
+            let mut there: HashMap<(Op<ValueId>, bool), ValueId> = HashMap::new();
+            for value in program.computed() {
+                computed += 1;
+                let op = match program.op(value).expect("computed") {
+                    Op::Add(a, b) => Op::Add(*a.min(b), *a.max(b)),
+                    Op::Mul(a, b) => Op::Mul(*a.min(b), *a.max(b)),
+                    op => op.clone(),
+                };
+                let first = *there.entry((op, program.value(value).divided)).or_insert(value);
+                let are_lines = [first, value].iter().all(|value| program.value(*value).label.is_some());
+                if first != value && !are_lines {
+                    twice.push(format!(
+                        "{name}, {function}: {:?} and {:?}",
+                        program.value(first),
+                        program.value(value)
+                    ));
+                }
+            }
+        }
+    }
+    assert!(computed > 30_000, "only {computed}");
+    assert!(twice.is_empty(), "{} of {computed}: {twice:#?}", twice.len());
 }
 
 /// The names that functions bind and never read behind that, and how many they bind.

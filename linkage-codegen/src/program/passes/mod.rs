@@ -31,7 +31,7 @@ use crate::graph::{Graph, Guard, Op};
 pub type Pass = fn(Program, &Graph) -> Program;
 
 /// All passes, in their order.
-pub const PASSES: [(&str, Pass); 24] = [
+pub const PASSES: [(&str, Pass); 25] = [
     ("lengths", lengths::leave),
     ("pivots", pivots::compare_directly),
     ("checks", checks::ask_once),
@@ -55,6 +55,7 @@ pub const PASSES: [(&str, Pass); 24] = [
     ("arguments", finite::ask_late),
     ("moderate", finite::look_at_arguments),
     ("fused", fused::contract),
+    ("repeated", repeated::compute_once),
     ("headings", headings::settle),
 ];
 

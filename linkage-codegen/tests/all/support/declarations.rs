@@ -3,7 +3,7 @@
 use linkage_codegen::graph::NodeValues;
 use linkage_codegen::model::Param;
 use linkage_codegen::{Linkage, analyse};
-use proc_macro2::TokenStream;
+use proc_macro2::{TokenStream, TokenTree};
 
 use super::examples::{declaration, every_example};
 use super::linkages::Random;
@@ -22,12 +22,30 @@ pub fn declarations() -> Vec<(String, TokenStream)> {
 
 /// The same as linkages.
 pub fn linkages() -> Vec<(String, Linkage)> {
-    let all = declarations().into_iter();
-    all.map(|(name, tokens)| {
-        let linkage = analyse(tokens).unwrap_or_else(|refusal| panic!("{name}: {:?}", refusal.errors));
-        (name, linkage)
-    })
-    .collect()
+    declarations().into_iter().map(analysed).collect()
+}
+
+/// The same in fused arithmetic.
+pub fn fused_linkages() -> Vec<(String, Linkage)> {
+    let fused = declarations().into_iter().map(|(name, tokens)| {
+        let (header, items) = tokens.into_iter().partition::<Vec<_>, _>({
+            let mut behind = false;
+            move |token| {
+                let before = !behind;
+                behind |= matches!(token, TokenTree::Punct(mark) if mark.as_char() == ';');
+                before
+            }
+        });
+        let is_option = items.iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "arithmetic"));
+        let option: TokenStream = if is_option { "" } else { "arithmetic fused;" }.parse().expect("tokens");
+        (name, header.into_iter().chain(option).chain(items).collect())
+    });
+    fused.map(analysed).collect()
+}
+
+fn analysed((name, tokens): (String, TokenStream)) -> (String, Linkage) {
+    let linkage = analyse(tokens).unwrap_or_else(|refusal| panic!("{name}: {:?}", refusal.errors));
+    (name, linkage)
 }
 
 /// What is given at run time, but for the drives: loads, rates and accelerations, the first of both sides, the defaults of parameters.
