@@ -186,22 +186,6 @@ pub(crate) mod four_bar_single {
     four_bar!(f32);
 }
 
-/// For the loads of linkages with sweeps.
-#[allow(dead_code, clippy::excessive_precision, reason = "the formulas of the other, of which sweeps need two")]
-pub(crate) mod swept {
-    macro_rules! four_bars {
-        ($($name:ident $scalar:ident)+) => {$(
-            pub(crate) mod $name {
-                use crate::expert::{Reactions, Vector2};
-                use crate::linkages::swept::$name::Loads;
-
-                four_bar!($scalar);
-            }
-        )+};
-    }
-    four_bars!(four_bar f64 four_bar_single f32 four_bar_fused f64 four_bar_fused_single f32);
-}
-
 /// The six-bar, in a scalar.
 macro_rules! six_bar {
     ($scalar:ident) => {

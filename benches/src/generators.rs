@@ -21,8 +21,6 @@ const METHODS: [(&str, &str); 4] = [
     ("sympy", "SymPy, linsolve and cse"),
 ];
 
-type Function<T> = unsafe extern "C" fn(*const T, *mut T) -> i32;
-
 /// A scalar that the library has functions for.
 pub(crate) trait Foreign: Scalar {
     /// How their names end.
@@ -52,23 +50,55 @@ pub(crate) fn load(file: &str) -> Result<(), String> {
     LIBRARY.set(library).map_err(|_| "a library is loaded already".to_owned())
 }
 
-/// A function of the library.
-fn function<T: Foreign>(name: &str) -> Result<Function<T>, String> {
-    let name = format!("{name}{}", T::ENDING);
-    let library = LIBRARY.get().ok_or("no library is loaded")?;
-    #[allow(unsafe_code, reason = "all functions of the library have this type, by how their names end")]
-    let function = unsafe { library.get::<Function<T>>(name.as_bytes()) };
-    function.map(|function| *function).map_err(|error| format!("{name}: {error}"))
+/// A function of the library, by how many numbers it is given and finds.
+pub(crate) struct Function<T, const GIVEN: usize, const FOUND: usize>(unsafe extern "C" fn(*const T, *mut T) -> i32);
+
+impl<T, const GIVEN: usize, const FOUND: usize> Clone for Function<T, GIVEN, FOUND> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T, const GIVEN: usize, const FOUND: usize> Copy for Function<T, GIVEN, FOUND> {}
+
+impl<T: Foreign, const GIVEN: usize, const FOUND: usize> Function<T, GIVEN, FOUND> {
+    /// The function of this name.
+    fn named(name: &str) -> Self {
+        let name = format!("{name}{}", T::ENDING);
+        let library = LIBRARY.get().expect("a library is loaded");
+        #[allow(unsafe_code, reason = "all functions of the library have this type, by how their names end")]
+        let function = unsafe { library.get(name.as_bytes()) };
+        Self(*function.unwrap_or_else(|error| panic!("{name}: {error}")))
+    }
+
+    /// Calls it.
+    #[inline]
+    pub(crate) fn find(self, given: &[T; GIVEN], found: &mut [T; FOUND]) -> bool {
+        #[allow(unsafe_code, reason = "it reads and writes as many numbers as the arrays have, and keeps nothing")]
+        let status = unsafe { (self.0)(given.as_ptr(), found.as_mut_ptr()) };
+        status == 0
+    }
+}
+
+/// The functions for an item, each with what the tables call its method; none if no library is loaded.
+pub(crate) fn functions<T: Foreign, const GIVEN: usize, const FOUND: usize>(
+    item: &str,
+) -> Vec<(&'static str, Function<T, GIVEN, FOUND>)> {
+    if LIBRARY.get().is_none() {
+        return Vec::new();
+    }
+    let item = item.trim_end_matches("-f32").to_lowercase();
+    METHODS.iter().map(|(prefix, method)| (*method, Function::named(&format!("{prefix}_{item}")))).collect()
 }
 
 /// A function of the library, and what it is given: a pose or the driver's angle, and the loads.
 #[derive(Clone, Copy)]
-struct Call<T, const GIVEN: usize> {
-    function: Function<T>,
+struct Call<T, const GIVEN: usize, const FOUND: usize> {
+    function: Function<T, GIVEN, FOUND>,
     given: [T; GIVEN],
 }
 
-impl<T: Foreign, const GIVEN: usize> Start for Call<T, GIVEN> {
+impl<T: Foreign, const GIVEN: usize, const FOUND: usize> Start for Call<T, GIVEN, FOUND> {
     fn depend(&mut self, change: f64) -> bool {
         // Of the loads, as with all others, where a pose is given; it is the longest of what is given.
         let which = if GIVEN > LONGEST { GIVEN - 1 } else { 0 };
@@ -114,12 +144,7 @@ pub(crate) fn add<T: Foreign, L: crate::items::Loads, const GIVEN: usize, const 
     turn: &Turn<L>,
     loads: fn(&L) -> Vec<Vector2<f64>>,
 ) {
-    if LIBRARY.get().is_none() {
-        return;
-    }
-    let item = item.trim_end_matches("-f32").to_lowercase();
-    for (prefix, method) in METHODS {
-        let function = function(&format!("{prefix}_{item}")).expect("the library has a function for each item");
+    for (method, function) in functions::<T, GIVEN, N>(item) {
         let prepare = |case: &Case<f64, L>| {
             let mut given = vec![T::nearest(case.start)];
             if GIVEN > LONGEST {
@@ -127,22 +152,17 @@ pub(crate) fn add<T: Foreign, L: crate::items::Loads, const GIVEN: usize, const 
             }
             given.extend(loads(&case.loads).iter().flat_map(|force| [force.x, force.y]).map(T::nearest));
             let Ok(given) = given.try_into() else { unreachable!("as many numbers as the function is given") };
-            Case { start: Call::<T, GIVEN> { function, given }, loads: case.loads }
+            Case { start: Call { function, given }, loads: case.loads }
         };
         competitors.push(turn.posed(method, prepare, |case, found: &mut Found<T, N, PARTS>| {
-            #[allow(unsafe_code, reason = "it reads and writes as many numbers as the arrays have, and keeps nothing")]
-            let status = unsafe { (case.start.function)(case.start.given.as_ptr(), found.0.as_mut_ptr()) };
-            status == 0
+            case.start.function.find(&case.start.given, &mut found.0)
         }));
     }
 }
 
 /// The four-bar's pose as the library's functions have it.
 fn posed<T: Foreign>(theta: T) -> Vec<T> {
-    let function = function("casadi_pose").expect("the library has a pose");
     let mut pose = [T::default(); 7];
-    #[allow(unsafe_code, reason = "it is given one number and finds seven")]
-    let status = unsafe { function(&raw const theta, pose.as_mut_ptr()) };
-    assert_eq!(status, 0, "a pose");
+    assert!(Function::named("casadi_pose").find(&[theta], &mut pose), "a pose");
     pose.to_vec()
 }

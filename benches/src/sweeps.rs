@@ -1,5 +1,5 @@
-//! Sweeps: the generated function over slices against loops over the positions, one that calls the generated function for a
-//! single position and one that calls the expert's, in the same round.
+//! Sweeps: the generated function over slices against loops over the positions: of calls of the generated function for a single position, of the
+//! expert's, and of all that other libraries and generators have.
 #![allow(
     non_snake_case,
     clippy::cast_precision_loss,
@@ -11,9 +11,12 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use linkage_runtime::__private::limit_registers;
+use linkage_runtime::Vector2;
+
+use crate::items::Scalar;
 
 /// Prints, for 360 and 4096 positions, the times of each position and the medians of the paired ratios: by the instructions that this
-/// program was compiled for, and by wider ones that this processor has.
+/// program was compiled for, and by wider ones that this processor has; then, by the widest, beside other libraries and generators.
 pub(crate) fn print(rounds: usize) -> Result<(), String> {
     println!("\nsweeps of the four-bar, both loads at each position");
     println!(
@@ -26,17 +29,22 @@ pub(crate) fn print(rounds: usize) -> Result<(), String> {
             "  {:>22} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8}",
             "", "positions", "expert", "calls", "sweep", "expert", "calls"
         );
-        for count in [360, 4096] {
+        for count in COUNTS {
             double::rows(count, rounds)?;
             single::rows(count, rounds)?;
-            fused::rows(count, rounds)?;
-            fused_single::rows(count, rounds)?;
         }
+    }
+    println!("\nbeside others, by the widest of these: ns for each position, and the ratio to the expert's");
+    for count in COUNTS {
+        double::others(count, rounds.div_ceil(20))?;
+        single::others(count, rounds.div_ceil(20))?;
     }
     Ok(())
 }
 
-/// The instructions between which a sweep chooses here, by the bytes of their registers.
+const COUNTS: [usize; 2] = [360, 4096];
+
+/// The instructions between which a sweep chooses here, by the bytes of their registers, the widest last.
 #[cfg(target_arch = "x86_64")]
 fn registers() -> Vec<(&'static str, u8)> {
     let mut registers = vec![("as compiled", 16)];
@@ -54,131 +62,145 @@ fn registers() -> Vec<(&'static str, u8)> {
     vec![("as this processor has them", u8::MAX)]
 }
 
-/// Times three ways, in turns, and prints a row.
-fn row(title: &str, count: usize, rounds: usize, ways: &mut [&mut dyn FnMut(); 3]) {
+/// What is given: the driver's angles, and a load on coupler and rocker.
+struct Given<T> {
+    theta: Vec<T>,
+    loads: Vec<Vector2<T>>,
+}
+
+/// Finds `N` numbers for each position.
+type Find<'a, T, const N: usize> = dyn Fn(&Given<T>, &mut [Vec<T>; N]) + 'a;
+
+/// A way to them.
+struct Way<'a, T, const N: usize> {
+    method: &'static str,
+    find: Box<Find<'a, T, N>>,
+}
+
+impl<'a, T, const N: usize> Way<'a, T, N> {
+    fn new(method: &'static str, find: impl Fn(&Given<T>, &mut [Vec<T>; N]) + 'a) -> Self {
+        Self { method, find: Box::new(find) }
+    }
+}
+
+/// What each way finds, and of each the medians of the times for a position, in ns, and of the ratios to the first.
+struct Timed<T, const N: usize> {
+    found: Vec<[Vec<T>; N]>,
+    times: Vec<f64>,
+    ratios: Vec<Vec<f64>>,
+}
+
+/// Goes all ways in turns. The results of each are near those of the first.
+fn timed<T: Scalar, const N: usize>(
+    title: &str,
+    given: &Given<T>,
+    rounds: usize,
+    tolerance: f64,
+    ways: &[Way<'_, T, N>],
+) -> Result<Timed<T, N>, String> {
+    let count = given.theta.len();
+    let mut found: Vec<[Vec<T>; N]> =
+        ways.iter().map(|_| core::array::from_fn(|_| vec![T::default(); count])).collect();
+    for (way, found) in ways.iter().zip(&mut found) {
+        (way.find)(given, found);
+    }
+    for (way, results) in ways.iter().zip(&found) {
+        for (first, other) in found[0].iter().flatten().zip(results.iter().flatten()) {
+            let (first, other): (f64, f64) = ((*first).into(), (*other).into());
+            let near = (first - other).abs() <= tolerance * (1.0 + other.abs());
+            if !near {
+                return Err(format!("{title}: {} has {first}, {} {other}", ways[0].method, way.method));
+            }
+        }
+    }
     // Shorter than what the system gives a program at a time: few of these times hold a pause.
     let repeats = (16_384 / count).max(1);
-    let mut times: Vec<[f64; 3]> = Vec::new();
+    let mut times: Vec<Vec<f64>> = Vec::new();
     for _ in 0..rounds {
-        times.push(ways.each_mut().map(|way| {
+        let round = ways.iter().zip(&mut found).map(|(way, found)| {
             let start = Instant::now();
             for _ in 0..repeats {
-                way();
+                (way.find)(black_box(given), black_box(&mut *found));
             }
             start.elapsed().as_secs_f64() * 1e9 / (count * repeats) as f64
-        }));
+        });
+        times.push(round.collect());
     }
-    let median = |of: &dyn Fn(&[f64; 3]) -> f64| {
-        let mut values: Vec<f64> = times.iter().map(of).collect();
+    let median = |of: &dyn Fn(&[f64]) -> f64| {
+        let mut values: Vec<f64> = times.iter().map(|round| of(round)).collect();
         values.sort_by(f64::total_cmp);
         values[values.len() / 2]
     };
-    let [expert, calls, sweep] = [0, 1, 2].map(|which| median(&|times| times[which]));
-    let [to_expert, to_calls] = [0, 1].map(|which| median(&|times| times[2] / times[which]));
-    println!("  {title:>22} {count:>9} {expert:>8.2} {calls:>8.2} {sweep:>8.2} {to_expert:>8.3} {to_calls:>8.3}");
+    let ratios = |one| (0..ways.len()).map(|other| median(&|times| times[one] / times[other])).collect();
+    Ok(Timed {
+        times: (0..ways.len()).map(|one| median(&|times| times[one])).collect(),
+        ratios: (0..ways.len()).map(ratios).collect(),
+        found,
+    })
 }
 
-/// The sweeps of a four-bar in a scalar.
-macro_rules! sweeps {
-    ($module:ident, $scalar:ident, $note:literal, $linkage:ident, $tolerance:expr) => {
+/// A row: by the expert, by calls, by the sweep, which has the bits of the calls.
+fn row<T: Scalar, const N: usize>(
+    title: &str,
+    given: &Given<T>,
+    rounds: usize,
+    tolerance: f64,
+    ways: &[Way<'_, T, N>; 3],
+) -> Result<(), String> {
+    let Timed { found, times, ratios } = timed(title, given, rounds, tolerance, ways)?;
+    for (calls, sweep) in found[1].iter().flatten().zip(found[2].iter().flatten()) {
+        let [calls, sweep]: [f64; 2] = [(*calls).into(), (*sweep).into()];
+        if calls.to_bits() != sweep.to_bits() {
+            return Err(format!("{title}: a sweep has other bits than the calls"));
+        }
+    }
+    let [expert, calls, sweep] = [times[0], times[1], times[2]];
+    let [to_expert, to_calls] = [ratios[2][0], ratios[2][1]];
+    let count = given.theta.len();
+    println!("  {title:>22} {count:>9} {expert:>8.2} {calls:>8.2} {sweep:>8.2} {to_expert:>8.3} {to_calls:>8.3}");
+    Ok(())
+}
+
+/// A table of all that others have, the expert first.
+fn table<T: Scalar, const N: usize>(
+    title: &str,
+    given: &Given<T>,
+    rounds: usize,
+    tolerance: f64,
+    ways: &[Way<'_, T, N>],
+) -> Result<(), String> {
+    let Timed { times, ratios, .. } = timed(title, given, rounds, tolerance, ways)?;
+    println!("\n  {title}, {} positions", given.theta.len());
+    for ((way, time), ratios) in ways.iter().zip(times).zip(ratios) {
+        println!("    {:<28} {time:>8.2} {:>8.3}", way.method, ratios[0]);
+    }
+    Ok(())
+}
+
+/// The sweeps of a four-bar, and its calls for a single position, in a scalar and an arithmetic.
+macro_rules! generated {
+    ($module:ident, $scalar:ident, $linkage:ident) => {
         mod $module {
             use linkage_runtime::{Series, Vector2};
 
-            use super::{black_box, row};
-            use crate::expert::swept::$linkage as expert;
-            use crate::items::Reactions;
             use crate::linkages::swept::$linkage::{self, Cycle, CycleInputs, Loads, Torques, TorquesInputs};
+            use crate::sweeps::Given;
 
-            /// What is given: the driver's angles, and a load on coupler and rocker.
-            struct Given {
-                theta: Vec<$scalar>,
-                loads: Vec<Vector2<$scalar>>,
+            pub(super) fn torque(theta: $scalar, load: Vector2<$scalar>) -> Option<$scalar> {
+                Some($linkage::torque_at(theta, &Loads { F13: load, F14: load }).ok()?.T12)
             }
 
-            impl Given {
-                /// A turn from the line of the ground link on, without what lies next to the fold at half a turn, where the expert has no digits left
-                /// in single precision.
-                fn new(count: usize) -> Self {
-                    const BESIDE: $scalar = 0.05;
-                    const HALF: $scalar = core::$scalar::consts::PI;
-                    let part = |index: usize| index as $scalar / count as $scalar;
-                    let theta = |index: usize| {
-                        let turned = 2.0 * (HALF - BESIDE) * part(index);
-                        if turned < HALF - BESIDE { turned } else { turned + 2.0 * BESIDE }
-                    };
-                    let load = |angle: $scalar| Vector2::new(50.0 * angle.cos(), 50.0 * angle.sin());
-                    Self {
-                        theta: (0..count).map(theta).collect(),
-                        loads: (0..count).map(|index| load(6.0 * part(index))).collect(),
-                    }
-                }
-
-                fn at(&self) -> impl Iterator<Item = (&$scalar, Loads)> {
-                    let loads = self.loads.iter().map(|load| Loads { F13: *load, F14: *load });
-                    self.theta.iter().zip(loads)
-                }
+            pub(super) fn all(theta: $scalar, load: Vector2<$scalar>) -> Option<($scalar, [Vector2<$scalar>; 4])> {
+                let all = $linkage::statics_at(theta, &Loads { F13: load, F14: load }).ok()?;
+                Some((all.T12, [all.A0, all.A, all.B, all.B0]))
             }
 
-            /// A number in each slice for each position.
-            fn room<const N: usize>(count: usize) -> [Vec<$scalar>; N] {
-                core::array::from_fn(|_| vec![0.0; count])
-            }
-
-            #[inline(never)]
-            fn torques_expert(given: &Given, results: &mut [Vec<$scalar>; 1]) {
-                let [torques] = results;
-                for ((theta, loads), torque) in given.at().zip(torques) {
-                    *torque = expert::pose(*theta).torque_of(&loads);
-                }
-            }
-
-            #[inline(never)]
-            fn torques_calls(given: &Given, results: &mut [Vec<$scalar>; 1]) {
-                let [torques] = results;
-                for ((theta, loads), torque) in given.at().zip(torques) {
-                    let Ok(solved) = $linkage::torque_at(*theta, &loads) else { return };
-                    *torque = solved.T12;
-                }
-            }
-
-            #[inline(never)]
-            fn torques_sweep(given: &Given, results: &mut [Vec<$scalar>; 1]) {
+            pub(super) fn torques(given: &Given<$scalar>, [T12]: &mut [Vec<$scalar>; 1]) {
                 let (theta, load) = (Series::Each(&given.theta), Series::Each(&given.loads));
-                let [T12] = results;
                 let _ = $linkage::torques(&TorquesInputs { theta, F13: load, F14: load }, Torques { T12 });
             }
 
-            /// The torque and the forces in A, B and B0; A0 has the force of A.
-            #[inline]
-            fn put(results: &mut [Vec<$scalar>; 9], index: usize, torque: $scalar, forces: [Vector2<$scalar>; 4]) {
-                let [a0, a, b, b0] = forces;
-                let numbers = [torque, a0.x, a0.y, a.x, a.y, b.x, b.y, b0.x, b0.y];
-                for (slice, number) in results.iter_mut().zip(numbers) {
-                    if let Some(place) = slice.get_mut(index) {
-                        *place = number;
-                    }
-                }
-            }
-
-            #[inline(never)]
-            fn all_expert(given: &Given, results: &mut [Vec<$scalar>; 9]) {
-                for (index, (theta, loads)) in given.at().enumerate() {
-                    let mut out = Reactions { torque: 0.0, forces: [Vector2::zeros(); 4] };
-                    expert::pose(*theta).statics(&loads, &mut out);
-                    put(results, index, out.torque, out.forces);
-                }
-            }
-
-            #[inline(never)]
-            fn all_calls(given: &Given, results: &mut [Vec<$scalar>; 9]) {
-                for (index, (theta, loads)) in given.at().enumerate() {
-                    let Ok(all) = $linkage::statics_at(*theta, &loads) else { return };
-                    put(results, index, all.T12, [all.A0, all.A, all.B, all.B0]);
-                }
-            }
-
-            #[inline(never)]
-            fn all_sweep(given: &Given, results: &mut [Vec<$scalar>; 9]) {
+            pub(super) fn cycle(given: &Given<$scalar>, results: &mut [Vec<$scalar>; 9]) {
                 let (theta, load) = (Series::Each(&given.theta), Series::Each(&given.loads));
                 let [T12, A0_x, A0_y, A_x, A_y, B_x, B_y, B0_x, B0_y] = results.each_mut().map(Vec::as_mut_slice);
                 let _ = $linkage::cycle(
@@ -186,63 +208,158 @@ macro_rules! sweeps {
                     Cycle { T12, A0_x, A0_y, A_x, A_y, B_x, B_y, B0_x, B0_y },
                 );
             }
+        }
+    };
+}
 
-            type Way<const N: usize> = fn(&Given, &mut [Vec<$scalar>; N]);
+/// All that competes in a scalar.
+macro_rules! sweeps {
+    ($module:ident, $scalar:ident, $linkage:ident, $fused:ident, $tolerance:expr) => {
+        mod $module {
+            use linkage_runtime::Vector2;
 
-            /// A row: all positions in three ways. The sweep has the bits of the calls, the expert is near them.
-            fn compared<const N: usize>(
-                title: &str,
-                count: usize,
-                rounds: usize,
-                ways: [Way<N>; 3],
-            ) -> Result<(), String> {
-                let given = Given::new(count);
-                let mut results = [(); 3].map(|()| room::<N>(count));
-                for (way, results) in ways.iter().zip(&mut results) {
-                    way(&given, results);
+            use super::{Given, Way, row, table};
+            use crate::expert::$linkage as expert;
+            use crate::generators;
+            use crate::items::four_bar::$module as items;
+            use crate::items::{Case, Reactions, dense};
+            use crate::linkages::$linkage::Loads;
+
+            generated!(plain, $scalar, $linkage);
+            generated!(fused, $scalar, $fused);
+
+            /// A turn from the line of the ground link on, without what lies next to the fold at half a turn, where the expert has no digits left
+            /// in single precision.
+            fn given(count: usize) -> Given<$scalar> {
+                const BESIDE: $scalar = 0.05;
+                const HALF: $scalar = core::$scalar::consts::PI;
+                let part = |index: usize| index as $scalar / count as $scalar;
+                let theta = |index: usize| {
+                    let turned = 2.0 * (HALF - BESIDE) * part(index);
+                    if turned < HALF - BESIDE { turned } else { turned + 2.0 * BESIDE }
+                };
+                let load = |angle: $scalar| Vector2::new(50.0 * angle.cos(), 50.0 * angle.sin());
+                Given {
+                    theta: (0..count).map(theta).collect(),
+                    loads: (0..count).map(|index| load(6.0 * part(index))).collect(),
                 }
-                let [by_expert, by_calls, by_sweep] = &results;
-                for ((expert, calls), sweep) in
-                    by_expert.iter().flatten().zip(by_calls.iter().flatten()).zip(by_sweep.iter().flatten())
-                {
-                    if calls.to_bits() != sweep.to_bits() {
-                        return Err(format!("{title}: a sweep has other bits than the calls"));
+            }
+
+            /// The torque at each position by itself.
+            fn torques<'a>(
+                method: &'static str,
+                call: impl Fn($scalar, Vector2<$scalar>) -> Option<$scalar> + 'a,
+            ) -> Way<'a, $scalar, 1> {
+                Way::new(method, move |given, [torques]| {
+                    for ((theta, load), torque) in given.theta.iter().zip(&given.loads).zip(torques) {
+                        let Some(found) = call(*theta, *load) else { return };
+                        *torque = found;
                     }
-                    let near = (expert - calls).abs() <= $tolerance * (1.0 + calls.abs());
-                    if !near {
-                        return Err(format!("{title}: the expert has {expert}, a call {calls}"));
+                })
+            }
+
+            /// The torque and the forces in A0, A, B and B0 at each position by itself.
+            fn all<'a>(
+                method: &'static str,
+                call: impl Fn($scalar, Vector2<$scalar>) -> Option<($scalar, [Vector2<$scalar>; 4])> + 'a,
+            ) -> Way<'a, $scalar, 9> {
+                Way::new(method, move |given, results| {
+                    for (index, (theta, load)) in given.theta.iter().zip(&given.loads).enumerate() {
+                        let Some((torque, [a0, a, b, b0])) = call(*theta, *load) else { return };
+                        let numbers = [torque, a0.x, a0.y, a.x, a.y, b.x, b.y, b0.x, b0.y];
+                        for (slice, number) in results.iter_mut().zip(numbers) {
+                            if let Some(place) = slice.get_mut(index) {
+                                *place = number;
+                            }
+                        }
                     }
-                }
-                let [expert, calls, sweep] = &mut results;
-                let [by_expert, by_calls, by_sweep] = ways;
-                row(
-                    title,
-                    count,
-                    rounds,
-                    &mut [
-                        &mut || by_expert(black_box(&given), black_box(&mut *expert)),
-                        &mut || by_calls(black_box(&given), black_box(&mut *calls)),
-                        &mut || by_sweep(black_box(&given), black_box(&mut *sweep)),
-                    ],
-                );
-                Ok(())
+                })
+            }
+
+            fn torques_expert() -> Way<'static, $scalar, 1> {
+                torques("expert", |theta, load| Some(expert::pose(theta).torque_of(&Loads { F13: load, F14: load })))
+            }
+
+            fn all_expert() -> Way<'static, $scalar, 9> {
+                all("expert", |theta, load| {
+                    let mut out = Reactions::default();
+                    expert::pose(theta).statics(&Loads { F13: load, F14: load }, &mut out);
+                    Some((out.torque, out.forces))
+                })
             }
 
             pub(super) fn rows(count: usize, rounds: usize) -> Result<(), String> {
-                let scalar = concat!(stringify!($scalar), $note);
-                compared(
-                    &format!("torque only, {scalar}"),
-                    count,
-                    rounds,
-                    [torques_expert, torques_calls, torques_sweep],
-                )?;
-                compared(&format!("all forces, {scalar}"), count, rounds, [all_expert, all_calls, all_sweep])
+                let given = given(count);
+                let scalar = stringify!($scalar);
+                let compared = |note, calls, sweep: fn(&Given<$scalar>, &mut [Vec<$scalar>; 1])| {
+                    let ways = [torques_expert(), torques("calls", calls), Way::new("sweep", sweep)];
+                    row(&format!("torque only, {scalar}{note}"), &given, rounds, $tolerance, &ways)
+                };
+                compared("", plain::torque as fn(_, _) -> _, plain::torques)?;
+                let ways = [all_expert(), all("calls", plain::all), Way::new("sweep", plain::cycle)];
+                row(&format!("all forces, {scalar}"), &given, rounds, $tolerance, &ways)?;
+                compared(" fused", fused::torque, fused::torques)?;
+                let ways = [all_expert(), all("calls", fused::all), Way::new("sweep", fused::cycle)];
+                row(&format!("all forces, {scalar} fused"), &given, rounds, $tolerance, &ways)
+            }
+
+            pub(super) fn others(count: usize, rounds: usize) -> Result<(), String> {
+                let given = given(count);
+                let case = |theta, load| Case { start: theta, loads: Loads { F13: load, F14: load } };
+                let numbers = |theta: $scalar, load: Vector2<$scalar>| [theta, load.x, load.y, load.x, load.y];
+                macro_rules! torque_by {
+                    ($elimination:path) => {
+                        |theta, load| {
+                            let mut torque = 0.0;
+                            items::torque_at_eliminated(&case(theta, load), &mut torque, $elimination).then_some(torque)
+                        }
+                    };
+                }
+                macro_rules! all_by {
+                    ($elimination:path) => {
+                        |theta, load| {
+                            let mut out = Reactions::default();
+                            let found = items::statics_at_eliminated(&case(theta, load), &mut out, $elimination);
+                            found.then_some((out.torque, out.forces))
+                        }
+                    };
+                }
+                let mut ways = vec![
+                    torques_expert(),
+                    Way::new("generated", plain::torques),
+                    Way::new("generated, fused", fused::torques),
+                    torques("LU 9x9", torque_by!(dense::partial)),
+                    torques("LU 9x9, faer", torque_by!(dense::faer)),
+                ];
+                ways.extend(generators::functions("P1c").into_iter().map(|(method, function)| {
+                    torques(method, move |theta, load| {
+                        let mut torque = [0.0];
+                        function.find(&numbers(theta, load), &mut torque).then_some(torque[0])
+                    })
+                }));
+                let scalar = stringify!($scalar);
+                table(&format!("torque only, {scalar}"), &given, rounds, $tolerance, &ways)?;
+                let mut ways = vec![
+                    all_expert(),
+                    Way::new("generated", plain::cycle),
+                    Way::new("generated, fused", fused::cycle),
+                    all("LU 9x9", all_by!(dense::partial)),
+                    all("LU 9x9, faer", all_by!(dense::faer)),
+                ];
+                ways.extend(generators::functions("P1b").into_iter().map(|(method, function)| {
+                    all(method, move |theta, load| {
+                        let mut found = [0.0; 9];
+                        let [a0_x, a0_y, a_x, a_y, b_x, b_y, b0_x, b0_y, torque] =
+                            function.find(&numbers(theta, load), &mut found).then_some(found)?;
+                        let forces = [[a0_x, a0_y], [a_x, a_y], [b_x, b_y], [b0_x, b0_y]];
+                        Some((torque, forces.map(Vector2::from)))
+                    })
+                }));
+                table(&format!("all forces, {scalar}"), &given, rounds, $tolerance, &ways)
             }
         }
     };
 }
 
-sweeps!(double, f64, "", four_bar, 1e-9);
-sweeps!(single, f32, "", four_bar_single, 1e-2);
-sweeps!(fused, f64, " fused", four_bar_fused, 1e-9);
-sweeps!(fused_single, f32, " fused", four_bar_fused_single, 1e-2);
+sweeps!(double, f64, four_bar, four_bar_fused, 1e-9);
+sweeps!(single, f32, four_bar_single, four_bar_fused_single, 1e-2);
