@@ -122,6 +122,30 @@ macro_rules! scalar {
                 scene statics: equilibrium;
             }
 
+            linkage! {
+                /// Directions that are none where a parameter is zero.
+                mod directions;
+                units { mm, N }
+                scalar $scalar;
+                param k: number;
+                param d: length;
+                param p: number;
+
+                ground       { O: (0, 0) }
+                link block   { P: (0, 0), E: (d, 0) }
+                link plunger { P: (0, 0), Q: 10mm @ atan2(p, 2*p) }
+                prismatic X: ground.O -> block.P along (k, 2*k);
+                prismatic Y: block.P -> plunger.P along P -> E of block;
+                drive x: X;
+                drive y: Y;
+
+                load F: force(plunger.P) = (3N, 1N);
+
+                scene place: position -> (plunger.P);
+                scene up: equilibrium -> (X);
+                scene turned: position -> (plunger.Q);
+            }
+
             const PI: $scalar = std::$scalar::consts::PI;
             const MAX: $scalar = $scalar::MAX;
             const NOT_FINITE: [$scalar; 3] = [$scalar::NAN, $scalar::INFINITY, $scalar::NEG_INFINITY];
@@ -202,13 +226,46 @@ macro_rules! scalar {
                     (19.0, 0.5, Some("`reach^2 - 400*mm^2`, whose root is taken, must not be negative")),
                     (25.0, 0.51, Some("`2*ratio`, of which `asin` is taken, must be from −1 to 1")),
                     (25.0, -1.5, Some("`ratio`, of which `acos` is taken, must be from −1 to 1")),
-                    (25.0, 0.0, None),
+                    (25.0, 0.0, Some("`ratio`, by which is divided, must not be zero")),
+                    (25.0, $scalar::from_bits(1), None),
                 ] {
                     let expected = match expected {
                         Some(requirement) => Error::Parameter { requirement },
                         None => Error::NotFinite { what: "what is made of the parameters" },
                     };
                     assert_eq!(statics(reach, ratio), Err(expected));
+                }
+            }
+
+            #[test]
+            fn a_direction_of_parameters_that_vanish() {
+                let root = $scalar::sqrt(5.0);
+                let at = |k, d, p| {
+                    let linkage = directions::Linkage::new(&directions::Params { k, d, p })?;
+                    let place = directions::place_at(&linkage, root, 3.0)?.plunger_P;
+                    let turned = directions::turned_at(&linkage, root, 3.0)?.plunger_Q - place;
+                    directions::up_at(&linkage, root, 3.0).map(|found| (place, found.X.normal, turned))
+                };
+                let near = |found: $scalar, expected: $scalar| (found - expected).abs() < 4.0 * $scalar::EPSILON * 10.0;
+                for (k, d) in
+                    [(1.0, 2.0), (-1.0, 2.0), (1.0, -2.0), ($scalar::MIN_POSITIVE, 1e30), (1e30, $scalar::from_bits(1))]
+                {
+                    let (place, normal, turned) = at(k, d, -k).expect("directions");
+                    // A sign turns the slide, and its normal with it.
+                    assert!(near(place.x, k.signum() + 3.0 * d.signum()) && near(place.y, 2.0 * k.signum()), "{place}");
+                    assert!(near(normal * root, 5.0 * k.signum()), "{normal}");
+                    assert!(
+                        near(turned.x * root, -20.0 * k.signum()) && near(turned.y * root, -10.0 * k.signum()),
+                        "{turned}"
+                    );
+                }
+                for (k, d, p, requirement) in [
+                    (0.0, 2.0, 1.0, "the direction `(k, 2*k)` must not be the zero vector"),
+                    (1.0, 0.0, 1.0, "the direction `P -> E` must not be the zero vector"),
+                    (1.0, -0.0, 1.0, "the direction `P -> E` must not be the zero vector"),
+                    (1.0, 2.0, 0.0, "of `p` and `2*p` one must not be zero, of which `atan2` is taken"),
+                ] {
+                    assert_eq!(at(k, d, p), Err(Error::Parameter { requirement }));
                 }
             }
 

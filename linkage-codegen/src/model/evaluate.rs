@@ -88,7 +88,7 @@ impl<'m> Scope<'m> {
         match &direction.kind {
             DirectionKind::Angle(angle) => Ok(self.scalar(angle, Kind::Angle)?.direction()),
             DirectionKind::Vector(vector) => {
-                let vector = match &vector.kind {
+                let components = match &vector.kind {
                     VectorKind::Polar(_, angle) => self.scalar(angle, Kind::Angle)?.direction(),
                     VectorKind::Cartesian(x, y) => {
                         let (x, y) = (self.quantity(x)?, self.quantity(y)?);
@@ -101,27 +101,40 @@ impl<'m> Scope<'m> {
                         Vector::new(x.expr, y.expr)
                     }
                 };
-                self.normalised(vector, direction.place)
+                self.normalised(components, direction.place, &vector.to_string())
             }
             DirectionKind::Points(from, to) => {
-                let from = self.point(link, from)?;
-                let to = self.point(link, to)?;
+                let ends = (self.point(link, from)?, self.point(link, to)?);
                 let at = |p: Option<PointId>| {
                     p.map(|p| self.model.links[link.index()].points[p.index()].at.vector(&self.model.graph))
                 };
-                match (at(from), at(to)) {
-                    (Some(from), Some(to)) => self.normalised(to - from, direction.place),
+                match (at(ends.0), at(ends.1)) {
+                    (Some(start), Some(end)) => {
+                        self.normalised(end - start, direction.place, &format!("{from} -> {to}"))
+                    }
                     _ => Ok(self.model.unread().direction()),
                 }
             }
         }
     }
 
-    fn normalised(&self, vector: Vector<'m>, place: Place) -> Evaluated<Vector<'m>> {
+    fn normalised(&self, vector: Vector<'m>, place: Place, shown: &str) -> Evaluated<Vector<'m>> {
         if vector.is_zero() {
             return Err(Diagnostic::new(place, "a direction cannot be the zero vector"));
         }
-        Ok(self.model.graph.unit(vector))
+        let checked = self.required_not_zero(vector, format!("the direction `{shown}` must not be the zero vector"));
+        Ok(self.model.graph.unit(checked))
+    }
+
+    /// That a vector is not the zero vector is asked of one of its components, where parameters give it.
+    fn required_not_zero(&self, Vector { x, y }: Vector<'m>, requirement: String) -> Vector<'m> {
+        let checked = |value: Expr<'m>| self.required_positive(value, x.abs() + y.abs(), requirement);
+        if x.value().is_some() { Vector::new(x, checked(y)) } else { Vector::new(checked(x), y) }
+    }
+
+    /// The value, where another one is positive.
+    fn required_positive(&self, value: Expr<'m>, positive: Expr<'m>, requirement: String) -> Expr<'m> {
+        value.require_above(positive, self.model.graph.zero(), Failure::Parameter { requirement })
     }
 
     /// A point of a link; `None` if the link could not be read.
@@ -175,7 +188,11 @@ impl<'m> Scope<'m> {
                         .help("the divisor is exactly zero: check the formula"));
                 }
                 let dimension = a.dimension.zip(divisor.dimension).map(|(a, b)| a.over(b));
-                Ok(Quantity { expr: a.expr / divisor.expr, dimension })
+                let requirement = format!("`{b}`, by which is divided, must not be zero");
+                Ok(Quantity {
+                    expr: a.expr / self.required_positive(divisor.expr, divisor.expr.abs(), requirement),
+                    dimension,
+                })
             }
             ValueKind::Power(base, exponent) => {
                 let base = self.quantity(base)?;
@@ -311,7 +328,10 @@ impl<'m> Scope<'m> {
                 if y.expr.is_zero() && x.expr.is_zero() {
                     return Err(Diagnostic::new(place, "the zero vector has no angle"));
                 }
-                Ok(angle(graph.atan2(y.expr, x.expr)))
+                let requirement =
+                    format!("of `{}` and `{}` one must not be zero, of which `atan2` is taken", args[0], args[1]);
+                let vector = self.required_not_zero(Vector::new(x.expr, y.expr), requirement);
+                Ok(angle(graph.atan2(vector.y, vector.x)))
             }
             _ => {
                 let x = self.scalar(&args[0], Kind::Number)?;

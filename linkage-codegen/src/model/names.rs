@@ -62,6 +62,8 @@ pub(super) struct Names {
     entries: BTreeMap<String, Entry>,
     /// Roles of items whose names could not be read: any unknown name may be theirs.
     nameless: Vec<Role>,
+    /// Names that were taken already, each with the role of the item that is refused for it.
+    refused: Vec<(String, Role)>,
 }
 
 /// What an item would declare, and under which name if that could be read.
@@ -146,6 +148,7 @@ fn taken(name: &Name, by: Entry) -> Diagnostic {
 fn meaning_in_values(name: &str) -> Option<&'static str> {
     match name {
         "pi" => Some("a number"),
+        "true" | "false" => Some("a literal of Rust"),
         _ if FUNCTIONS.contains(&name) => Some("a function"),
         _ if unit_names().any(|unit| unit == name) => Some("a unit"),
         _ => None,
@@ -158,7 +161,7 @@ pub(super) const FUNCTIONS: [&str; 8] = ["sqrt", "sin", "cos", "tan", "asin", "a
 impl Names {
     /// Every name with its role and its place in the list of that role. The ground is the first link.
     pub(super) fn collect(ast: &Ast, sink: &Sink) -> Self {
-        let mut names = Self { entries: BTreeMap::new(), nameless: Vec::new() };
+        let mut names = Self { entries: BTreeMap::new(), nameless: Vec::new(), refused: Vec::new() };
         let mut counts: [usize; 8] = [0; 8];
         counts[Role::Link as usize] = 1;
         names.entries.insert("ground".into(), Entry { role: Role::Link, index: 0, sound: true });
@@ -191,7 +194,10 @@ impl Names {
                 Diagnostic::new(name.place(), "`ground` is the fixed link, and no name for another item")
                     .help("its points are declared by `ground { A0: (0, 0) }`"),
             ),
-            Some(first) if first.sound && entry.sound => sink.report(taken(name, *first)),
+            Some(first) if first.sound && entry.sound => {
+                sink.report(taken(name, *first));
+                self.refused.push((name.text.clone(), entry.role));
+            }
             Some(_) => {}
             None => {
                 self.entries.insert(name.text.clone(), entry);
@@ -204,11 +210,17 @@ impl Names {
         match self.entries.get(&name.text) {
             Some(entry) if entry.role == Role::Broken || entry.role == role && !entry.sound => Ok(None),
             Some(entry) if entry.role == role => Ok(Some(entry.index)),
+            Some(_) if self.is_refused(role, &name.text) => Ok(None),
             None if self.nameless.iter().any(|other| *other == role || *other == Role::Broken) => Ok(None),
             Some(entry) => Err(entry.instead_of(role, name).suggest(&name.text, self.of(role))),
             None => Err(Diagnostic::new(name.place(), format!("there is no {} `{name}`", role.noun()))
                 .suggest(&name.text, self.of(role))),
         }
+    }
+
+    /// Whether an item of this role would have the name, were it not taken.
+    pub(super) fn is_refused(&self, role: Role, name: &str) -> bool {
+        self.refused.iter().any(|(refused, of)| refused == name && *of == role)
     }
 
     /// What a name stands for.

@@ -744,6 +744,9 @@ fn named_result(
         }
         None if name.text == "power" => power(model, given, method, (name.place(), None), names),
         None if names.may_be(Role::Joint) || names.may_be(Role::Load) || names.may_be(Role::Unknown) => Ok(None),
+        _ if [Role::Joint, Role::Load, Role::Unknown].into_iter().any(|role| names.is_refused(role, &name.text)) => {
+            Ok(None)
+        }
         _ => {
             let known: Vec<&str> = match method {
                 _ if !method.has_loads() => names.of(Role::Joint).collect(),
@@ -752,7 +755,13 @@ fn named_result(
                 }
                 _ => model.unknowns.iter().map(|u| u.name.as_str()).chain(names.of(Role::Joint)).collect(),
             };
-            let problem = format!("there is no result `{name}`");
+            let problem = match names.entry(&name.text) {
+                // The result would have been meant, but for the item of that name.
+                Some(entry) if name.text == ERROR_BOUND => {
+                    format!("`{name}` is {} here, and no result", entry.role.describe())
+                }
+                _ => format!("there is no result `{name}`"),
+            };
             Err(Diagnostic::new(name.place(), problem).suggest(&name.text, known))
         }
     }
@@ -884,6 +893,9 @@ fn check_generated_names(model: &Model, sink: &Sink) {
         {
             clash(&inverse.name, format!("the scene `{}` would have the type `{made}`, and {other}", inverse.name));
         }
+    }
+    for pattern in values::OWN_PATTERNS {
+        methods.entry(pattern.into()).or_insert_with(|| "is Rust's own".to_owned());
     }
     for sweep in model.sweeps.iter().cloned().chain(model.inverses.iter().flat_map(Inverse::sweeps)) {
         let own = format!("belongs to the sweep `{}`", sweep.name);

@@ -582,11 +582,15 @@ fn check_defaults(model: &Model, sink: &Sink) {
         };
         let mut done = NodeValues::default();
         let (value, limit) = (graph.evaluate(value, &known, &mut done), graph.evaluate(limit, &known, &mut done));
-        if !guard.condition.holds(&value, &limit) && told.insert(requirement.clone()) {
-            let name = &model.param(*first).name;
+        // What comes of a root of less than zero or the like is told where that is asked.
+        let is_number = ![value, limit].into_iter().any(f64::is_nan);
+        if is_number && !guard.condition.holds(&value, &limit) && told.insert(requirement.clone()) {
+            let names: Vec<&str> = read.iter().map(|id| model.param(*id).name.text.as_str()).collect();
+            let (s, it) = if names.len() == 1 { ("", "the default") } else { ("s", "a default") };
+            let problem = format!("{requirement}, which is not so with the default{s} of {}", list(&names));
             sink.report(
-                Diagnostic::new(name.place(), format!("{requirement}, which is not so with the default of `{name}`"))
-                    .help("change the default, or leave it out"),
+                Diagnostic::new(model.param(*first).name.place(), problem)
+                    .help(format!("change {it}, or leave it out")),
             );
         }
     }

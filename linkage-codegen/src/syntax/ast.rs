@@ -253,6 +253,16 @@ pub struct VectorValue {
     pub place: Place,
 }
 
+/// As it may be written.
+impl core::fmt::Display for VectorValue {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match &self.kind {
+            VectorKind::Cartesian(x, y) => write!(f, "({x}, {y})"),
+            VectorKind::Polar(size, angle) => write!(f, "{size} @ {angle}"),
+        }
+    }
+}
+
 /// The kinds of vectors.
 #[derive(Clone, Debug)]
 pub enum VectorKind {

@@ -1,5 +1,7 @@
 //! One parser per item, but for loads and scenes. The `;` behind an item is not theirs.
 
+use proc_macro2::{TokenStream, TokenTree};
+use quote::quote;
 use syn::parse::ParseStream;
 use syn::parse::discouraged::Speculative;
 use syn::token::{Brace, Paren};
@@ -79,9 +81,19 @@ pub(super) fn rest(input: ParseStream<'_>) {
     }
 }
 
+/// The path as it is within the generated module: `self` and `super` are meant where the declaration stands.
 fn crate_path(input: ParseStream<'_>) -> Result<Item> {
     input.parse::<Token![=]>()?;
-    header::path(input).map(Item::Crate)
+    let path = header::path(input)?;
+    let mut rest = path.clone().into_iter();
+    Ok(Item::Crate(match rest.next() {
+        Some(TokenTree::Ident(first)) if first == "self" => {
+            let rest: TokenStream = rest.collect();
+            quote!(super #rest)
+        }
+        Some(TokenTree::Ident(first)) if first == "super" => quote!(super::#path),
+        _ => path,
+    }))
 }
 
 fn units(input: ParseStream<'_>) -> Result<Item> {

@@ -59,6 +59,27 @@ fn slips_are_told_what_is_meant() {
             "param r: number = 2; load G: force(crank.A) = 1N @ acos(r);",
             "`r`, of which `acos` is taken, must be from −1 to 1",
         ),
+        (
+            "param r: number = 2; load G: force(crank.A) = 1N/(r - 2) @ 0;",
+            "`r - 2`, by which is divided, must not be zero",
+        ),
+        (
+            "param r: number = 0; unknown P: force(crank.A) along (r, 2*r);",
+            "the direction `(r, 2*r)` must not be the zero vector",
+        ),
+        ("param r: number = 0; load G: force(crank.A) = 1N @ atan2(r, 0);", "of `r` and `0` one must not be zero"),
+        (
+            "param p: length = 1m; param r: number = -1; mass crank: 1kg*r*p/1m at A;",
+            "not so with the defaults of `p` and `r`",
+        ),
+        ("param true: length;", "`true` is a literal of Rust"),
+        ("load crank: moment(crank); scene g: virtual_work(crank) -> (crank);", "the name `crank` is taken"),
+        (
+            "param error_bound: length; scene g: equilibrium -> (error_bound);",
+            "`error_bound` is a parameter here, and no result",
+        ),
+        ("scene Err: sweep(held);", "two functions `Err`: the other one is Rust's own"),
+        ("scene Ok: sweep(held);", "two functions `Ok`: the other one is Rust's own"),
         ("mass crank: 1kg at (l2, 0);", "`param l2: length;`"),
         ("mass /// the crank's\n crank: 1kg at A;", "no attributes or documentation comments"),
         ("link rod { A, /// end\n B: (1m, 0) }", "no attributes or documentation comments"),
