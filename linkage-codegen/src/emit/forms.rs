@@ -33,14 +33,20 @@ impl<S> Forms<'_, S> {
         let is_constant = |term: T| self.constant(term).is_some();
         match self.terms.op(term) {
             Op::Neg(a) => Some(format!("minus_{}", whole(a)?)),
-            Op::Abs(a) => Some(format!("abs_{}", whole(a)?)),
+            Op::Abs(a) => match self.terms.name(a).or_else(|| self.made_of(a))? {
+                name if is_sum(&name) => Some(format!("abs_of_{name}")),
+                name => Some(format!("abs_{name}")),
+            },
             Op::Mul(a, b) if is_constant(a) => Some(scaled(&whole(b)?)),
             Op::Mul(a, b) if is_constant(b) => Some(scaled(&whole(a)?)),
             Op::Mul(a, b) if a == b => match self.terms.name(a).or_else(|| self.made_of(a))? {
                 name if is_sum(&name) || is_product(&name) => Some(format!("squared_{name}")),
                 name => Some(format!("{name}_squared")),
             },
-            Op::Mul(a, b) => Some(product(&known(a)?, &known(b)?)),
+            Op::Mul(a, b) => match [a, b].map(|factor| self.terms.name(factor).or_else(|| self.made_of(factor))) {
+                [Some(a), Some(b)] if is_sum(&a) && is_sum(&b) => Some(format!("product_of_{a}_and_{b}")),
+                _ => Some(product(&known(a)?, &known(b)?)),
+            },
             Op::Div(a, b) => match self.constant(a) {
                 Some(one) if one.is_one() => Some(format!("inverse_{}", known(b)?)),
                 Some(_) => Some(scaled(&format!("inverse_{}", known(b)?))),

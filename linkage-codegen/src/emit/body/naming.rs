@@ -28,8 +28,12 @@ impl Body<'_> {
             Some(Reader::One(name)) => format!("{name}_part"),
             Some(Reader::Several(common)) => match (self.scaled_name(value), common.as_str()) {
                 (Some(name), _) => name,
-                (None, "") => self.name_by_form(value),
-                (None, common) => format!("{common}_part"),
+                (None, "") => self.name_by_form(value).unwrap_or_else(|| "shared".to_owned()),
+                // What is prepared has the names of parameters in its own.
+                (None, common) => {
+                    let form = self.program.prepares().then(|| self.name_by_form(value)).flatten();
+                    form.unwrap_or_else(|| format!("{common}_part"))
+                }
             },
             None => "part".to_owned(),
         }
@@ -77,11 +81,11 @@ impl Body<'_> {
     }
 
     /// The name of what is read by values that have nothing in common: what it is made of, if that is little.
-    fn name_by_form(&self, value: ValueId) -> String {
+    fn name_by_form(&self, value: ValueId) -> Option<String> {
         let names = |value| self.names.get(&value).map(ToString::to_string);
         let terms = Values { program: self.program, names: &names, of: value };
         let name = Forms { graph: self.graph, terms: &terms }.name(value);
-        name.filter(|name| !name.contains("shared")).unwrap_or_else(|| "shared".to_owned())
+        name.filter(|name| !name.contains("shared"))
     }
 
     /// The names of the coefficients of linear equations: each by its equation and what it is multiplied by.
@@ -162,7 +166,8 @@ impl Body<'_> {
             let names: Vec<&Ident> = of.iter().filter_map(|value| self.names.get(value)).collect();
             (value, part_of(&names))
         };
-        let results = self.program.outputs.iter().map(|(_, result)| (*result, "a result".to_owned()));
+        let result = if self.program.prepares() { "prepared for poses and scenes" } else { "a result" };
+        let results = self.program.outputs.iter().map(|(_, of)| (*of, result.to_owned()));
         served.into_iter().map(part_of).chain(results).collect()
     }
 
