@@ -264,13 +264,13 @@ macro_rules! sweeps {
                 call: impl Fn($scalar, Vector2<$scalar>) -> Option<($scalar, [Vector2<$scalar>; 4])> + 'a,
             ) -> Way<'a, $scalar, 9> {
                 Way::new(method, move |given, results| {
+                    let count = given.theta.len();
+                    let mut slices = results.each_mut().map(|slice| &mut slice[..count]);
                     for (index, (theta, load)) in given.theta.iter().zip(&given.loads).enumerate() {
                         let Some((torque, [a0, a, b, b0])) = call(*theta, *load) else { return };
                         let numbers = [torque, a0.x, a0.y, a.x, a.y, b.x, b.y, b0.x, b0.y];
-                        for (slice, number) in results.iter_mut().zip(numbers) {
-                            if let Some(place) = slice.get_mut(index) {
-                                *place = number;
-                            }
+                        for (slice, number) in slices.iter_mut().zip(numbers) {
+                            slice[index] = number;
                         }
                     }
                 })
