@@ -234,3 +234,54 @@ fn a_wheel_on_an_adjustable_coupler() -> Result<(), Error> {
     assert!(matches!(apart, Err(Error::Parameter { .. })), "{apart:?}");
     Ok(())
 }
+
+linkage! {
+    /// A wheel that a drive turns against the rocker of a four-bar, and another one in mesh with it.
+    mod rolling;
+    ground       { A0: (0, 0), B0: (0.14m, 0) }
+    link crank   { A0 -> A: 0.04m }
+    link coupler { A -> B: 0.12m }
+    link rocker  { B0: (0, 0), B: (-0.08m, 0), Q: (-0.05m, 0.01m), R: (-0.02m, 0.05m) }
+    link driven  { Q: (0, 0), rim: (0.02m, 0) }
+    link meshing { R: (0, 0), rim: (0.01m, 0) }
+    revolute A0: ground  -> crank;
+    revolute A:  crank   -> coupler;
+    revolute B:  coupler -> rocker;
+    revolute B0: ground  -> rocker;
+    revolute Q:  rocker  -> driven;
+    revolute R:  rocker  -> meshing;
+    gear H: driven.Q -> meshing.R, radii (0.021m, 0.029m), phase 0.003m;
+    drive t: A0;
+    drive y: Q;
+    assemble B: left(A -> B0);
+    load K: torsion(driven -> ground) { rate: 1N*m/rad, free: 0 };
+    scene place: position -> (rocker.angle, driven.angle, meshing.angle, meshing.R, meshing.rim);
+    scene speeds: velocity -> (driven.angle, meshing.angle);
+    scene work: virtual_work -> (K);
+}
+
+#[test]
+fn a_wheel_that_a_drive_turns_against_a_moving_arm_counts_its_turns() -> Result<(), Error> {
+    let at = |y| rolling::place_at(0.5, y);
+    let rest = at(0.0)?;
+    for y in [-40.0, -4.6, 0.3, 4.6, 4.7, 8.0, 9.0, 1000.0] {
+        let (here, near) = (at(y)?, 1e-12 * (1.0 + f64::abs(y)));
+        assert!((here.rocker_angle - rest.rocker_angle).abs() < near);
+        assert!((here.driven_angle - rest.driven_angle - y).abs() < near, "{y}: {}", here.driven_angle);
+        assert!(
+            (here.meshing_angle - rest.meshing_angle + 21.0 / 29.0 * y).abs() < near,
+            "{y}: {}",
+            here.meshing_angle
+        );
+        let (sin, cos) = here.meshing_angle.sin_cos();
+        let rim = here.meshing_R + 0.01 * Vector2::new(cos, sin);
+        assert!((here.meshing_rim - rim).norm() < near);
+        let motion = rolling::Motion { t_rate: 0.0, y_rate: 2.0 };
+        let speeds = rolling::speeds_at(0.5, y, &motion)?;
+        assert!((speeds.driven_angle - 2.0).abs() < 1e-12 && (speeds.meshing_angle + 42.0 / 29.0).abs() < 1e-12);
+        // The spring counts the turns too: its moment holds the wheel back.
+        let term = rolling::work_at(0.5, y)?.K.effort_y;
+        assert!((term.work + here.driven_angle).abs() < 1e-11 * (1.0 + f64::abs(y)), "{y}: {term:?}");
+    }
+    Ok(())
+}

@@ -58,9 +58,11 @@ impl Rule for Crank {
         assembly.placement.connect(pin);
         let joint = model.joint(pin);
         let (other, sense) = if joint.to.link == link { (joint.from.link, 1) } else { (joint.to.link, -1) };
-        if let Some(angle) = assembly.placement.unwrapped_angle(other) {
-            let angle = angle + sense * assembly.coordinate(drive);
-            assembly.placement.set_angle(link, angle);
+        // To wheels all turns of the drive count, wherever the other link's own angle lies.
+        let geared = model.joints.iter().any(|joint| matches!(joint.kind, JointKind::Gear(_)));
+        let from = assembly.placement.unwrapped_angle(other);
+        if let Some(from) = from.or_else(|| geared.then(|| assembly.placement.angle(other))) {
+            assembly.placement.set_angle(link, from + sense * assembly.coordinate(drive));
         }
         Ok(())
     }
