@@ -280,3 +280,38 @@ fn two_drives_are_found_from_two_coordinates() -> Result<(), Error> {
     }
     Ok(())
 }
+
+linkage! {
+    /// A lever with a slot: forwards its side is that of the pin in the slot, driven by the slot's angle that of both pins along it.
+    mod slotted;
+    ground     { A: (0, 0), B: (0.04m, -0.06m) }
+    link rod   { P: (0, 0), A: (-0.15m, 0.05m) }
+    link lever { B: (0, 0), Q: (-0.004m, 0.075m) }
+    revolute A: ground -> rod;
+    revolute B: ground -> lever;
+    slot N: rod.P -> lever.Q along -20deg of rod;
+    drive x: A;
+    assemble N: behind(B);
+    scene place: position -> (rod.angle, lever.angle);
+    scene back: inverse(N.angle) -> (x);
+}
+
+#[test]
+fn a_closure_that_means_another_side_in_the_inverse_is_checked() {
+    let mut found = [0, 0];
+    for step in -314_i32..=314 {
+        let wanted = 0.01 * f64::from(step);
+        match slotted::back_at(wanted) {
+            Ok(back) => {
+                let place = slotted::place_at(back.x).expect("what is found leads back");
+                let (sin, cos) = (place.lever_angle - place.rod_angle - wanted).sin_cos();
+                assert!(sin.abs() < 1e-9 && cos > 0.0, "{wanted}");
+                found[0] += 1;
+            }
+            Err(Error::OtherSide { joint: "N" }) => found[1] += 1,
+            Err(Error::CannotAssemble { .. } | Error::CoincidentPivots { .. } | Error::DeadCentre { .. }) => {}
+            Err(other) => panic!("{wanted}: {other}"),
+        }
+    }
+    assert!(found[0] > 50 && found[1] > 50, "{found:?}");
+}

@@ -32,8 +32,12 @@ pub(crate) fn exchanged<'a>(
 ) -> Option<Vec<Exchanged<'a>>> {
     let all = model.inverses.iter().map(|inverse| {
         let refusals = Sink::default();
-        let other = model.exchanged(ast, inverse, topology.sides(model), &refusals);
+        let mut other = model.exchanged(ast, inverse, topology.sides(model), &refusals);
         let found = if refusals.is_clean() { Topology::of(&other, &refusals) } else { None };
+        let own = found.as_ref().map(|found| found.sides(&other)).unwrap_or_default();
+        if let Some(exchanged) = &mut other.exchanged {
+            exchanged.own = own;
+        }
         if let Some(found) = &found {
             check_closed_forms(&other, found, inverse, &refusals);
             check_folds(model, &other, (topology, found), inverse, &refusals);

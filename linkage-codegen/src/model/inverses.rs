@@ -74,10 +74,12 @@ pub struct Exchanged {
     pub drives: Vec<(String, Coordinate)>,
     /// The closures of the groups that the declaration's drives move.
     pub closures: Vec<Side>,
+    /// Those of this linkage's own groups. A closure may be one of both and mean another side in each.
+    pub own: Vec<Side>,
 }
 
 /// What a closure says, in whatever way the linkage is driven.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Side {
     /// The closure, which is the same in both.
     pub closure: ClosureId,
@@ -234,7 +236,7 @@ impl Model {
             .drives
             .iter()
             .map(|drive| (drive.name.text.clone(), Coordinate { joint: drive.joint, turns: drive.turns }));
-        model.exchanged = Some(Exchanged { drives: drives.collect(), closures });
+        model.exchanged = Some(Exchanged { drives: drives.collect(), closures, own: Vec::new() });
         let results = inverse.results.iter().map(|(drive, order)| Wanted::Driver(*drive, *order)).collect();
         model.scenes.push(Scene {
             name: inverse.name.clone(),

@@ -20,7 +20,7 @@ pub(super) fn drivers(assembly: &Assembly<'_>, posed: Posed<'_, '_>, scene: &Sce
     let model = assembly.model();
     let Some(exchanged) = &model.exchanged else { return Output::Record(Vec::new()) };
     model.graph.begin_section("Sides");
-    let sides = exchanged.closures.iter().filter(|side| !assembly.uses(side.closure));
+    let sides = exchanged.closures.iter().filter(|side| !(assembly.uses(side.closure) && exchanged.own.contains(side)));
     let margins: Vec<(JointId, [Expr<'_>; 2])> =
         sides.filter_map(|side| Some((model.closure(side.closure).joint, margin(assembly, side)?))).collect();
     model.graph.begin_section("Drives");
