@@ -223,7 +223,7 @@ macro_rules! scalar {
                 let found: $scalar = statics(25.0, 0.5).expect("within both domains, at the end of one");
                 assert!((found + moments).abs() < 1e-5, "{found}");
                 for (reach, ratio, expected) in [
-                    (19.0, 0.5, Some("`reach^2 - 400*mm^2`, whose root is taken, must not be negative")),
+                    (19.0, 0.5, Some("`reach^2 - 400mm^2`, whose root is taken, must not be negative")),
                     (25.0, 0.51, Some("`2*ratio`, of which `asin` is taken, must be from −1 to 1")),
                     (25.0, -1.5, Some("`ratio`, of which `acos` is taken, must be from −1 to 1")),
                     (25.0, 0.0, Some("`ratio`, by which is divided, must not be zero")),
@@ -260,9 +260,9 @@ macro_rules! scalar {
                     );
                 }
                 for (k, d, p, requirement) in [
-                    (0.0, 2.0, 1.0, "the direction `(k, 2*k)` must not be the zero vector"),
-                    (1.0, 0.0, 1.0, "the direction `P -> E` must not be the zero vector"),
-                    (1.0, -0.0, 1.0, "the direction `P -> E` must not be the zero vector"),
+                    (0.0, 2.0, 1.0, "ground: the direction `(k, 2*k)` must not be the zero vector"),
+                    (1.0, 0.0, 1.0, "block: the direction `P -> E` must not be the zero vector"),
+                    (1.0, -0.0, 1.0, "block: the direction `P -> E` must not be the zero vector"),
                     (1.0, 2.0, 0.0, "of `p` and `2*p` one must not be zero, of which `atan2` is taken"),
                 ] {
                     assert_eq!(at(k, d, p), Err(Error::Parameter { requirement }));

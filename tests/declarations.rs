@@ -104,3 +104,35 @@ fn a_sense_is_read_by_the_stages_of_a_sweep() -> Result<(), SweepError> {
     }
     Ok(())
 }
+
+/// A slide along a polar vector of negative size, and of one whose size is a parameter.
+macro_rules! slide {
+    ($module:ident, $($along:tt)*) => {
+        linkage! {
+            mod $module;
+            param r: number = 1;
+            ground { O: (0, 0) }
+            link block { P: (0, 0) }
+            prismatic S: ground.O -> block.P along $($along)*;
+            drive x: S;
+            scene place: position -> (block.P);
+            load F: force(block.P) = (r*1N, 0N);
+            scene held: equilibrium;
+        }
+    };
+}
+slide!(turned, 210deg);
+slide!(negative, -2 @ 30deg);
+slide!(by_parameter, r @ 30deg);
+
+#[test]
+fn a_polar_direction_of_negative_size_points_the_other_way() -> Result<(), Error> {
+    let expected = turned::place_at(&turned::Linkage::new(&turned::Params { r: 1.0 })?, 2.0)?.block_P;
+    let found = negative::place_at(&negative::Linkage::new(&negative::Params { r: 1.0 })?, 2.0)?.block_P;
+    assert!((found - expected).norm() < 1e-15, "{found}");
+    let found = by_parameter::place_at(&by_parameter::Linkage::new(&by_parameter::Params { r: -3.0 })?, 2.0)?.block_P;
+    assert!((found - expected).norm() < 1e-15, "{found}");
+    let none = by_parameter::Linkage::new(&by_parameter::Params { r: 0.0 });
+    assert!(matches!(none, Err(Error::Parameter { requirement }) if requirement.contains("`r @ 30deg`")), "{none:?}");
+    Ok(())
+}

@@ -21,6 +21,10 @@ const METHODS: [(&str, &str); 4] = [
     ("sympy", "SymPy, linsolve and cse"),
 ];
 
+/// How many numbers the functions of an item are given and find, as `generate.py` writes them.
+const SHAPES: [(&str, usize, usize); 6] =
+    [("P1a", 11, 9), ("P1b", 5, 9), ("P1c", 5, 1), ("P1d", 5, 18), ("P2b", 5, 15), ("P3b", 3, 9)];
+
 /// A scalar that the library has functions for.
 pub(crate) trait Foreign: Scalar {
     /// How their names end.
@@ -87,7 +91,9 @@ pub(crate) fn functions<T: Foreign, const GIVEN: usize, const FOUND: usize>(
     if LIBRARY.get().is_none() {
         return Vec::new();
     }
-    let item = item.trim_end_matches("-f32").to_lowercase();
+    let item = item.trim_end_matches("-f32");
+    assert!(SHAPES.contains(&(item, GIVEN, FOUND)), "{item} is not given {GIVEN} numbers, or does not find {FOUND}");
+    let item = item.to_lowercase();
     METHODS.iter().map(|(prefix, method)| (*method, Function::named(&format!("{prefix}_{item}")))).collect()
 }
 

@@ -34,10 +34,13 @@ pub(crate) fn print(rounds: usize) -> Result<(), String> {
             single::rows(count, rounds)?;
         }
     }
-    println!("\nbeside others, by the widest of these: ns for each position, and the ratio to the expert's");
+    println!("\nbeside loops over calls of others, as they are compiled; generated sweeps by the widest registers");
+    println!("ns for each position, and the ratio to the expert's");
+    // A round takes a hundred times as long.
+    let rounds = rounds.div_ceil(20);
     for count in COUNTS {
-        double::others(count, rounds.div_ceil(20))?;
-        single::others(count, rounds.div_ceil(20))?;
+        double::others(count, rounds)?;
+        single::others(count, rounds)?;
     }
     Ok(())
 }
@@ -291,14 +294,12 @@ macro_rules! sweeps {
             pub(super) fn rows(count: usize, rounds: usize) -> Result<(), String> {
                 let given = given(count);
                 let scalar = stringify!($scalar);
-                let compared = |note, calls, sweep: fn(&Given<$scalar>, &mut [Vec<$scalar>; 1])| {
-                    let ways = [torques_expert(), torques("calls", calls), Way::new("sweep", sweep)];
-                    row(&format!("torque only, {scalar}{note}"), &given, rounds, $tolerance, &ways)
-                };
-                compared("", plain::torque as fn(_, _) -> _, plain::torques)?;
+                let ways = [torques_expert(), torques("calls", plain::torque), Way::new("sweep", plain::torques)];
+                row(&format!("torque only, {scalar}"), &given, rounds, $tolerance, &ways)?;
                 let ways = [all_expert(), all("calls", plain::all), Way::new("sweep", plain::cycle)];
                 row(&format!("all forces, {scalar}"), &given, rounds, $tolerance, &ways)?;
-                compared(" fused", fused::torque, fused::torques)?;
+                let ways = [torques_expert(), torques("calls", fused::torque), Way::new("sweep", fused::torques)];
+                row(&format!("torque only, {scalar} fused"), &given, rounds, $tolerance, &ways)?;
                 let ways = [all_expert(), all("calls", fused::all), Way::new("sweep", fused::cycle)];
                 row(&format!("all forces, {scalar} fused"), &given, rounds, $tolerance, &ways)
             }

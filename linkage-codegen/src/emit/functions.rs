@@ -343,7 +343,8 @@ pub(super) fn prepare(linkage: &Linkage) -> TokenStream {
             ///
             /// # Errors
             ///
-            /// [`Error::Parameter`] if a dimension is out of its range, [`Error::NotFinite`] if one is not a finite number.
+            /// [`Error::Parameter`] if a dimension is out of its range, [`Error::NotFinite`] if one, or what is
+            /// made of them, is not a finite number.
             #visibility fn new(params: &Params) -> Result<Self, Error> {
                 #given
                 #statements

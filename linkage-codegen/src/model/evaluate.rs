@@ -89,7 +89,14 @@ impl<'m> Scope<'m> {
             DirectionKind::Angle(angle) => Ok(self.scalar(angle, Kind::Angle)?.direction()),
             DirectionKind::Vector(vector) => {
                 let components = match &vector.kind {
-                    VectorKind::Polar(_, angle) => self.scalar(angle, Kind::Angle)?.direction(),
+                    VectorKind::Polar(size, angle) => {
+                        let (size, along) = (self.quantity(size)?.expr, self.scalar(angle, Kind::Angle)?.direction());
+                        match size.sign() {
+                            Some(1) => return Ok(along),
+                            Some(-1) => return Ok(-along),
+                            _ => along.scaled(size),
+                        }
+                    }
                     VectorKind::Cartesian(x, y) => {
                         let (x, y) = (self.quantity(x)?, self.quantity(y)?);
                         if let (Some(a), Some(b)) = (x.dimension, y.dimension)
@@ -101,7 +108,7 @@ impl<'m> Scope<'m> {
                         Vector::new(x.expr, y.expr)
                     }
                 };
-                self.normalised(components, direction.place, &vector.to_string())
+                self.normalised(components, direction.place, link, &vector.to_string())
             }
             DirectionKind::Points(from, to) => {
                 let ends = (self.point(link, from)?, self.point(link, to)?);
@@ -110,7 +117,7 @@ impl<'m> Scope<'m> {
                 };
                 match (at(ends.0), at(ends.1)) {
                     (Some(start), Some(end)) => {
-                        self.normalised(end - start, direction.place, &format!("{from} -> {to}"))
+                        self.normalised(end - start, direction.place, link, &format!("{from} -> {to}"))
                     }
                     _ => Ok(self.model.unread().direction()),
                 }
@@ -118,22 +125,24 @@ impl<'m> Scope<'m> {
         }
     }
 
-    fn normalised(&self, vector: Vector<'m>, place: Place, shown: &str) -> Evaluated<Vector<'m>> {
+    fn normalised(&self, vector: Vector<'m>, place: Place, of: LinkId, shown: &str) -> Evaluated<Vector<'m>> {
         if vector.is_zero() {
             return Err(Diagnostic::new(place, "a direction cannot be the zero vector"));
         }
-        let checked = self.required_not_zero(vector, format!("the direction `{shown}` must not be the zero vector"));
+        let link = self.model.links.get(of.index()).map_or("ground", |link| link.name.text.as_str());
+        let requirement = format!("{link}: the direction `{shown}` must not be the zero vector");
+        let checked = self.required_not_zero(vector, requirement);
         Ok(self.model.graph.unit(checked))
     }
 
     /// That a vector is not the zero vector is asked of one of its components, where parameters give it.
     fn required_not_zero(&self, Vector { x, y }: Vector<'m>, requirement: String) -> Vector<'m> {
-        let checked = |value: Expr<'m>| self.required_positive(value, x.abs() + y.abs(), requirement);
+        let checked = |value: Expr<'m>| self.where_positive(value, x.abs() + y.abs(), requirement);
         if x.value().is_some() { Vector::new(x, checked(y)) } else { Vector::new(checked(x), y) }
     }
 
     /// The value, where another one is positive.
-    fn required_positive(&self, value: Expr<'m>, positive: Expr<'m>, requirement: String) -> Expr<'m> {
+    fn where_positive(&self, value: Expr<'m>, positive: Expr<'m>, requirement: String) -> Expr<'m> {
         value.require_above(positive, self.model.graph.zero(), Failure::Parameter { requirement })
     }
 
@@ -190,7 +199,7 @@ impl<'m> Scope<'m> {
                 let dimension = a.dimension.zip(divisor.dimension).map(|(a, b)| a.over(b));
                 let requirement = format!("`{b}`, by which is divided, must not be zero");
                 Ok(Quantity {
-                    expr: a.expr / self.required_positive(divisor.expr, divisor.expr.abs(), requirement),
+                    expr: a.expr / self.where_positive(divisor.expr, divisor.expr.abs(), requirement),
                     dimension,
                 })
             }
@@ -239,17 +248,18 @@ impl<'m> Scope<'m> {
                 Ok(Quantity { expr: self.model.unread(), dimension: None })
             }
             (None, _) if self.names.may_be(Role::Param) => Ok(Quantity { expr: self.model.unread(), dimension: None }),
+            (Some(_), _) if self.names.is_refused(Role::Param, name) => {
+                Ok(Quantity { expr: self.model.unread(), dimension: None })
+            }
             (Some(entry), _) => {
                 Err(Diagnostic::new(place, format!("`{name}` is {}, and no value", entry.role.describe()))
                     .help("a value is a number with its unit, such as `80mm`, or a parameter"))
             }
             (None, _) => {
-                // Two letters are close to some unit or other, and none has a digit.
-                let may_be_unit = name.len() > 2 && name.chars().all(char::is_alphabetic);
+                // Two letters are close to some unit or other: what is meant is one that differs in case alone.
+                let is_near = |word: &&str| name.len() > 2 || word.eq_ignore_ascii_case(name);
                 let mut known: Vec<&str> = self.names.of(Role::Param).collect();
-                if may_be_unit {
-                    unit_names().chain(FUNCTIONS).for_each(|word| known.push(word));
-                }
+                unit_names().chain(FUNCTIONS).filter(is_near).for_each(|word| known.push(word));
                 let problem = format!("there is no parameter or unit `{name}`");
                 let found = Diagnostic::new(place, problem);
                 Err(match closest(name, known) {
@@ -364,6 +374,8 @@ fn meant(suffix: &str) -> Option<String> {
         (Dimension::MASS, Dimension::LENGTH),
         (Dimension::FORCE, Dimension::TIME),
     ];
-    let mut joined = places.filter(|(left, right)| products.iter().any(|(a, b)| is(left, *a) && is(right, *b)));
+    // `gm` is meant as gram.
+    let mut joined =
+        places.filter(|(left, right)| *left != "g" && products.iter().any(|(a, b)| is(left, *a) && is(right, *b)));
     joined.next().map(|(left, right)| format!("{left}*{right}"))
 }

@@ -139,9 +139,14 @@ fn points(model: &mut Model, link: LinkId, body: &ast::Link, names: &Names, sink
                 polar_distance(model, link, id, vector, names);
             }
             PointPlace::Distances(name, distances) => {
-                let found = match measured_from_later(&body.places[index..], distances) {
-                    // The frame itself is refused there.
-                    Some((_, PointPlace::Frame(..))) => None,
+                let found = match measured_from_later(&body.places, index, distances) {
+                    // The frame itself is refused there, and what cannot be read is.
+                    Some((_, PointPlace::Frame(..) | PointPlace::Unread(_))) => None,
+                    Some((own, _)) if own.text == name.text => {
+                        let problem = format!("the point `{own}` cannot be measured from itself");
+                        sink.report(Diagnostic::new(own.place(), problem).help("choose another point of the link"));
+                        None
+                    }
                     Some((later, _)) => {
                         let problem =
                             format!("the point `{later}` is declared behind the one that is measured from it");
@@ -162,17 +167,25 @@ fn points(model: &mut Model, link: LinkId, body: &ast::Link, names: &Names, sink
     }
 }
 
-/// The first end of the distances that is declared only here or further on, and where.
-fn measured_from_later<'a>(places: &'a [PointPlace], distances: &'a Distances) -> Option<(&'a Name, &'a PointPlace)> {
+/// The first end of the distances that is declared only at this place or behind it, and where.
+fn measured_from_later<'a>(
+    places: &'a [PointPlace],
+    index: usize,
+    distances: &'a Distances,
+) -> Option<(&'a Name, &'a PointPlace)> {
     let declares = |place: &PointPlace, end: &Name| match place {
         PointPlace::Frame(from, to, _) => [from, to].into_iter().any(|point| point.text == end.text),
         PointPlace::At(point, _) | PointPlace::Distances(point, _) | PointPlace::Origin(point) => {
             point.text == end.text
         }
-        PointPlace::Unread(_) => false,
+        PointPlace::Unread(words) => words.iter().any(|word| word.text == end.text),
     };
+    let (before, behind) = places.split_at(index);
     let mut ends = [&distances.from, &distances.to].into_iter();
-    ends.find_map(|end| Some((end, places.iter().find(|place| declares(place, end))?)))
+    ends.find_map(|end| {
+        let later = behind.iter().find(|place| declares(place, end))?;
+        (!before.iter().any(|place| declares(place, end))).then_some((end, later))
+    })
 }
 
 type Ids = (NodeId, NodeId);

@@ -164,6 +164,11 @@ fn variable(model: &Model, end: &ast::End, names: &Names) -> Result<Option<Varia
         }
         Some((Role::Param, index, _)) => found(By::Parameter(ParamId::new(index))),
         None if [Role::Drive, Role::Load, Role::Param].into_iter().any(|role| names.may_be(role)) => Ok(None),
+        Some(_)
+            if [Role::Drive, Role::Load, Role::Param].into_iter().any(|role| names.is_refused(role, &name.text)) =>
+        {
+            Ok(None)
+        }
         Some((role, ..)) => {
             let problem = format!("`{name}` is {}, and nothing that varies by itself", role.describe());
             Err(Diagnostic::new(name.place(), problem)
@@ -756,11 +761,8 @@ fn named_result(
                 _ => model.unknowns.iter().map(|u| u.name.as_str()).chain(names.of(Role::Joint)).collect(),
             };
             let problem = match names.entry(&name.text) {
-                // The result would have been meant, but for the item of that name.
-                Some(entry) if name.text == ERROR_BOUND => {
-                    format!("`{name}` is {} here, and no result", entry.role.describe())
-                }
-                _ => format!("there is no result `{name}`"),
+                Some(entry) => format!("`{name}` is {}, and no result", entry.role.describe()),
+                None => format!("there is no result `{name}`"),
             };
             Err(Diagnostic::new(name.place(), problem).suggest(&name.text, known))
         }

@@ -582,8 +582,8 @@ fn check_defaults(model: &Model, sink: &Sink) {
         };
         let mut done = NodeValues::default();
         let (value, limit) = (graph.evaluate(value, &known, &mut done), graph.evaluate(limit, &known, &mut done));
-        // What comes of a root of less than zero or the like is told where that is asked.
-        let is_number = ![value, limit].into_iter().any(f64::is_nan);
+        // What comes of a root of less than zero or of a quotient by zero is told where that is asked.
+        let is_number = [value, limit].into_iter().all(f64::is_finite);
         if is_number && !guard.condition.holds(&value, &limit) && told.insert(requirement.clone()) {
             let names: Vec<&str> = read.iter().map(|id| model.param(*id).name.text.as_str()).collect();
             let (s, it) = if names.len() == 1 { ("", "the default") } else { ("s", "a default") };

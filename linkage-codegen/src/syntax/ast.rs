@@ -172,11 +172,17 @@ impl core::fmt::Display for Value {
             ValueKind::Negative(a) => write!(f, "-{}", factor(a)),
             ValueKind::Sum(a, b) => write!(f, "{a} + {b}"),
             ValueKind::Difference(a, b) => write!(f, "{a} - {}", term(b)),
-            ValueKind::Product(a, b) => write!(f, "{}*{}", term(a), term(b)),
+            ValueKind::Product(a, b) => match (&a.kind, &b.kind) {
+                // Behind a literal a power is that of its unit.
+                (ValueKind::Number(digits, None), ValueKind::Power(base, exponent)) if base.unit().is_some() => {
+                    write!(f, "{digits}{}^{exponent}", base.unit().unwrap_or_default())
+                }
+                _ => write!(f, "{}*{}", term(a), factor(b)),
+            },
             ValueKind::Quotient(a, b) => write!(f, "{}/{}", term(a), factor(b)),
-            ValueKind::Power(base, exponent) => match &base.kind {
-                ValueKind::Number(one, Some(unit)) if one == "1" => write!(f, "{unit}^{exponent}"),
-                _ => write!(f, "{}^{exponent}", above(base, Binding::Power)),
+            ValueKind::Power(base, exponent) => match base.unit() {
+                Some(unit) => write!(f, "{unit}^{exponent}"),
+                None => write!(f, "{}^{exponent}", above(base, Binding::Power)),
             },
             ValueKind::Call(function, args) => {
                 let args: Vec<String> = args.iter().map(Self::to_string).collect();
@@ -186,11 +192,22 @@ impl core::fmt::Display for Value {
     }
 }
 
+impl Value {
+    /// The unit that it is, as behind a literal.
+    fn unit(&self) -> Option<&str> {
+        match &self.kind {
+            ValueKind::Number(one, unit) if one == "1" => unit.as_deref(),
+            _ => None,
+        }
+    }
+}
+
 /// How firmly an operation holds its operands together.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {
     Sum,
     Product,
+    Sign,
     Power,
     Atom,
 }
@@ -198,9 +215,10 @@ enum Binding {
 impl ValueKind {
     fn binds(&self) -> Binding {
         match self {
-            Self::Sum(..) | Self::Difference(..) | Self::Negative(_) => Binding::Sum,
+            Self::Sum(..) | Self::Difference(..) => Binding::Sum,
             Self::Product(..) | Self::Quotient(..) => Binding::Product,
-            // Behind a literal a power is that of its unit.
+            Self::Negative(_) => Binding::Sign,
+            // A power behind a number with a unit is that of the unit.
             Self::Power(..) | Self::Number(_, Some(_)) => Binding::Power,
             Self::Number(..) | Self::Name(_) | Self::Call(..) => Binding::Atom,
         }

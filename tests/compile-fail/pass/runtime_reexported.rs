@@ -2,9 +2,6 @@
 
 pub extern crate linkage_runtime as renamed;
 
-/// Nothing is left of the own name in this module's path.
-mod linkage_runtime {}
-
 mod machines {
     pub use renamed as rt;
 

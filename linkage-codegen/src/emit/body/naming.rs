@@ -29,7 +29,7 @@ impl Body<'_> {
             Some(Reader::Several(common)) => match (self.scaled_name(value), common.as_str()) {
                 (Some(name), _) => name,
                 (None, "") => self.name_by_form(value).unwrap_or_else(|| "shared".to_owned()),
-                // What is prepared has the names of parameters in its own.
+                // Names of what is made of parameters have those of parameters in common, which says little.
                 (None, common) => {
                     let form = self.program.prepares().then(|| self.name_by_form(value)).flatten();
                     form.unwrap_or_else(|| format!("{common}_part"))
@@ -166,8 +166,12 @@ impl Body<'_> {
             let names: Vec<&Ident> = of.iter().filter_map(|value| self.names.get(value)).collect();
             (value, part_of(&names))
         };
-        let result = if self.program.prepares() { "prepared for poses and scenes" } else { "a result" };
-        let results = self.program.outputs.iter().map(|(_, of)| (*of, result.to_owned()));
+        let results = self.program.outputs.iter().map(|(path, of)| {
+            // What is prepared goes to no place of its own among results.
+            let what =
+                if path.is_empty() && self.program.prepares() { "prepared for poses and scenes" } else { "a result" };
+            (*of, what.to_owned())
+        });
         served.into_iter().map(part_of).chain(results).collect()
     }
 
