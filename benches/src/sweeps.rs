@@ -86,11 +86,28 @@ impl<'a, T, const N: usize> Way<'a, T, N> {
     }
 }
 
-/// What each way finds, and of each the medians of the times for a position, in ns, and of the ratios to the first.
+/// What each way finds, and of each round the times that all took for a position, in ns.
 struct Timed<T, const N: usize> {
     found: Vec<[Vec<T>; N]>,
-    times: Vec<f64>,
-    ratios: Vec<Vec<f64>>,
+    rounds: Vec<Vec<f64>>,
+}
+
+impl<T, const N: usize> Timed<T, N> {
+    /// The median of a way's times.
+    fn time(&self, way: usize) -> f64 {
+        self.median(|times| times[way])
+    }
+
+    /// The median of its times over those of another one in the same round.
+    fn ratio(&self, way: usize, to: usize) -> f64 {
+        self.median(|times| times[way] / times[to])
+    }
+
+    fn median(&self, of: impl Fn(&[f64]) -> f64) -> f64 {
+        let mut values: Vec<f64> = self.rounds.iter().map(|times| of(times)).collect();
+        values.sort_by(f64::total_cmp);
+        values[values.len() / 2]
+    }
 }
 
 /// Goes all ways in turns. The results of each are near those of the first.
@@ -118,28 +135,18 @@ fn timed<T: Scalar, const N: usize>(
     }
     // Shorter than what the system gives a program at a time: few of these times hold a pause.
     let repeats = (16_384 / count).max(1);
-    let mut times: Vec<Vec<f64>> = Vec::new();
-    for _ in 0..rounds {
-        let round = ways.iter().zip(&mut found).map(|(way, found)| {
+    let round = |_| {
+        let times = ways.iter().zip(&mut found).map(|(way, found)| {
             let start = Instant::now();
             for _ in 0..repeats {
                 (way.find)(black_box(given), black_box(&mut *found));
             }
             start.elapsed().as_secs_f64() * 1e9 / (count * repeats) as f64
         });
-        times.push(round.collect());
-    }
-    let median = |of: &dyn Fn(&[f64]) -> f64| {
-        let mut values: Vec<f64> = times.iter().map(|round| of(round)).collect();
-        values.sort_by(f64::total_cmp);
-        values[values.len() / 2]
+        times.collect()
     };
-    let ratios = |one| (0..ways.len()).map(|other| median(&|times| times[one] / times[other])).collect();
-    Ok(Timed {
-        times: (0..ways.len()).map(|one| median(&|times| times[one])).collect(),
-        ratios: (0..ways.len()).map(ratios).collect(),
-        found,
-    })
+    let rounds = (0..rounds).map(round).collect();
+    Ok(Timed { found, rounds })
 }
 
 /// A row: by the expert, by calls, by the sweep, which has the bits of the calls.
@@ -150,15 +157,15 @@ fn row<T: Scalar, const N: usize>(
     tolerance: f64,
     ways: &[Way<'_, T, N>; 3],
 ) -> Result<(), String> {
-    let Timed { found, times, ratios } = timed(title, given, rounds, tolerance, ways)?;
-    for (calls, sweep) in found[1].iter().flatten().zip(found[2].iter().flatten()) {
+    let timed = timed(title, given, rounds, tolerance, ways)?;
+    for (calls, sweep) in timed.found[1].iter().flatten().zip(timed.found[2].iter().flatten()) {
         let [calls, sweep]: [f64; 2] = [(*calls).into(), (*sweep).into()];
         if calls.to_bits() != sweep.to_bits() {
             return Err(format!("{title}: a sweep has other bits than the calls"));
         }
     }
-    let [expert, calls, sweep] = [times[0], times[1], times[2]];
-    let [to_expert, to_calls] = [ratios[2][0], ratios[2][1]];
+    let [expert, calls, sweep] = [0, 1, 2].map(|way| timed.time(way));
+    let [to_expert, to_calls] = [0, 1].map(|to| timed.ratio(2, to));
     let count = given.theta.len();
     println!("  {title:>22} {count:>9} {expert:>8.2} {calls:>8.2} {sweep:>8.2} {to_expert:>8.3} {to_calls:>8.3}");
     Ok(())
@@ -172,10 +179,10 @@ fn table<T: Scalar, const N: usize>(
     tolerance: f64,
     ways: &[Way<'_, T, N>],
 ) -> Result<(), String> {
-    let Timed { times, ratios, .. } = timed(title, given, rounds, tolerance, ways)?;
+    let timed = timed(title, given, rounds, tolerance, ways)?;
     println!("\n  {title}, {} positions", given.theta.len());
-    for ((way, time), ratios) in ways.iter().zip(times).zip(ratios) {
-        println!("    {:<28} {time:>8.2} {:>8.3}", way.method, ratios[0]);
+    for (index, way) in ways.iter().enumerate() {
+        println!("    {:<28} {:>8.2} {:>8.3}", way.method, timed.time(index), timed.ratio(index, 0));
     }
     Ok(())
 }

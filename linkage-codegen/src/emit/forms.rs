@@ -28,22 +28,23 @@ impl<S> Forms<'_, S> {
     {
         let known = |term: T| self.terms.name(term).filter(|name| !is_sum(name) && !is_product(name));
         // As a whole a product may have a sign or a factor.
-        let whole = |term: T| self.terms.name(term).or_else(|| self.made_of(term)).filter(|name| !is_sum(name));
+        let called = |term: T| self.terms.name(term).or_else(|| self.made_of(term));
+        let whole = |term: T| called(term).filter(|name| !is_sum(name));
         let of_both = |a: T, word: &str, b: T| Some(format!("{}_{word}_{}", known(a)?, known(b)?));
         let is_constant = |term: T| self.constant(term).is_some();
         match self.terms.op(term) {
             Op::Neg(a) => Some(format!("minus_{}", whole(a)?)),
-            Op::Abs(a) => match self.terms.name(a).or_else(|| self.made_of(a))? {
+            Op::Abs(a) => match called(a)? {
                 name if is_sum(&name) => Some(format!("abs_of_{name}")),
                 name => Some(format!("abs_{name}")),
             },
             Op::Mul(a, b) if is_constant(a) => Some(scaled(&whole(b)?)),
             Op::Mul(a, b) if is_constant(b) => Some(scaled(&whole(a)?)),
-            Op::Mul(a, b) if a == b => match self.terms.name(a).or_else(|| self.made_of(a))? {
+            Op::Mul(a, b) if a == b => match called(a)? {
                 name if is_sum(&name) || is_product(&name) => Some(format!("squared_{name}")),
                 name => Some(format!("{name}_squared")),
             },
-            Op::Mul(a, b) => match [a, b].map(|factor| self.terms.name(factor).or_else(|| self.made_of(factor))) {
+            Op::Mul(a, b) => match [a, b].map(called) {
                 [Some(a), Some(b)] if is_sum(&a) && is_sum(&b) => Some(format!("product_of_{a}_and_{b}")),
                 _ => Some(product(&known(a)?, &known(b)?)),
             },

@@ -247,8 +247,7 @@ impl<'m> Scope<'m> {
             (Some(Entry { role: Role::Param | Role::Broken, .. }), _) => {
                 Ok(Quantity { expr: self.model.unread(), dimension: None })
             }
-            (None, _) if self.names.may_be(Role::Param) => Ok(Quantity { expr: self.model.unread(), dimension: None }),
-            (Some(_), _) if self.names.is_refused(Role::Param, name) => {
+            _ if self.names.may_mean(&[Role::Param], name) => {
                 Ok(Quantity { expr: self.model.unread(), dimension: None })
             }
             (Some(entry), _) => {

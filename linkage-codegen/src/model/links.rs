@@ -139,7 +139,7 @@ fn points(model: &mut Model, link: LinkId, body: &ast::Link, names: &Names, sink
                 polar_distance(model, link, id, vector, names);
             }
             PointPlace::Distances(name, distances) => {
-                let found = match measured_from_later(&body.places, index, distances) {
+                let found = match measured_from_later(&model.link(link).points, &body.places[index..], distances) {
                     // The frame itself is refused there, and what cannot be read is.
                     Some((_, PointPlace::Frame(..) | PointPlace::Unread(_))) => None,
                     Some((own, _)) if own.text == name.text => {
@@ -167,10 +167,10 @@ fn points(model: &mut Model, link: LinkId, body: &ast::Link, names: &Names, sink
     }
 }
 
-/// The first end of the distances that is declared only at this place or behind it, and where.
+/// The first end of the distances that is none of the known points, but declared at one of these places; and that place.
 fn measured_from_later<'a>(
+    known: &[Point],
     places: &'a [PointPlace],
-    index: usize,
     distances: &'a Distances,
 ) -> Option<(&'a Name, &'a PointPlace)> {
     let declares = |place: &PointPlace, end: &Name| match place {
@@ -180,12 +180,9 @@ fn measured_from_later<'a>(
         }
         PointPlace::Unread(words) => words.iter().any(|word| word.text == end.text),
     };
-    let (before, behind) = places.split_at(index);
-    let mut ends = [&distances.from, &distances.to].into_iter();
-    ends.find_map(|end| {
-        let later = behind.iter().find(|place| declares(place, end))?;
-        (!before.iter().any(|place| declares(place, end))).then_some((end, later))
-    })
+    let ends = [&distances.from, &distances.to].into_iter();
+    let mut unknown = ends.filter(|end| known.iter().all(|point| point.name.text != end.text));
+    unknown.find_map(|end| Some((end, places.iter().find(|place| declares(place, end))?)))
 }
 
 type Ids = (NodeId, NodeId);

@@ -960,6 +960,12 @@ impl Model {
                 && scene.loads.iter().filter_map(inertia).any(|kind| matches!(kind, LoadKind::Inertia))
     }
 
+    /// Whether there are wheels, to which all turns of an angle count.
+    #[must_use]
+    pub fn has_gears(&self) -> bool {
+        self.joints.iter().any(|joint| matches!(joint.kind, JointKind::Gear(_)))
+    }
+
     /// Whether any result is a resultant of forces.
     #[must_use]
     pub fn has_wrenches(&self) -> bool {

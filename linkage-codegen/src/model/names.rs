@@ -210,17 +210,19 @@ impl Names {
         match self.entries.get(&name.text) {
             Some(entry) if entry.role == Role::Broken || entry.role == role && !entry.sound => Ok(None),
             Some(entry) if entry.role == role => Ok(Some(entry.index)),
-            Some(_) if self.is_refused(role, &name.text) => Ok(None),
-            None if self.nameless.iter().any(|other| *other == role || *other == Role::Broken) => Ok(None),
+            _ if self.may_mean(&[role], &name.text) => Ok(None),
             Some(entry) => Err(entry.instead_of(role, name).suggest(&name.text, self.of(role))),
             None => Err(Diagnostic::new(name.place(), format!("there is no {} `{name}`", role.noun()))
                 .suggest(&name.text, self.of(role))),
         }
     }
 
-    /// Whether an item of this role would have the name, were it not taken.
-    pub(super) fn is_refused(&self, role: Role, name: &str) -> bool {
-        self.refused.iter().any(|(refused, of)| refused == name && *of == role)
+    /// Whether a name may be that of an item of one of these roles which is refused: for its name, which was taken, or as it could not be read.
+    pub(super) fn may_mean(&self, roles: &[Role], name: &str) -> bool {
+        match self.entries.get(name) {
+            Some(_) => self.refused.iter().any(|(refused, of)| refused == name && roles.contains(of)),
+            None => roles.iter().any(|role| self.may_be(*role)),
+        }
     }
 
     /// What a name stands for.

@@ -163,12 +163,7 @@ fn variable(model: &Model, end: &ast::End, names: &Names) -> Result<Option<Varia
             })
         }
         Some((Role::Param, index, _)) => found(By::Parameter(ParamId::new(index))),
-        None if [Role::Drive, Role::Load, Role::Param].into_iter().any(|role| names.may_be(role)) => Ok(None),
-        Some(_)
-            if [Role::Drive, Role::Load, Role::Param].into_iter().any(|role| names.is_refused(role, &name.text)) =>
-        {
-            Ok(None)
-        }
+        _ if names.may_mean(&[Role::Drive, Role::Load, Role::Param], &name.text) => Ok(None),
         Some((role, ..)) => {
             let problem = format!("`{name}` is {}, and nothing that varies by itself", role.describe());
             Err(Diagnostic::new(name.place(), problem)
@@ -748,10 +743,7 @@ fn named_result(
                 .help(format!("write `{name}.angle`, or a point of it, such as `{name}.{point}`")))
         }
         None if name.text == "power" => power(model, given, method, (name.place(), None), names),
-        None if names.may_be(Role::Joint) || names.may_be(Role::Load) || names.may_be(Role::Unknown) => Ok(None),
-        _ if [Role::Joint, Role::Load, Role::Unknown].into_iter().any(|role| names.is_refused(role, &name.text)) => {
-            Ok(None)
-        }
+        _ if names.may_mean(&[Role::Joint, Role::Load, Role::Unknown], &name.text) => Ok(None),
         _ => {
             let known: Vec<&str> = match method {
                 _ if !method.has_loads() => names.of(Role::Joint).collect(),

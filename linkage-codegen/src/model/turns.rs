@@ -82,7 +82,7 @@ impl Model {
     /// The angles from a link that follow from drives alone, gears among what leads there.
     fn driven_angles(&self, from: LinkId) -> BTreeMap<LinkId, [Expr<'_>; 2]> {
         let (zero, one) = (self.graph.zero(), self.graph.one());
-        if self.joints.iter().all(|joint| !matches!(joint.kind, JointKind::Gear(_))) {
+        if !self.has_gears() {
             return BTreeMap::new();
         }
         let mut open: Vec<Condition<'_>> = Vec::new();

@@ -67,7 +67,7 @@ pub(super) fn check(model: &Model, sink: &Sink) {
         }
     }
     // Only wheels, and what is joined to them, keep an angle.
-    let gears = model.joints.iter().any(|joint| matches!(joint.kind, JointKind::Gear(_)));
+    let gears = model.has_gears();
     for link in model.links.iter().filter(|_| gears) {
         for name in [format!("angle_{}", link.name), format!("angle_{}_before", link.name)] {
             values.insert(name, format!("is an angle of `{}`", link.name));

@@ -3,7 +3,7 @@
 use crate::equations::poses::{Pose, Poses, Random};
 use crate::graph::{NodeId, NodeValues, Symbol};
 use crate::model::ids::{DriveId, GROUND, JointId, LinkId};
-use crate::model::{JointKind, Model, Start};
+use crate::model::{Model, Start};
 
 /// Poses from which one that closes is looked for, first with the links that have a start there, then with all of them anywhere.
 const TRIES: u64 = 60;
@@ -133,7 +133,7 @@ impl Wanted<'_, '_> {
 
     /// An angle within a turn, but where wheels count their turns.
     fn turned(&self, angle: f64) -> f64 {
-        let counts = self.model.joints.iter().any(|joint| matches!(joint.kind, JointKind::Gear(_)));
+        let counts = self.model.has_gears();
         let turn = core::f64::consts::TAU;
         if counts { angle } else { angle - turn * (angle / turn).round() }
     }

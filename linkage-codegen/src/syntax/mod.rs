@@ -21,7 +21,7 @@ pub(crate) use scenes::METHODS;
 
 use ast::{Ast, Item};
 use recovery::{at_item, pass_over, unread};
-use tokens::{NO_ATTRIBUTES, NO_ATTRIBUTES_HELP, between, place_of, take};
+use tokens::{NO_ATTRIBUTES, between, place_of, take};
 
 use crate::diagnostics::{Diagnostic, Place, Sink};
 
@@ -123,7 +123,7 @@ fn declaration(input: ParseStream<'_>, sink: &Sink) -> Option<Ast> {
     let mut items = Vec::new();
     while !input.is_empty() {
         if let Some(place) = attributes_of_item(input) {
-            sink.report(Diagnostic::new(place, NO_ATTRIBUTES).help(NO_ATTRIBUTES_HELP));
+            sink.report(Diagnostic::new(place, NO_ATTRIBUTES));
             continue;
         }
         items.push(item(input, sink));

@@ -6,7 +6,7 @@ use syn::token::Paren;
 use syn::{Error, Lit, Result, Token};
 
 use super::ast::{Direction, DirectionKind, Magnitude, Value, ValueKind, VectorKind, VectorValue};
-use super::tokens::{NO_ATTRIBUTES, NO_ATTRIBUTES_HELP, eat_word, name, peek_word};
+use super::tokens::{NO_ATTRIBUTES, eat_word, name, peek_word};
 use crate::diagnostics::Place;
 
 /// Operations within operations, those in a row included.
@@ -131,7 +131,7 @@ fn atom(input: ParseStream<'_>) -> Result<Value> {
         return built(ValueKind::Name(word.text), place);
     }
     if input.peek(Token![#]) {
-        return Err(input.error(format!("{NO_ATTRIBUTES}\nhelp: {NO_ATTRIBUTES_HELP}")));
+        return Err(input.error(NO_ATTRIBUTES));
     }
     Err(input.error("expected a value, such as `80mm`"))
 }

@@ -9,10 +9,8 @@ use super::ast::Name;
 use crate::diagnostics::Place;
 
 /// Why an attribute is refused anywhere but above the module.
-pub(super) const NO_ATTRIBUTES: &str = "items have no attributes or documentation comments";
-/// What to do instead.
-pub(super) const NO_ATTRIBUTES_HELP: &str =
-    "document the module above `mod`, and write plain comments `// …` beside items";
+pub(super) const NO_ATTRIBUTES: &str = "items have no attributes or documentation comments
+help: document the module above `mod`, and write plain comments `// …` beside items";
 
 /// A name. Rust's keywords serve; the few that cannot be written as raw identifiers are refused where they are declared.
 pub(super) fn name(input: ParseStream<'_>) -> Result<Name> {
@@ -24,9 +22,7 @@ pub(super) fn name(input: ParseStream<'_>) -> Result<Name> {
                 format!("expected a name, found `{literal}`\nhelp: names begin with a letter"),
             ),
             Ok(TokenTree::Group(group)) => Error::new(group.span_open(), "expected a name before the bracket"),
-            Ok(TokenTree::Punct(pound)) if pound.as_char() == '#' => {
-                Error::new(pound.span(), format!("{NO_ATTRIBUTES}\nhelp: {NO_ATTRIBUTES_HELP}"))
-            }
+            Ok(TokenTree::Punct(pound)) if pound.as_char() == '#' => Error::new(pound.span(), NO_ATTRIBUTES),
             Ok(other) => Error::new(other.span(), format!("expected a name, found `{other}`")),
             Err(_) => begin.error("expected a name"),
         });

@@ -166,10 +166,10 @@ impl Body<'_> {
             let names: Vec<&Ident> = of.iter().filter_map(|value| self.names.get(value)).collect();
             (value, part_of(&names))
         };
+        let prepares = self.program.prepares();
         let results = self.program.outputs.iter().map(|(path, of)| {
             // What is prepared goes to no place of its own among results.
-            let what =
-                if path.is_empty() && self.program.prepares() { "prepared for poses and scenes" } else { "a result" };
+            let what = if path.is_empty() && prepares { "prepared for poses and scenes" } else { "a result" };
             (*of, what.to_owned())
         });
         served.into_iter().map(part_of).chain(results).collect()

@@ -59,9 +59,8 @@ impl Rule for Crank {
         let joint = model.joint(pin);
         let (other, sense) = if joint.to.link == link { (joint.from.link, 1) } else { (joint.to.link, -1) };
         // To wheels all turns of the drive count, wherever the other link's own angle lies.
-        let geared = model.joints.iter().any(|joint| matches!(joint.kind, JointKind::Gear(_)));
         let from = assembly.placement.unwrapped_angle(other);
-        if let Some(from) = from.or_else(|| geared.then(|| assembly.placement.angle(other))) {
+        if let Some(from) = from.or_else(|| model.has_gears().then(|| assembly.placement.angle(other))) {
             assembly.placement.set_angle(link, from + sense * assembly.coordinate(drive));
         }
         Ok(())

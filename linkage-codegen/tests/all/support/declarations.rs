@@ -27,18 +27,15 @@ pub fn linkages() -> Vec<(String, Linkage)> {
 
 /// The same in fused arithmetic.
 pub fn fused_linkages() -> Vec<(String, Linkage)> {
+    let option: TokenStream = "arithmetic fused;".parse().expect("tokens");
     let fused = declarations().into_iter().map(|(name, tokens)| {
-        let (header, items) = tokens.into_iter().partition::<Vec<_>, _>({
-            let mut behind = false;
-            move |token| {
-                let before = !behind;
-                behind |= matches!(token, TokenTree::Punct(mark) if mark.as_char() == ';');
-                before
-            }
-        });
-        let is_option = items.iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "arithmetic"));
-        let option: TokenStream = if is_option { "" } else { "arithmetic fused;" }.parse().expect("tokens");
-        (name, header.into_iter().chain(option).chain(items).collect())
+        let mut tokens: Vec<TokenTree> = tokens.into_iter().collect();
+        if !tokens.iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "arithmetic")) {
+            let ends = |token: &TokenTree| matches!(token, TokenTree::Punct(mark) if mark.as_char() == ';');
+            let header = 1 + tokens.iter().position(ends).expect("a header");
+            tokens.splice(header..header, option.clone());
+        }
+        (name, tokens.into_iter().collect())
     });
     fused.map(analysed).collect()
 }
