@@ -834,11 +834,12 @@ fn no_program_computes_the_same_twice() {
             let mut there: HashMap<(Op<ValueId>, bool), ValueId> = HashMap::new();
             for value in program.computed() {
                 computed += 1;
-                let op = match program.op(value).expect("computed") {
-                    Op::Add(a, b) => Op::Add(*a.min(b), *a.max(b)),
-                    Op::Mul(a, b) => Op::Mul(*a.min(b), *a.max(b)),
-                    op => op.clone(),
-                };
+                let mut op = program.op(value).expect("computed").clone();
+                match &mut op {
+                    Op::Add(a, b) | Op::Mul(a, b) => (*a, *b) = (*a.min(b), *a.max(b)),
+                    Op::Kernel { kernel: Kernel::MulAdd, args, .. } => args[..2].sort_unstable(),
+                    _ => {}
+                }
                 let first = *there.entry((op, program.value(value).divided)).or_insert(value);
                 let are_lines = [first, value].iter().all(|value| program.value(*value).label.is_some());
                 if first != value && !are_lines {

@@ -168,8 +168,8 @@ impl Body<'_> {
         };
         let prepares = self.program.prepares();
         let results = self.program.outputs.iter().map(|(path, of)| {
-            // What is prepared goes to no place of its own among results.
-            let what = if path.is_empty() && prepares { "prepared for poses and scenes" } else { "a result" };
+            // What limits are compared by are results without a name.
+            let what = if prepares && !path.is_empty() { "prepared for poses and scenes" } else { "a result" };
             (*of, what.to_owned())
         });
         served.into_iter().map(part_of).chain(results).collect()

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use rustc_hash::FxHashMap;
 
 use super::multiples::MULTIPLE;
-use crate::graph::{Graph, Label, Op};
+use crate::graph::{Graph, Kernel, Label, Op};
 use crate::program::{Definition, Program, Step, ValueId};
 
 pub(super) fn compute_once(mut program: Program, _graph: &Graph) -> Program {
@@ -71,9 +71,14 @@ fn both(there: Option<Label>, label: Option<Label>) -> Option<Label> {
 
 /// Sums and products of the same in either order are the same.
 fn in_one_order(op: &Op<ValueId>) -> Op<ValueId> {
-    match *op {
-        Op::Add(a, b) if b < a => Op::Add(b, a),
-        Op::Mul(a, b) if b < a => Op::Mul(b, a),
+    match op {
+        Op::Add(a, b) if b < a => Op::Add(*b, *a),
+        Op::Mul(a, b) if b < a => Op::Mul(*b, *a),
+        Op::Kernel { kernel: Kernel::MulAdd, args, part } => {
+            let mut args = args.clone();
+            args[..2].sort_unstable();
+            Op::Kernel { kernel: Kernel::MulAdd, args, part: *part }
+        }
         _ => op.clone(),
     }
 }
