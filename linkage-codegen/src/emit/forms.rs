@@ -44,8 +44,10 @@ impl<S> Forms<'_, S> {
                 name if is_sum(&name) || is_product(&name) => Some(format!("squared_{name}")),
                 name => Some(format!("{name}_squared")),
             },
-            Op::Mul(a, b) => match [a, b].map(called) {
-                [Some(a), Some(b)] if is_sum(&a) && is_sum(&b) => Some(format!("product_of_{a}_and_{b}")),
+            Op::Mul(a, b) => match ([a, b].map(called), [a, b].map(|term| self.divisor(term))) {
+                ([Some(a), Some(b)], _) if is_sum(&a) && is_sum(&b) => Some(format!("product_of_{a}_and_{b}")),
+                (_, [Some(divisor), None]) => of_both(b, "over", divisor),
+                (_, [None, Some(divisor)]) => of_both(a, "over", divisor),
                 _ => Some(product(&known(a)?, &known(b)?)),
             },
             Op::Div(a, b) => match self.constant(a) {
@@ -59,6 +61,17 @@ impl<S> Forms<'_, S> {
             Op::Add(a, b) => of_both(a, "plus", b).or_else(|| self.product_of_vectors(term)),
             Op::Sub(a, b) => of_both(a, "minus", b).or_else(|| self.product_of_vectors(term)),
             Op::Kernel { kernel: Kernel::MulAdd, .. } => self.product_of_vectors(term),
+            _ => None,
+        }
+    }
+
+    /// What one is divided by, without a name of its own.
+    fn divisor<T: Copy>(&self, term: T) -> Option<T>
+    where
+        S: Terms<T>,
+    {
+        match (self.terms.name(term), self.terms.op(term)) {
+            (None, Op::Div(one, divisor)) if self.constant(one).is_some_and(|one| one.is_one()) => Some(divisor),
             _ => None,
         }
     }

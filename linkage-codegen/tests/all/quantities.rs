@@ -70,3 +70,29 @@ fn a_length_that_is_a_distance_elsewhere_is_refused_where_it_is_negative() {
         assert!(prepared(0.0).is_err());
     }
 }
+
+/// What is prepared from parameters is called by what it is, and said to be prepared.
+#[test]
+fn what_is_prepared_has_names() {
+    let linkage = compile(
+        "mod adjusted; units { mm, N } param l2: length; param l3: length; param l4: length; param b0: length;
+         ground { A0: (0, 0), B0: (b0, 0) } link crank { A0 -> A: l2 }
+         link coupler { A -> B: l3, C: left(A -> B, 70mm, 80mm) } link rocker { B0 -> B: l4 }
+         revolute A0: ground -> crank; revolute A: crank -> coupler; revolute B: coupler -> rocker; revolute B0: ground -> rocker;
+         drive theta: A0; assemble B: left(A -> B0); load F: force(coupler.C); scene statics: equilibrium;",
+    );
+    let text = linkage_codegen::emit::equations(&linkage);
+    let prepared = "\n    prepared for poses and scenes\n";
+    for lines in [
+        format!("{prepared}      l3_plus_l4 = l3 + l4\n"),
+        format!(
+            "{prepared}      abs_of_l3_minus_l4 = |l3_minus_l4|\n      squared_l3_plus_l4 = l3_plus_l4·l3_plus_l4\n"
+        ),
+        format!("{prepared}      product_of_l3_minus_l4_and_l3_plus_l4 = l3_minus_l4·l3_plus_l4\n"),
+        format!(
+            "{prepared}      coupler_C_x_over_l3 = inverse_l3·coupler_C_x\n      coupler_C_y_over_l3 = inverse_l3·coupler_C_y\n"
+        ),
+    ] {
+        assert!(text.contains(&lines), "{lines:?} in {text}");
+    }
+}
