@@ -1,5 +1,6 @@
 //! The body of a function: a program as statements.
 
+mod blocks;
 mod naming;
 
 use std::borrow::Cow;
@@ -8,6 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use self::blocks::Blocks;
 use super::formula::{Formula, Values};
 use super::literals::{ident, literal};
 use crate::graph::number::Number;
@@ -49,6 +51,8 @@ pub(super) struct Body<'a> {
     /// The name of every value that has its own statement, or is an input.
     names: BTreeMap<ValueId, Ident>,
     checks: Checks,
+    /// The path of every value that is a result; the first, of several.
+    results: BTreeMap<ValueId, &'a str>,
     /// What values are for of which no label says what they mean.
     purposes: BTreeMap<ValueId, String>,
     /// Of sines that are found in two statements, what lies between.
@@ -148,6 +152,7 @@ impl<'a> Body<'a> {
             graph,
             names,
             checks: Checks::Reported,
+            results: program.outputs.iter().rev().map(|(path, value)| (*value, path.as_str())).collect(),
             purposes: BTreeMap::new(),
             angles: BTreeMap::new(),
         };
@@ -165,7 +170,7 @@ impl<'a> Body<'a> {
             let own = program.value(*value).label.is_some()
                 || uses[value.index()] > 1
                 || matches!(program.op(*value), Some(Op::Kernel { kernel, .. }) if *kernel != Kernel::MulAdd)
-                || program.outputs.iter().any(|(_, output)| output == value);
+                || body.results.contains_key(value);
             if own {
                 // A name that is made of a keyword is none.
                 let wanted = body.wanted_name(*value, &readers, &coefficients).replace("r#", "");
@@ -477,13 +482,14 @@ impl<'a> Body<'a> {
     pub(super) fn statements(self) -> (TokenStream, Self) {
         let mut notes = Notes::default();
         let mut calls = self.calls();
-        let mut statements = TokenStream::new();
+        let mut blocks = Blocks::new(self.program.steps.len());
         let angles = self.program.angles();
         for step in &self.program.steps {
             let statement = match step {
                 Step::Let(value) => {
-                    let own = self.let_statements(*value, &mut calls);
-                    statements.extend(own.iter().map(|statement| notes.with(statement)));
+                    for statement in self.let_statements(*value, &mut calls) {
+                        blocks.add(notes.with(&statement), statement.code, statement.section);
+                    }
                     continue;
                 }
                 Step::Check { guard, weaker, .. } => self.check(guard, weaker.as_ref()),
@@ -493,9 +499,10 @@ impl<'a> Body<'a> {
             };
             // Behind a check it is said again.
             notes.meaning = Cow::Borrowed("");
-            statements.extend(statement);
+            blocks.add(statement.clone(), statement, notes.section);
         }
-        (statements, self)
+        let results = self.program.outputs.iter().map(|(_, value)| self.value(*value)).collect();
+        (blocks.joined(results), self)
     }
 
     fn calls(&self) -> Calls {

@@ -1,5 +1,6 @@
 //! The functions of a module.
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 use proc_macro2::{Literal, TokenStream};
@@ -26,12 +27,13 @@ pub(super) fn taken() -> Vec<&'static str> {
 /// The names of inputs.
 pub(super) struct InputNames<'a> {
     linkage: &'a Linkage,
-    prepared: BTreeMap<NodeId, String>,
+    /// Those of what is prepared, once one of them is read: few functions read any.
+    prepared: OnceCell<BTreeMap<NodeId, String>>,
 }
 
 impl<'a> InputNames<'a> {
     pub(super) fn of(linkage: &'a Linkage) -> Self {
-        Self { linkage, prepared: prepared_names(linkage) }
+        Self { linkage, prepared: OnceCell::new() }
     }
 
     /// That of one.
@@ -57,7 +59,10 @@ impl<'a> InputNames<'a> {
                 let kept = self.linkage.plan.pose.iter().find(|kept| kept.node == node);
                 kept.map_or_else(String::new, |kept| kept.name.clone())
             }
-            Input::Prepared(node) => self.prepared.get(&node).cloned().unwrap_or_default(),
+            Input::Prepared(node) => {
+                let names = self.prepared.get_or_init(|| prepared_names(self.linkage));
+                names.get(&node).cloned().unwrap_or_default()
+            }
         }
     }
 }

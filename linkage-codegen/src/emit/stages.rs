@@ -24,7 +24,7 @@ pub(super) struct Work<'a> {
 }
 
 /// Identifiers by their texts, which are compared more cheaply.
-type Names = BTreeMap<String, Ident>;
+pub(super) type Names = BTreeMap<String, Ident>;
 
 /// A statement, and what is asked of it.
 struct Task<'a> {
@@ -43,12 +43,7 @@ struct Task<'a> {
 
 impl<'a> Task<'a> {
     fn new(statement: Statement<'a>) -> Self {
-        let pattern = statement.code.clone().into_iter().skip(1);
-        // In front of a type, if there is one.
-        let is_end =
-            |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if [':', '='].contains(&punct.as_char()));
-        let pattern = pattern.take_while(|token| !is_end(token));
-        let defines = names(&pattern.collect());
+        let defines = defined(&statement.code);
         let words = Words::of(&statement.code);
         let (operations, reduces_an_angle, is_long) = (words.operations(), words.reduce_an_angle(), words.are_long());
         let is_quotient = is_long && words.functions.iter().all(|function| function.kind == Kind::Quick);
@@ -160,8 +155,20 @@ impl Words {
     }
 }
 
-fn names(code: &TokenStream) -> Names {
+/// The names of the values in some code.
+pub(super) fn names(code: &TokenStream) -> Names {
     Words::of(code).names
+}
+
+/// The names that a statement binds, if it is a `let`.
+pub(super) fn defined(code: &TokenStream) -> Names {
+    let mut tokens = code.clone().into_iter();
+    if !matches!(tokens.next(), Some(TokenTree::Ident(word)) if word == "let") {
+        return Names::new();
+    }
+    // In front of a type, if there is one.
+    let is_end = |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if [':', '='].contains(&punct.as_char()));
+    names(&tokens.take_while(|token| !is_end(token)).collect())
 }
 
 /// The stages of some work, of which the names in `given` are known before.

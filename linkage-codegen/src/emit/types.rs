@@ -458,10 +458,7 @@ fn total(base: &str, ty: &Ident, output: &Output) -> TokenStream {
         })
         .collect();
     let Some(fields) = first_contribution(output) else { return TokenStream::new() };
-    let sum = |part: &TokenStream| {
-        let parts = paths.iter().map(|path| quote!(#path #part));
-        parts.reduce(|sum, part| quote!(#sum + #part)).unwrap_or_else(|| quote!(0.0))
-    };
+    let sum = |part: &TokenStream| quote!(#(#paths #part)+*);
     let members = fields.iter().map(|field| {
         let name = ident(&field.name);
         let value = match &field.value {

@@ -9,6 +9,7 @@ use crate::support::numbers::Double;
 use crate::support::{Arguments, Told, checked_pose, checked_prepared, direct, moved, pose, told, told_as_printed};
 use linkage_codegen::Linkage;
 use linkage_runtime::{Error, Side, Vector2, polar};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 #[path = "../../../examples/four_bar.rs"]
 #[allow(dead_code, unused_imports, missing_docs, reason = "only its declaration is used here")]
@@ -115,6 +116,48 @@ declared! { BOUNDED:
     start d: (400mm, -100mm), angle 115deg; load F: force(c.S); load I: inertia;
     scene held: equilibrium(F) -> (T, C, error_bound); scene speeds: velocity -> (t.G, d.angle, error_bound);
     scene carried: equilibrium(I) -> (T, error_bound);
+}
+
+/// Dyads of a coupler and a rocker, each behind the rocker before, and weights.
+macro_rules! chain {
+    ($text:ident: $name:ident: $($driver:ident $pin:ident $coupler:ident $middle:ident $rocker:ident $ground:ident $x:tt $next:ident,)*) => {
+        declared! { $text:
+            mod $name;
+            units { mm, N }
+            ground { O: (0, 0) $(, $ground: ($x, 3mm))* }
+            link crank { O -> A: 50mm }
+            $(
+                link $coupler { $pin -> $middle: 140mm }
+                link $rocker { $ground -> $middle: 100mm, $next: (50mm, 20mm) }
+                mass $coupler: 0.9kg at (65mm, 12mm);
+                mass $rocker: 0.8kg at (60mm, -10mm);
+            )*
+            revolute O: ground -> crank;
+            $(
+                revolute $pin: $driver -> $coupler;
+                revolute $middle: $coupler -> $rocker;
+                revolute $ground: ground -> $rocker;
+                assemble $middle: left($pin -> $ground);
+            )*
+            drive q: O;
+            load W: gravity = 9.81m/s^2 @ -90deg;
+            scene parts: superposition;
+        }
+    };
+}
+
+chain! { LONG: long:
+    crank A b C c P 150mm D,
+    c D e F f Q 300mm G,
+    f G h I i R 450mm J,
+    i J k L l S 600mm M,
+    l M n U u T 750mm V,
+    u V w X x Y 900mm Z,
+    x Z bb CC cc PP 1050mm DD,
+    cc DD ee FF ff QQ 1200mm GG,
+    ff GG hh II ii RR 1350mm JJ,
+    ii JJ kk LL ll SS 1500mm MM,
+    ll MM nn UU uu TT 1650mm VV,
 }
 
 /// What an emitted function gave.
@@ -357,6 +400,45 @@ fn fused_arithmetic() {
         interpreted.check("places", &arguments, &fused::places_at(theta), &pose.and_then(|pose| pose.places()));
     }
     assert_eq!(interpreted.linkage.functions.scenes[0].direct.counts().fused, 22);
+}
+
+/// The most statements with `let` that one block has.
+fn most_bindings(code: TokenStream) -> usize {
+    let (mut own, mut most) = (0, 0);
+    for token in code {
+        match token {
+            TokenTree::Ident(word) if word == "let" => own += 1,
+            TokenTree::Group(group) => most = most.max(most_bindings(group.stream())),
+            _ => {}
+        }
+    }
+    most.max(own)
+}
+
+/// The body of the function of this name in a module.
+fn body_of(module: TokenStream, name: &str) -> Option<TokenStream> {
+    let block = |token| match token {
+        TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => Some(group.stream()),
+        _ => None,
+    };
+    let mut items = module.into_iter().find_map(block)?.into_iter();
+    items.find(|token| matches!(token, TokenTree::Ident(word) if word == name))?;
+    items.find_map(block)
+}
+
+/// In blocks, of which each leaves what others read.
+#[test]
+fn long_functions() {
+    let interpreted = Interpreted::of_text(LONG);
+    let steps = interpreted.linkage.functions.scenes[0].direct.steps.len();
+    let body = body_of(linkage_codegen::expand(LONG.parse().expect("tokens")), "parts_at").expect("a function");
+    let most = most_bindings(body);
+    assert!(steps > 2000 && most < 450, "{steps} steps, {most} bindings in a block");
+    for theta in angles() {
+        let arguments = Arguments { drives: vec![theta], loads: vec![[0.0; 2]], ..Arguments::default() };
+        let pose = long::Pose::at(theta);
+        interpreted.check("parts", &arguments, &long::parts_at(theta), &pose.and_then(|pose| pose.parts()));
+    }
 }
 
 /// In place of a number.

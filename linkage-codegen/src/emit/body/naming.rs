@@ -177,7 +177,7 @@ impl Body<'_> {
 
     /// The name of a result; of one of those that are compared with each other, that it is one.
     fn result_name(&self, value: ValueId) -> Option<String> {
-        let (path, _) = self.program.outputs.iter().find(|(_, output)| *output == value)?;
+        let path = self.results.get(&value)?;
         Some(if path.is_empty() { "compared".to_owned() } else { path.replace('.', "_") })
     }
 }
