@@ -488,7 +488,7 @@ impl<'a> Body<'a> {
             let statement = match step {
                 Step::Let(value) => {
                     for statement in self.let_statements(*value, &mut calls) {
-                        blocks.add(notes.with(&statement), statement.code, statement.section);
+                        blocks.add(notes.with(&statement), &statement.code, statement.section);
                     }
                     continue;
                 }
@@ -499,10 +499,10 @@ impl<'a> Body<'a> {
             };
             // Behind a check it is said again.
             notes.meaning = Cow::Borrowed("");
-            blocks.add(statement.clone(), statement, notes.section);
+            blocks.add(statement.clone(), &statement, notes.section);
         }
         let results = self.program.outputs.iter().map(|(_, value)| self.value(*value)).collect();
-        (blocks.joined(results), self)
+        (blocks.joined(&results), self)
     }
 
     fn calls(&self) -> Calls {

@@ -37,7 +37,7 @@ impl<'a> Blocks<'a> {
     }
 
     /// Adds a statement: with what stands above it, alone, and of which section it is.
-    pub(super) fn add(&mut self, with_notes: TokenStream, statement: TokenStream, section: &'a str) {
+    pub(super) fn add(&mut self, with_notes: TokenStream, statement: &TokenStream, section: &'a str) {
         let count = self.all.last().map_or(0, |block| block.statements.len());
         if self.is_long && (count >= MOST || count >= LENGTH && section != self.section) {
             self.all.push(Block::default());
@@ -45,15 +45,15 @@ impl<'a> Blocks<'a> {
         self.section = section;
         let Some(block) = self.all.last_mut() else { return };
         if self.is_long {
-            block.defines.extend(defined(&statement));
-            block.reads.extend(names(&statement));
+            block.defines.extend(defined(statement));
+            block.reads.extend(names(statement));
         }
         block.statements.push(with_notes);
     }
 
     /// The statements of a function with these results.
-    pub(super) fn joined(self, results: TokenStream) -> TokenStream {
-        let mut read = names(&results);
+    pub(super) fn joined(self, results: &TokenStream) -> TokenStream {
+        let mut read = names(results);
         let mut code = Vec::new();
         let last = self.all.len() - 1;
         for (number, Block { statements, defines, reads }) in self.all.into_iter().enumerate().rev() {
