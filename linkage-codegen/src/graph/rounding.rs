@@ -210,7 +210,8 @@ impl<'g> Rounding<'g> {
         let of = |(index, (equations, values)): (usize, &(Vec<Equation<'g>>, Vec<Expr<'g>>))| {
             let numbers = equations.iter().flat_map(|equation| equation.coefficients.iter().chain([&equation.right]));
             let last = numbers.map(|number| number.id()).max();
-            let unknown = values.iter().filter(|value| Some(value.id()) > last);
+            // Nor did one that is known when compiled: it is rounded once.
+            let unknown = values.iter().filter(|value| value.value().is_none() && Some(value.id()) > last);
             unknown.map(|value| (value.id(), index)).collect::<Vec<_>>()
         };
         let solved = solutions.iter().enumerate().flat_map(of).collect();

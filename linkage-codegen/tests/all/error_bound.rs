@@ -374,3 +374,24 @@ fn where_nothing_is_off() {
     assert!(bounds(0.0).into_iter().all(|bound| bound < 1e-13), "{:?}", bounds(0.0));
     assert!(bounds(1e-12).into_iter().all(|bound| bound < 1e-13), "{:?}", bounds(1e-12));
 }
+
+/// Forces of wheels that stand still, which constant loads make constants: they are rounded once, whatever their equations are.
+#[test]
+fn of_constants_that_are_solved_for() {
+    for moment in ["1N*m", "2N*m", "3N*m", "0.1N*m", "11.7N*m"] {
+        let text = format!(
+            "mod planetary; ground {{ C: (150mm, 100mm), D: (300mm, 0) }} link crank {{ D -> T: 50mm }} link wheel {{ C: (0, 0) }}
+             link arm {{ C -> P: 80mm }} link planet {{ P }} revolute D: ground -> crank; drive q: D; weld C: wheel -> ground;
+             revolute C2: ground.C -> arm.C; revolute P: arm -> planet; gear G1: planet.P -> wheel.C, radii (50mm, 30mm);
+             gear G2: ground.C -> planet.P, radii (130mm, 50mm), internal; load M: moment(arm) = {moment};"
+        );
+        let linkage = with_bounds(&text).expect("it closes");
+        let arguments = Arguments { drives: vec![0.3], loads: vec![[0.0; 2]], ..Arguments::default() };
+        check::<Double>(&linkage, &arguments, &text);
+        let found = scene::<Double>(&linkage, "bounded", &arguments).expect("no pivot vanishes");
+        let (bounds, results): (Vec<_>, Vec<_>) = found.iter().partition(|(path, _)| path.starts_with("error_bound."));
+        let largest = results.iter().map(|(_, result)| result.0.abs()).fold(0.0, f64::max);
+        assert!(bounds.len() == results.len() && largest > 0.0, "{found:?}");
+        assert!(bounds.iter().all(|(_, bound)| bound.0 <= 2.0 * f64::EPSILON * largest), "{found:?}");
+    }
+}
