@@ -315,3 +315,51 @@ fn a_closure_that_means_another_side_in_the_inverse_is_checked() {
     }
     assert!(found[0] > 50 && found[1] > 50, "{found:?}");
 }
+
+linkage! {
+    /// The same, asked for how far the pin has slid: then it is the middle pin of a dyad, to the left or to the right of the outer ones.
+    mod slid;
+    ground     { A: (0, 0), B: (0.04m, -0.06m) }
+    link rod   { P: (0, 0), A: (-0.15m, 0.05m) }
+    link lever { B: (0, 0), Q: (-0.004m, 0.075m) }
+    revolute A: ground -> rod;
+    revolute B: ground -> lever;
+    slot N: rod.P -> lever.Q along -20deg of rod;
+    drive x: A;
+    assemble N: ahead(B);
+    assemble N: either(A -> B);
+    scene place: position -> (N, lever.angle);
+    scene back: inverse(N.travel) -> (x, x.rate);
+}
+
+#[test]
+fn the_travel_of_a_slot_leads_back() {
+    let mut found = [0, 0];
+    for step in -314_i32..=314 {
+        let x = 0.01 * f64::from(step);
+        // The side is the inverse's alone: no pose of the lever hangs on it.
+        let pose_at = |x: f64| slid::Pose::at(x, slid::Closures { N: Side::Left });
+        let Ok(pose) = pose_at(x) else { continue };
+        let motion = slid::BackMotion { N_travel_rate: 0.5, ..slid::BackMotion::default() };
+        let mut returned = false;
+        for (index, side) in [Side::Left, Side::Right].into_iter().enumerate() {
+            match slid::back_at(pose.travel_N(), slid::Closures { N: side }, &motion) {
+                Ok(back) => {
+                    let (sin, cos) = (back.x - x).sin_cos();
+                    let is_same = sin.abs() < 1e-6 && cos > 0.0;
+                    returned |= is_same;
+                    found[index] += usize::from(is_same);
+                    let again = |x: f64| pose_at(x).expect("what is found leads back").travel_N();
+                    assert!((again(back.x) - pose.travel_N()).abs() < 1e-12, "{x}");
+                    let change = again(back.x + 1e-6 * back.x_rate) - again(back.x - 1e-6 * back.x_rate);
+                    // Next to a dead centre, either way, the slope changes within the difference.
+                    assert!((change - 1e-6).abs() < 1e-9 * (1.0 + back.x_rate.powi(2)), "{x}: {change}");
+                }
+                Err(Error::OtherSide { joint: "N" } | Error::DeadCentre { .. }) => {}
+                Err(other) => panic!("{x}: {other}"),
+            }
+        }
+        assert!(returned, "{x}");
+    }
+    assert!(found[0] > 50 && found[1] > 50, "{found:?}");
+}

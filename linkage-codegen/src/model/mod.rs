@@ -1022,10 +1022,12 @@ impl Model {
         // Where a linkage is driven otherwise, what is said of a joint and a slide of the declaration's groups is said of no other slide.
         let sides = self.exchanged.as_ref().map_or(&[][..], |exchanged| &exchanged.closures);
         let along = move |id: ClosureId| sides.iter().find(|side| side.closure == id).and_then(|side| side.along);
+        // Nor is what is said of a slot, where it is driven along itself: it is a pin then.
+        let is_pin = move |[slot, joint]: [JointId; 2]| slot == joint && self.drive_of(slot, false).is_some();
         let fits = move |id: &ClosureId| {
             let closure = self.closure(*id);
             let named = closure.joint == inner && closure.of.iter().all(|of| outer.contains(of));
-            named && along(*id).is_none_or(|joints| joints.iter().all(own))
+            named && along(*id).is_none_or(|joints| joints.iter().all(own) && !is_pin(joints))
         };
         (0..self.closures.len()).map(ClosureId::new).filter(fits)
     }

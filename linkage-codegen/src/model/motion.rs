@@ -221,10 +221,11 @@ pub(super) fn closures(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink)
         let Item::Assemble(given) = item else { continue };
         let found = closure(Scope { model, names }, given);
         let Some(Some(closure)) = sink.absorb(found) else { continue };
-        // A linkage that is also driven otherwise may be assembled at one joint between others.
+        // A linkage that is also driven otherwise may be assembled at one joint between others, and across a line instead of along one.
         let again = |own: &Closure| {
             let both_given = own.is_given_at_run_time() && closure.is_given_at_run_time();
-            own.joint == closure.joint && (both_given || own.of.iter().all(|of| closure.of.contains(of)))
+            let is_same = own.of.len() == closure.of.len() && own.of.iter().all(|of| closure.of.contains(of));
+            own.joint == closure.joint && (both_given || is_same)
         };
         if model.closures.iter().any(again) {
             let problem = format!("the side of `{}` is chosen already", given.joint);

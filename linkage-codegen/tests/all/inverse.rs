@@ -276,3 +276,17 @@ fn tally(seeds: core::ops::Range<u64>) -> Tally {
     }
     tally
 }
+
+/// Of the two pins that a side of a slide may be told from, the help names the one that says nothing of the declaration's own group.
+#[test]
+fn a_side_is_asked_for_that_can_be_given() {
+    let declared = "mod pump; ground { O: (0, 0), Q: (60mm, 10mm) } link crank { O -> A: 20mm }
+         link guide { Q: (0, 0) } link rod { A: (0, 0) }
+         revolute O: ground -> crank; revolute A: crank -> rod; revolute Q: ground -> guide;
+         prismatic S: guide.Q -> rod.A along 0deg of guide; drive q: O; assemble S: behind(A); scene back: inverse(A) -> (q);";
+    let refusal = linkage_codegen::analyse(declared.parse().expect("tokens")).expect_err("no side of the inverse's");
+    let [error] = refusal.errors.as_slice() else { panic!("{:?}", refusal.errors) };
+    assert!(error.message().contains("assemble S: behind(O);"), "{}", error.message());
+    let said = format!("{declared} assemble S: behind(O);");
+    assert!(linkage_codegen::analyse(said.parse().expect("tokens")).is_ok());
+}

@@ -23,7 +23,7 @@ use super::{Rule, RuleResult};
 use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::ids::{GROUND, JointId};
-use crate::model::{Model, Side};
+use crate::model::{Closure, Model, Side};
 use crate::plan::assembly::{Assembly, ClosedLoop, DyadPivot, Found, Sign};
 use crate::plan::balance::{Balance, is_shorter};
 use crate::plan::framed::Framed;
@@ -276,8 +276,14 @@ fn side<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'_>) -> Resu
     let outer: [JointId; 2] = dyad.legs.each_ref().map(|leg| leg.outer);
     let [p, q] = outer.map(|joint| dyad.joint_name(joint));
     let Some(closure) = assembly.closure(dyad.inner, group) else {
-        // Of the two ways to say it, the one that no other group at this joint has.
-        let taken = dyad.model.closures.iter().any(|other| other.joint == dyad.inner && other.of == [outer[0]]);
+        // Of the two ways to say it, the one that no other group at this joint has, nor that of the declaration's drives.
+        let here = |other: &Closure| other.joint == dyad.inner;
+        let said = dyad.model.closures.iter().any(|other| here(other) && other.of == [outer[0]]);
+        let other = dyad.model.exchanged.iter().flat_map(|exchanged| &exchanged.closures);
+        let taken = said
+            || other
+                .into_iter()
+                .any(|side| here(dyad.model.closure(side.closure)) && side.along == Some([dyad.inner, outer[0]]));
         let of = if taken { q } else { p };
         return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], of));
     };
