@@ -529,12 +529,20 @@ pub(crate) fn check_possible(model: &Model, sink: &Sink) {
                     named(group)
                 ),
             ),
-            Failure::DeadCentre { group, pivot } => Diagnostic::new(
-                model.unknowns.first().map_or(model.name.place(), |u| u.place),
-                format!("at every pose, nothing holds {}: `{pivot}` is zero", named(group)),
-            )
-            .note("the unknown does no work on the motion that the loads drive, whatever the pose")
-            .help("let it act on a coordinate that changes when the drive moves"),
+            Failure::DeadCentre { group, pivot } => match scene_of_advantage(model, group) {
+                Some(scene) => Diagnostic::new(
+                    scene.name.place(),
+                    format!("at every pose, there is no advantage over `{group}`: `{pivot}` is zero"),
+                )
+                .note("the load does no work on the motion of that effort, whatever the pose")
+                .help("leave out the result that asks for it"),
+                None => Diagnostic::new(
+                    model.unknowns.first().map_or(model.name.place(), |u| u.place),
+                    format!("at every pose, nothing holds {}: `{pivot}` is zero", named(group)),
+                )
+                .note("the unknown does no work on the motion that the loads drive, whatever the pose")
+                .help("let it act on a coordinate that changes when the drive moves"),
+            },
             Failure::NoDirection { of } => {
                 let asks = |scene: &&Scene| {
                     let directed =
@@ -594,6 +602,12 @@ fn check_defaults(model: &Model, sink: &Sink) {
             );
         }
     }
+}
+
+/// The scene that asks for the mechanical advantage over a load of this name.
+fn scene_of_advantage<'m>(model: &'m Model, load: &str) -> Option<&'m Scene> {
+    let is_asked = |wanted: &Wanted| matches!(wanted, Wanted::Advantage(own) if model.load(*own).name.text == load);
+    model.scenes.iter().find(|scene| scene.results.iter().any(is_asked))
 }
 
 /// The links of a group as it is named in failures: `a + b`.

@@ -595,9 +595,9 @@ impl<'m> Forces<'_, 'm> {
             return Output::scalar(graph.zero(), Meaning::Number);
         };
         let velocity = graph.expr(velocity);
-        let velocity =
-            velocity.named(motion.name(&format!("v_along_{name}")), format!("velocity along {name}, at unit rate"));
-        let failure = Failure::DeadCentre { group: name.text.clone(), pivot: format!("v_along_{name}") };
+        let pivot = motion.name(&format!("v_along_{name}"));
+        let velocity = velocity.named(pivot.clone(), format!("velocity along {name}, at unit rate"));
+        let failure = Failure::DeadCentre { group: name.text.clone(), pivot };
         let limit = graph.epsilons(8) * velocity.magnitude_given(&mut self.unit_vectors());
         let divisor = velocity.require_above(velocity.abs(), limit, failure);
         Output::scalar(graph.one() / divisor, Meaning::Number)

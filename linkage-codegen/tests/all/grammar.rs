@@ -101,6 +101,10 @@ fn slips_are_told_what_is_meant() {
         ("link rod { A, C: left(A -> B, 1m, 1m), B: (1m, 0) }", "`B` is declared behind the one"),
         ("link rod { A, C: left(A -> C, 1m, 1m) }", "`C` cannot be measured from itself"),
         ("scene back: inverse(O) -> (q, error_bound);", "`inverse` cannot give `error_bound`"),
+        (
+            "load G: force(crank.O); scene g: virtual_work(G) -> (advantage(G));",
+            "there is no advantage over `G`: `v_along_G` is zero",
+        ),
         ("load f: force(crank.A); scene d: derivative(held) by (f, F);", "`F` among the results of `d`"),
     ] {
         let text = format!(

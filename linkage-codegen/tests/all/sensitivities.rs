@@ -117,7 +117,8 @@ fn with_further_scenes(text: &str, plain: &Linkage) -> (String, Linkage) {
     let between = |error: &Diagnostic, before: &str, behind: &str| {
         Some(error.message().split_once(before)?.1.split_once(behind)?.0.to_owned())
     };
-    let ways = [("nothing holds `", "`"), ("the velocity of ", " vanishes"), ("the centre of mass of ", " vanishes")];
+    let ways =
+        [("no advantage over `", "`"), ("the velocity of ", " vanishes"), ("the centre of mass of ", " vanishes")];
     let vain = ways
         .into_iter()
         .flat_map(|(before, behind)| refusal.errors.iter().filter_map(move |error| between(error, before, behind)));
