@@ -165,3 +165,26 @@ fn a_torsion_spring_may_say_its_turn() {
         assert!(winder::check_at(theta, &loads).unwrap().general < 1e-12);
     }
 }
+
+linkage! {
+    /// A sprung rod on an arm that stands a million metres from the origin, where places are rounded to a tenth of a nanometre.
+    mod far;
+    units { mm, N }
+    ground   { O: (1e9mm, 1e9mm), P: (1e9mm + 300mm, 1e9mm + 80mm) }
+    link arm { O -> A: 120mm }
+    link rod { A: (0, 0), K: (70mm, 25mm) }
+    revolute O: ground -> arm;
+    weld A: arm -> rod, angle 40deg;
+    drive theta: O;
+    load pull: spring(ground.P, rod.K) { rate: 0.3N/mm, free: 40mm };
+    load push: thrust(ground.P, rod.K) = 25N;
+    scene check: verify;
+}
+
+#[test]
+fn far_from_the_origin_the_general_solution_agrees_too() {
+    for step in -20..20 {
+        let agreement = far::check_at(0.3 * f64::from(step)).unwrap();
+        assert!(agreement.general < 1e-14 && agreement.virtual_work < 1e-14, "{step}: {agreement:?}");
+    }
+}

@@ -2,6 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
+use super::number::Number;
 use super::real::Real;
 use super::{Coordinate, Expr, Graph, Kernel, NodeId, Op, Order, Stage, Symbol};
 use crate::model::ids::LinkId;
@@ -168,6 +169,53 @@ impl Graph {
         };
         done.insert(id, result);
         result
+    }
+
+    /// The expression with the constants of each sum brought together, exactly: between places far from the origin only then a way keeps the
+    /// digits that the places have not.
+    pub fn with_constants_together<'g>(&'g self, of: Expr<'g>) -> Expr<'g> {
+        self.expr(self.together(of.id(), &mut FxHashMap::default()))
+    }
+
+    fn together(&self, id: NodeId, done: &mut FxHashMap<NodeId, NodeId>) -> NodeId {
+        if let Some(found) = done.get(&id) {
+            return *found;
+        }
+        let result = match self.op(id) {
+            // What has a name is a line of the derivation.
+            Op::Quantity(_) | Op::Held(_) => id,
+            _ => {
+                let (mut terms, mut constants) = (Vec::new(), Vec::new());
+                self.add_terms((id, false), &mut terms, &mut constants);
+                if constants.len() < 2 {
+                    self.rebuilt(id, &mut |inner| self.together(inner, done)).id()
+                } else {
+                    let terms = terms.into_iter().map(|(term, minus)| {
+                        let term = self.expr(self.together(term, done));
+                        if minus { -term } else { term }
+                    });
+                    let constant = constants.iter().fold(Number::zero(), |sum, constant| sum.add(constant));
+                    let sum = terms.reduce(|sum, term| sum + term).unwrap_or(self.zero());
+                    (sum + self.constant(&constant)).id()
+                }
+            }
+        };
+        done.insert(id, result);
+        result
+    }
+
+    /// The terms of a sum of sums, and the constants among them.
+    fn add_terms(&self, (id, minus): (NodeId, bool), terms: &mut Vec<(NodeId, bool)>, constants: &mut Vec<Number>) {
+        match (self.constant_value(id), self.op(id)) {
+            (Some(constant), _) => constants.push(if minus { constant.neg() } else { constant }),
+            (None, Op::Neg(a)) => self.add_terms((a, !minus), terms, constants),
+            (None, Op::Add(a, b)) => [a, b].into_iter().for_each(|a| self.add_terms((a, minus), terms, constants)),
+            (None, Op::Sub(a, b)) => {
+                self.add_terms((a, minus), terms, constants);
+                self.add_terms((b, !minus), terms, constants);
+            }
+            (None, _) => terms.push((id, minus)),
+        }
     }
 
     /// The value of a node, checks passed over. `known` gives the values of symbols; it is remembered what was computed.

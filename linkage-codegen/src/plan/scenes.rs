@@ -551,7 +551,7 @@ impl<'m> Forces<'_, 'm> {
             Symbol::Moving(link, which, order) => Some(graph.expr(links[link.index()].moving(which, order)?)),
             _ => None,
         };
-        let value = |node| graph.substituted(graph.expr(node), &placed);
+        let value = |node| graph.with_constants_together(graph.substituted(graph.expr(node), &placed));
         let lines = |exerted: &Exerted| {
             let first = 3 * (exerted.on.index() - 1);
             [(first, exerted.x), (first + 1, exerted.y), (first + 2, exerted.moment)]
