@@ -340,7 +340,7 @@ fn the_travel_of_a_slot_leads_back() {
         // The side is the inverse's alone: no pose of the lever hangs on it.
         let pose_at = |x: f64| slid::Pose::at(x, slid::Closures { N: Side::Left });
         let Ok(pose) = pose_at(x) else { continue };
-        let motion = slid::BackMotion { N_travel_rate: 0.5, ..slid::BackMotion::default() };
+        let motion = slid::BackMotion { N_travel_rate: 0.5 };
         let mut returned = false;
         for (index, side) in [Side::Left, Side::Right].into_iter().enumerate() {
             match slid::back_at(pose.travel_N(), slid::Closures { N: side }, &motion) {

@@ -279,11 +279,11 @@ fn side<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'_>) -> Resu
         // Of the two ways to say it, the one that no other group at this joint has, nor that of the declaration's drives.
         let here = |other: &Closure| other.joint == dyad.inner;
         let said = dyad.model.closures.iter().any(|other| here(other) && other.of == [outer[0]]);
-        let other = dyad.model.exchanged.iter().flat_map(|exchanged| &exchanged.closures);
-        let taken = said
-            || other
-                .into_iter()
-                .any(|side| here(dyad.model.closure(side.closure)) && side.along == Some([dyad.inner, outer[0]]));
+        let meant = dyad.model.exchanged.as_ref().is_some_and(|exchanged| {
+            let along = Some([dyad.inner, outer[0]]);
+            exchanged.closures.iter().any(|side| here(dyad.model.closure(side.closure)) && side.along == along)
+        });
+        let taken = said || meant;
         let of = if taken { q } else { p };
         return Err(assembly.missing_closure(group, dyad.inner, [Side::Ahead, Side::Behind], of));
     };
