@@ -281,16 +281,27 @@ fn two_drives_are_found_from_two_coordinates() -> Result<(), Error> {
     Ok(())
 }
 
-linkage! {
-    /// A lever with a slot: forwards its side is that of the pin in the slot, driven by the slot's angle that of both pins along it.
+/// A lever with a slot, in which the pin of a driven rod slides.
+macro_rules! lever {
+    ($(#[$meta:meta])* mod $module:ident; $($items:tt)*) => {
+        linkage! {
+            $(#[$meta])*
+            mod $module;
+            ground     { A: (0, 0), B: (0.04m, -0.06m) }
+            link rod   { P: (0, 0), A: (-0.15m, 0.05m) }
+            link lever { B: (0, 0), Q: (-0.004m, 0.075m) }
+            revolute A: ground -> rod;
+            revolute B: ground -> lever;
+            slot N: rod.P -> lever.Q along -20deg of rod;
+            drive x: A;
+            $($items)*
+        }
+    };
+}
+
+lever! {
+    /// Forwards its side is that of the pin in the slot, driven by the slot's angle that of both pins along it.
     mod slotted;
-    ground     { A: (0, 0), B: (0.04m, -0.06m) }
-    link rod   { P: (0, 0), A: (-0.15m, 0.05m) }
-    link lever { B: (0, 0), Q: (-0.004m, 0.075m) }
-    revolute A: ground -> rod;
-    revolute B: ground -> lever;
-    slot N: rod.P -> lever.Q along -20deg of rod;
-    drive x: A;
     assemble N: behind(B);
     scene place: position -> (rod.angle, lever.angle);
     scene back: inverse(N.angle) -> (x);
@@ -316,19 +327,11 @@ fn a_closure_that_means_another_side_in_the_inverse_is_checked() {
     assert!(found[0] > 50 && found[1] > 50, "{found:?}");
 }
 
-linkage! {
-    /// The same, asked for how far the pin has slid: then it is the middle pin of a dyad, to the left or to the right of the outer ones.
+lever! {
+    /// Asked for how far the pin has slid, which is the middle pin of a dyad then, to the left or to the right of the outer ones.
     mod slid;
-    ground     { A: (0, 0), B: (0.04m, -0.06m) }
-    link rod   { P: (0, 0), A: (-0.15m, 0.05m) }
-    link lever { B: (0, 0), Q: (-0.004m, 0.075m) }
-    revolute A: ground -> rod;
-    revolute B: ground -> lever;
-    slot N: rod.P -> lever.Q along -20deg of rod;
-    drive x: A;
     assemble N: ahead(B);
     assemble N: either(A -> B);
-    scene place: position -> (N, lever.angle);
     scene back: inverse(N.travel) -> (x, x.rate);
 }
 

@@ -501,8 +501,8 @@ impl<'a> Body<'a> {
             notes.meaning = Cow::Borrowed("");
             blocks.add(statement.clone(), &statement, notes.section);
         }
-        let results = self.program.outputs.iter().map(|(_, value)| self.value(*value)).collect();
-        (blocks.joined(&results), self)
+        let results = || self.program.outputs.iter().map(|(_, value)| self.value(*value)).collect();
+        (blocks.joined(results), self)
     }
 
     fn calls(&self) -> Calls {

@@ -3,7 +3,7 @@
 /// Sine and cosine of an angle from those of its distance from the next multiple of π/2, in the bits of a scalar.
 macro_rules! by_quadrant {
     ($scalar:ident, $bits:ident) => {
-        /// Exchanged and negated by what differs: a choice of numbers is one instruction for a single number, but three for a register of AVX2.
+        /// Exchanged and negated by what differs: in loops that are vectorised a choice between two registers takes longer.
         #[inline]
         pub(super) fn by_quadrant(quadrant: $bits, sin: $scalar, cos: $scalar) -> ($scalar, $scalar) {
             const SIGN: $bits = 1 << ($bits::BITS - 1);

@@ -51,11 +51,11 @@ impl<'a> Blocks<'a> {
         block.statements.push(with_notes);
     }
 
-    /// The statements of a function with these results.
-    pub(super) fn joined(self, results: &TokenStream) -> TokenStream {
-        let mut read = names(results);
-        let mut code = Vec::new();
+    /// The statements of a function with these results, which are asked for if there are several blocks.
+    pub(super) fn joined(self, results: impl FnOnce() -> TokenStream) -> TokenStream {
         let last = self.all.len() - 1;
+        let mut read = if last > 0 { names(&results()) } else { Names::new() };
+        let mut code = Vec::new();
         for (number, Block { statements, defines, reads }) in self.all.into_iter().enumerate().rev() {
             let left = defines.into_iter().filter(|(name, _)| read.contains_key(name)).map(|(_, name)| name);
             code.push(match left.collect::<Vec<_>>().as_slice() {
