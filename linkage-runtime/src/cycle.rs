@@ -208,7 +208,8 @@ impl<'a, T: Number> Cycle<'a, T> {
     ///
     /// [`CycleError::Length`], [`CycleError::NotFinite`].
     pub fn integral(self, values: &'a [T]) -> Result<T, CycleError> {
-        finite(self.intervals(values)?.fold(T::ZERO, |sum, (h, value, after)| sum + h * (T::HALF * (value + after))))
+        let half_sum = |value: T, after: T| T::HALF * value + T::HALF * after;
+        finite(self.intervals(values)?.fold(T::ZERO, |sum, (h, value, after)| sum + h * half_sum(value, after)))
     }
 
     /// The mean: `∫ f` over the period, divided by the period.
@@ -274,15 +275,16 @@ impl<'a, T: Number> Cycle<'a, T> {
             if energy < least {
                 least = energy;
             }
+            finite(energy)
         };
         for (h, torque, after) in self.intervals(torques)? {
-            let (surplus, next) = (torque - mean, after - mean);
+            // By halves: the whole of what two torques differ by may be beyond the range of numbers.
+            let [surplus, next] = [torque, after].map(|torque| T::HALF * torque - T::HALF * mean);
             if (surplus > T::ZERO && next < T::ZERO) || (surplus < T::ZERO && next > T::ZERO) {
                 // To the crossing: a triangle of the height of the surplus.
-                see(energy + T::HALF * h * surplus * (surplus / (surplus - next)));
+                see(energy + h * surplus * (surplus / (surplus - next)))?;
             }
-            energy = energy + h * (T::HALF * (surplus + next));
-            see(energy);
+            energy = see(energy + h * (surplus + next))?;
         }
         finite(most - least)
     }
@@ -368,14 +370,19 @@ pub fn speed_fluctuation<T: Number>(speeds: &[T]) -> Result<T, CycleError> {
 ///
 /// # Errors
 ///
-/// [`CycleError::NotPositive`] if the coefficient or the speed is not, [`CycleError::NotFinite`].
+/// [`CycleError::NotPositive`] if the coefficient or the speed is not, or the fluctuation of energy is less than zero;
+/// [`CycleError::NotFinite`].
 pub fn flywheel_inertia<T: Number>(energy_fluctuation: T, coefficient: T, mean_speed: T) -> Result<T, CycleError> {
     for (value, what) in [(coefficient, "the coefficient of fluctuation"), (mean_speed, "the mean speed")] {
         if finite(value)? <= T::ZERO {
             return Err(CycleError::NotPositive { what });
         }
     }
-    finite(energy_fluctuation / (coefficient * mean_speed * mean_speed))
+    if finite(energy_fluctuation)? < T::ZERO {
+        return Err(CycleError::NotPositive { what: "the fluctuation of energy" });
+    }
+    // One factor after the other: their product may be beyond the range of numbers where the quotient is not.
+    finite(energy_fluctuation / mean_speed / coefficient / mean_speed)
 }
 
 #[cfg(test)]
@@ -446,6 +453,8 @@ mod tests {
         // The rule's error: h²/12 of the second derivative's integral.
         assert!((found - 6.0).abs() < 1e-5, "{found}");
         close(flywheel_inertia(6.0, 0.05, 20.0).expect("positive"), 0.3);
+        close(flywheel_inertia(1e300, 1.0, 1e200).expect("finite") * 1e100, 1.0);
+        close(flywheel_inertia(1e-300, 1e-200, 1e-100).expect("finite") / 1e100, 1.0);
         // The cycle may begin anywhere.
         let moved: Vec<f64> = angles.iter().map(|angle| 10.0 + 6.0 * (2.0 * angle + 1.0).sin()).collect();
         let again = Cycle::new(&angles, TAU).and_then(|cycle| cycle.energy_fluctuation(&moved)).expect("finite");
@@ -458,6 +467,16 @@ mod tests {
         let cycle = Cycle::new(&[0.0, 2.0], 4.0).expect("a cycle");
         close(cycle.energy_fluctuation(&[-1.0, 1.0]).expect("finite"), 1.0);
         assert_eq!(cycle.energy_fluctuation(&[7.0, 7.0]), Ok(0.0));
+    }
+
+    /// A number beyond the range within the sum may not pass for one that there is.
+    #[test]
+    fn what_is_nearly_out_of_range_is_found_or_refused() {
+        let cycle = Cycle::new(&[0.0, 1.0], 2.0).expect("a cycle");
+        close(cycle.energy_fluctuation(&[1e308, -1e308]).expect("finite") / 1e308, 0.5);
+        assert_eq!(cycle.mean(&[1e308, 1.5e308]), Err(CycleError::NotFinite));
+        let long = Cycle::new(&[0.0, 10.0], 20.0).expect("a cycle");
+        assert_eq!(long.energy_fluctuation(&[1e308, -1e308]), Err(CycleError::NotFinite));
     }
 
     #[test]
@@ -494,6 +513,10 @@ mod tests {
         let cycle = Cycle::new(&[0.0f32, 1.0], 4.0).expect("a cycle");
         assert_eq!(cycle.mean(&[1.0]), Err(CycleError::Length { found: 1, expected: 2 }));
         assert_eq!(cycle.rms(&[1.0, f32::INFINITY]), Err(CycleError::NotFinite));
+        assert_eq!(
+            flywheel_inertia(-1.0, 0.5, 3.0),
+            Err(CycleError::NotPositive { what: "the fluctuation of energy" })
+        );
         assert_eq!(
             flywheel_inertia(1.0, 0.0, 3.0),
             Err(CycleError::NotPositive { what: "the coefficient of fluctuation" })

@@ -96,7 +96,7 @@ pub enum Error {
     },
     /// An argument is not a finite number, or a result is too large for one.
     NotFinite {
-        /// Which argument.
+        /// Which argument; or that it is a result, a load or what is made of the parameters.
         what: &'static str,
     },
 }
