@@ -96,11 +96,13 @@ pub(super) fn stand_ins(model: &Model, runtime: &TokenStream) -> TokenStream {
         let sweeps = sweeps.iter().map(|sweep| {
             let [inputs, outputs] = sweep.types().map(|ty| ident(&ty));
             let name = ident(&sweep.name.text);
+            let nothing_given = (placed.is_empty() && wanted.is_empty()).then(sweeps::nothing_lent);
+            let nothing_found = results.is_empty().then(sweeps::nothing_lent);
             quote! {
                 #[derive(Clone, Copy, Debug, PartialEq)]
-                pub struct #inputs<'a> { #(pub #placed: #runtime::Series<'a, #scalar>,)* #(pub #wanted: #runtime::Series<'a, #scalar>,)* }
+                pub struct #inputs<'a> { #(pub #placed: #runtime::Series<'a, #scalar>,)* #(pub #wanted: #runtime::Series<'a, #scalar>,)* #nothing_given }
                 #[derive(Debug, PartialEq)]
-                pub struct #outputs<'a> { #(pub #results: &'a mut [#scalar],)* }
+                pub struct #outputs<'a> { #(pub #results: &'a mut [#scalar],)* #nothing_found }
                 pub fn #name(#linkage #closures _: &#inputs<'_>, _: #outputs<'_>) -> Result<(), #runtime::SweepError> { loop {} }
             }
         });

@@ -41,11 +41,18 @@ fn inputs(model: &Model, sweep: &Sweep, runtime: &TokenStream, whole: bool) -> T
         quote!(#[doc = #doc] pub #name: #runtime::Series<'a, #value>)
     });
     let doc = format!(" What is given at each position of the sweep `{}`.", sweep.name);
+    let members: Vec<TokenStream> = drives.chain(motion).chain(loads).collect();
+    let nothing = members.is_empty().then(nothing_lent);
     quote! {
         #[doc = #doc]
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct #ty<'a> { #(#drives,)* #(#motion,)* #(#loads,)* }
+        pub struct #ty<'a> { #(#members,)* #nothing }
     }
+}
+
+/// What a type without members lends, in a module that is only a stand-in.
+pub(super) fn nothing_lent() -> TokenStream {
+    quote!(nothing: ::core::marker::PhantomData<&'a ()>)
 }
 
 /// The numbers of a scene's results, each with the name of its slice. In a module that is only a stand-in, names may meet.
@@ -81,10 +88,12 @@ fn results(model: &Model, sweep: &Sweep, output: &Output) -> TokenStream {
         quote!(#[doc = #doc] pub #name: &'a mut [#scalar])
     });
     let doc = format!(" Where the results of the sweep `{}` go: a slice for every number.", sweep.name);
+    let fields: Vec<TokenStream> = fields.collect();
+    let nothing = fields.is_empty().then(nothing_lent);
     quote! {
         #[doc = #doc]
         #[derive(Debug, PartialEq)]
-        pub struct #ty<'a> { #(#fields,)* }
+        pub struct #ty<'a> { #(#fields,)* #nothing }
     }
 }
 

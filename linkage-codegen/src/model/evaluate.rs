@@ -240,12 +240,12 @@ impl<'m> Scope<'m> {
                 let expr = graph.symbol(Symbol::Parameter(ParamId::new(index)));
                 Ok(Quantity { expr, dimension: Some(param.kind.dimension()) })
             }
+            (Some(Entry { role: Role::Param | Role::Broken, .. }), _) => {
+                Ok(Quantity { expr: self.model.unread(), dimension: None })
+            }
             (_, Some(unit)) => {
                 let size = self.model.units.size_of(&unit);
                 Ok(Quantity { expr: graph.constant(&size), dimension: Some(unit.dimension) })
-            }
-            (Some(Entry { role: Role::Param | Role::Broken, .. }), _) => {
-                Ok(Quantity { expr: self.model.unread(), dimension: None })
             }
             _ if self.names.may_mean(&[Role::Param], name) => {
                 Ok(Quantity { expr: self.model.unread(), dimension: None })

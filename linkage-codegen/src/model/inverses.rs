@@ -151,7 +151,7 @@ fn results(model: &Model, given: &ast::Scene, names: &Names, sink: &Sink) -> Vec
             ResultItem::Name(name) if name.text == ERROR_BOUND && names.entry(ERROR_BOUND).is_none() => {
                 sink.report(
                     cannot(given, name.place(), ERROR_BOUND, "the bound of the errors")
-                        .help("`equilibrium` and `virtual_work` give it, and scenes of motion"),
+                        .help("`equilibrium`, `virtual_work` and `motion` give it, and `position`, `velocity`, `acceleration` and `coefficients`"),
                 );
                 continue;
             }

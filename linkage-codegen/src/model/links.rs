@@ -40,7 +40,7 @@ pub(super) fn params(model: &mut Model, ast: &Ast, names: &mut Names, sink: &Sin
 fn parameter_in(value: &ast::Value, names: &Names) -> Option<Diagnostic> {
     match &value.kind {
         ValueKind::Name(name) => {
-            let param = names.entry(name).is_some_and(|entry| entry.role == Role::Param);
+            let param = names.entry(name).is_some_and(|entry| entry.role == Role::Param && entry.sound);
             let found =
                 || Diagnostic::new(value.place, format!("`{name}` is a parameter, and a default is a constant"));
             param.then(|| found().help("write the number with its unit"))
@@ -283,12 +283,14 @@ fn by_distances(
         let problem = format!("no point is at these distances from `{}` and `{}`", given.from, given.to);
         let unit = model.units.length.name;
         return Err(Diagnostic::new(given.place, problem)
-            .note(format!(
+            .note(if r1.sign() == Some(-1) || r2.sign() == Some(-1) {
+                "a distance is not less than zero: to which side the point lies, `left` and `right` say".to_owned()
+            } else { format!(
                 "the sides of the triangle are {} {unit}, {} {unit} and {} {unit}, and none may be longer than the other two together",
                 number(d),
                 number(r1),
                 number(r2)
-            ))
+            )})
             .help(format!("change a distance, or give coordinates: `{name}: (x, y)`")));
     }
     let requirement =

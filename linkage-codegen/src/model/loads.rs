@@ -166,13 +166,13 @@ fn kind(scope: Scope<'_>, given: &ast::Load, id: LoadId, sink: &Sink) -> Result<
             };
             let moment = scalar(scope, given, id, Kind::Moment)?;
             let Some(on_link) = on_link else { return Ok(None) };
-            if Some(on_link) == from_link {
+            if Some(on_link) == from_link && on_link != GROUND {
                 let place = from.as_ref().map_or(on.place(), |from| from.place().to(on.place()));
                 return Err(Diagnostic::new(place, format!("`{on}` cannot exert a moment on itself")).help(format!(
                     "write `moment({on})` if it comes from outside, or name the link that reacts it: `moment(ground -> {on})`"
                 )));
             }
-            if on_link == GROUND && from_link.is_none() {
+            if on_link == GROUND && from_link.is_none_or(|from| from == GROUND) {
                 return Err(Diagnostic::new(on.place(), "a moment on the ground has no effect on the linkage")
                     .help("let it act on a moving link, or leave it out"));
             }
@@ -320,8 +320,13 @@ fn vector<'m>(scope: Scope<'m>, given: &ast::Load, id: LoadId, kind: Kind) -> Re
         }
         Some(Magnitude::Vector(vector)) => scope.vector(vector, kind),
         Some(Magnitude::Scalar(value)) => {
-            Err(Diagnostic::new(value.place, format!("{} has a direction, and none is given", kind.name()))
-                .help(format!("write `{} @ 90deg` or `(x, y)`", kind.example(&scope.model.units))))
+            Err(Diagnostic::new(value.place, format!("{} has a direction, and none is given", kind.name())).help(
+                format!(
+                    "write `{} @ {}` or `(x, y)`",
+                    kind.example(&scope.model.units),
+                    if kind == Kind::Acceleration { "-90deg" } else { "90deg" }
+                ),
+            ))
         }
     }
 }

@@ -980,10 +980,10 @@ impl Model {
             || self.loads.iter().any(|load| matches!(load.kind, LoadKind::Inertia))
     }
 
-    /// Whether equations of motion have matrices, because there are several drives.
+    /// Whether equations of motion have matrices, because there are several drives. What stands in for a declaration that has errors may have none.
     #[must_use]
     pub fn has_matrices(&self) -> bool {
-        self.unknowns.len() > 1 && self.scenes.iter().any(|scene| scene.method == Method::Motion)
+        self.unknowns.len() != 1 && self.scenes.iter().any(|scene| scene.method == Method::Motion)
     }
 
     /// The links whose masses count in the equation of motion: those of its loads `inertia`, as often as these name them; all that have

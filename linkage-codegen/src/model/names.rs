@@ -178,7 +178,7 @@ impl Names {
         names
     }
 
-    fn declare(&mut self, name: &Name, entry: Entry, sink: &Sink) {
+    fn declare(&mut self, name: &Name, mut entry: Entry, sink: &Sink) {
         if !name.is_usable() {
             let problem = format!("`{name}` cannot be a name: Rust keeps the word for itself");
             sink.report(Diagnostic::new(name.place(), problem).help("choose another name"));
@@ -188,6 +188,8 @@ impl Names {
                 Diagnostic::new(name.place(), format!("`{name}` is {other}, and cannot be the name of a parameter"))
                     .help("choose another name"),
             );
+            // Where it stands now it may be meant as either.
+            entry.sound = false;
         }
         match self.entries.get(&name.text) {
             Some(_) if name.text == "ground" => sink.report(

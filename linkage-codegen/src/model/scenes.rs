@@ -545,6 +545,10 @@ fn of_link(
     let wanted: fn(LinkId) -> Wanted = match what.text.as_str() {
         "inertia" => Wanted::Inertia,
         "offset" => Wanted::Offset,
+        "shaking" => {
+            return Err(Diagnostic::new(link.place(), format!("of what point of `{link}`?"))
+                .help("the resultant of inertia is taken about a point, as in `shaking(ground.O)`"));
+        }
         other => {
             return Err(Diagnostic::new(what.place(), format!("there is no result `{shown}`"))
                 .suggest(other, ["inertia", "offset", "shaking", "power", "advantage"]));
@@ -575,6 +579,11 @@ fn shaking(
     names: &Names,
 ) -> Result<Option<Wanted>, Diagnostic> {
     let (place, shown) = (what.place().to(point.place()), format!("{what}({})", point.written()));
+    if ["inertia", "offset"].contains(&what.text.as_str()) {
+        let link = &point.link;
+        return Err(Diagnostic::new(place, format!("`{what}` is that of a whole link, and not of a point"))
+            .help(format!("write `{what}({link})`")));
+    }
     if what.text != "shaking" {
         return Err(Diagnostic::new(what.place(), format!("there is no result `{shown}`"))
             .suggest(&what.text, ["inertia", "offset", "shaking", "power", "advantage"]));

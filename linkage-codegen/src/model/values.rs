@@ -110,6 +110,9 @@ pub(super) fn check(model: &Model, sink: &Sink) {
         claim(&inverse.name, inverse.prepared_name(), format!("is what is prepared for `{}`", inverse.name));
     }
     for (name, made) in params.chain(drives).chain(loads) {
-        made.into_iter().for_each(|made| claim(name, made, format!("belongs to `{name}`")));
+        for made in made {
+            let meaning = if made == name.text { "has that name".into() } else { format!("belongs to `{name}`") };
+            claim(name, made, meaning);
+        }
     }
 }

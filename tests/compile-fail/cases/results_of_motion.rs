@@ -29,6 +29,7 @@ linkage! {
     scene speeds: velocity -> (T12, B, coupler.Q, F13, inertia(coupler), coupler.C along path);
     scene accelerations: acceleration(F13) -> (B, inertia(rocker), offset(ground), weight(coupler), coupler.C along crnk);
     scene places: position -> (offset(coupler), coupler.C along crank);
+    scene shaken: acceleration -> (shaking(coupler), inertia(coupler.C));
     scene forces: equilibrium(F14) -> (inertia(coupler), coupler.C along crank);
 }
 

@@ -1,0 +1,40 @@
+use linkage_runtime::{linkage, polar};
+
+linkage! {
+    pub mod four_bar;
+
+    units { mm, N }
+    param m: mass = 2kg;
+    param reach: length = 2m;
+    param spin: inertia = 3kg*m^2;
+
+    ground       { A0: (0, 0), B0: (140mm, 0) }
+    link crank   { A0 -> A: 80mm }
+    link coupler { A -> B: 100mm, C: left(A -> B, 70mm, 80mm) }
+    link rocker  { B0 -> B: 120mm, D: (90mm, 0) }
+
+    revolute A0: ground  -> crank;
+    revolute A:  crank   -> coupler;
+    revolute B:  coupler -> rocker;
+    revolute B0: ground  -> rocker;
+
+    drive theta: A0;
+    unknown T12: torque(ground -> crank);
+    assemble B: left(A -> B0);
+
+    load F13: force(coupler.C);
+    load F14: force(rocker.D) = 100N @ 200deg;
+
+    scene statics: equilibrium;
+    scene torque: virtual_work -> (T12);
+
+    mass crank: m at A;
+    mass coupler: 2kg at C, inertia 3kg*m^2;
+    load M4: moment(rocker) = 3N*m;
+}
+
+fn main() {
+    let linkage = four_bar::Linkage::new(&four_bar::Params { m: 1.0, reach: 1.0, spin: 1.0 }).unwrap();
+    let loads = four_bar::Loads { F13: polar(50.0, 4.0) };
+    println!("{}", four_bar::torque_at(&linkage, 1.0, &loads).unwrap().T12);
+}
