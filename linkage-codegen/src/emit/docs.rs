@@ -28,9 +28,10 @@ pub(super) fn module(linkage: &Linkage) -> TokenStream {
     }
     let moving = model.links.len() - 1;
     text.push_str(&format!(
-        "A planar linkage of {moving} moving link{}, {} joints and {} drive{}. Lengths in {}, forces in {}, angles in rad.\n",
+        "A planar linkage of {moving} moving link{}, {} joint{} and {} drive{}. Lengths in {}, forces in {}, angles in rad.\n",
         if moving == 1 { "" } else { "s" },
         model.joints.len(),
+        if model.joints.len() == 1 { "" } else { "s" },
         model.drives.len(),
         if model.drives.len() == 1 { "" } else { "s" },
         model.units.length.name,
@@ -125,7 +126,13 @@ pub(super) fn scene_summary(linkage: &Linkage, index: usize, from_pose: bool) ->
 }
 
 /// Documentation of a function: summary, further points, errors, operation counts, equations.
-pub(super) fn function(summary: &str, points: &[String], program: &Program, equations: &[String]) -> TokenStream {
+pub(super) fn function(
+    linkage: &Linkage,
+    summary: &str,
+    points: &[String],
+    program: &Program,
+    equations: &[String],
+) -> TokenStream {
     let mut text = format!("{summary}\n");
     if !points.is_empty() {
         text.push_str(&format!("\n{}\n", points.join("\n")));
@@ -135,7 +142,7 @@ pub(super) fn function(summary: &str, points: &[String], program: &Program, equa
         text.push_str(&format!("\n```text\n{}\n```\n", equations.join("\n")));
     }
     text.push_str("\n# Errors\n\n");
-    text.push_str(&errors(program).join("\n"));
+    text.push_str(&errors(linkage, program).join("\n"));
     lines(&text)
 }
 
@@ -163,23 +170,25 @@ pub(super) fn on_the_way(search: &Search, program: &Program) -> TokenStream {
     ))
 }
 
-fn errors(program: &Program) -> Vec<String> {
+fn errors(linkage: &Linkage, program: &Program) -> Vec<String> {
     let mut all: Vec<String> = Vec::new();
     let mut add = |line: String| {
         if !all.contains(&line) {
             all.push(line);
         }
     };
-    let not_finite = "* [`Error::NotFinite`]: a drive is not a finite number.";
+    // An inverse scene is one of a linkage that is driven where a motion is wanted.
+    let given = if linkage.model.exchanged.is_some() { "what is wanted" } else { "a drive" };
+    let not_finite = format!("* [`Error::NotFinite`]: {given} is not a finite number.");
     if !program.asked_late.is_empty() {
-        add(not_finite.into());
+        add(not_finite.clone());
     }
     for step in &program.steps {
         match step {
             Step::Check { guard, weaker, .. } => {
                 weaker.iter().chain([guard]).for_each(|guard| add(of_failure(&guard.failure)));
             }
-            Step::FiniteInput(_) => add(not_finite.into()),
+            Step::FiniteInput(_) => add(not_finite.clone()),
             Step::FiniteResults(_) => {
                 let read = match (program.reads_motion(), program.reads_loads()) {
                     (true, true) => "what is read of the rates and the loads is not finite, or ",

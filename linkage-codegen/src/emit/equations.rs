@@ -10,8 +10,9 @@ use super::types::load_doc;
 use crate::Linkage;
 use crate::equations::joints::Component;
 use crate::equations::{Exerted, Source};
-use crate::graph::{NodeId, Op, Stage};
+use crate::graph::{Expr, NodeId, Op, Stage};
 use crate::model::ids::{LinkId, UnknownId};
+use crate::model::units::Kind;
 use crate::model::{JointKind, LoadKind, Method};
 use crate::plan::scenes::unknown_doc;
 use crate::program::Program;
@@ -39,11 +40,12 @@ fn mobility(linkage: &Linkage) -> String {
     let moving = model.links.len() - 1;
     let constraints = linkage.system.rows.iter().filter(|row| matches!(row.source, Source::Joint(..))).count();
     format!(
-        "{} links, {moving} of them moving; {} joints with {constraints} constraints: mobility 3·{moving} − {constraints} = {}\n\
+        "{} links, {moving} of them moving; {} joint{} with {constraints} constraints: mobility 3·{moving} − {constraints} = {}\n\
          lengths in {}, forces in {}; the link that a reaction acts on stands behind the arrow\n\
          sin(link), cos(link): of the angle of the x axis of the link's own frame; link_sin, link_cos: of the direction that it carries\n{}\n",
         model.links.len(),
         model.joints.len(),
+        if model.joints.len() == 1 { "" } else { "s" },
         3 * moving - constraints,
         model.units.length.name,
         model.units.force.name,
@@ -78,6 +80,9 @@ fn parts(linkage: &Linkage) -> String {
             let [first, second] = gear.radii.map(|radius| formula.of(radius));
             let (phase, arm) = (formula.of(gear.phase), &model.link(gear.arm[0].link).name);
             text.push_str(&format!(", radii {first} and {second}, phase {phase}, held apart by {arm}"));
+            if !model.graph.expr(gear.incline).is_zero() {
+                text.push_str(&format!(", tangent of the pressure angle {}", formula.of(gear.incline)));
+            }
         }
         format!("{text}\n")
     });
@@ -104,7 +109,24 @@ fn parts(linkage: &Linkage) -> String {
         };
         format!("  load      {}{value}: {}\n", load.name, plain(load_doc(model, load)))
     });
-    joints.chain(unknowns).chain(loads).chain(["\n".to_owned()]).collect()
+    let drives = model.drives.iter().map(|drive| {
+        let kind = if drive.turns { "angle" } else { "travel" };
+        format!("  drive     {}: {kind} of {}\n", drive.name, model.joint(drive.joint).name)
+    });
+    let masses = model.moving_links().filter_map(|link| {
+        let mass = model.link(link).mass?;
+        let [x, y, size, inertia] =
+            [mass.centroid.x, mass.centroid.y, mass.mass, mass.inertia].map(|node| formula.of(node));
+        let [unit, its] = [Kind::Mass, Kind::Inertia].map(|kind| kind.unit(&model.units));
+        let name = &model.link(link).name;
+        let about_it = if model.graph.expr(mass.inertia).is_zero() {
+            String::new()
+        } else {
+            format!(", moment of inertia about it {inertia} {its}")
+        };
+        Some(format!("  mass      {name}: {size} {unit} at ({x}, {y}) of its frame{about_it}\n"))
+    });
+    joints.chain(drives).chain(masses).chain(unknowns).chain(loads).chain(["\n".to_owned()]).collect()
 }
 
 /// The equilibrium equations of every moving link: `3(l − 1)` in all.
@@ -157,26 +179,28 @@ fn origin_name(linkage: &Linkage, link: LinkId) -> String {
 /// The sum of all terms of an equation of a link.
 fn equation(linkage: &Linkage, link: LinkId, part: usize) -> String {
     let model = &linkage.model;
-    let coefficient = |exerts: &[Exerted]| -> Option<NodeId> {
-        let exerted = exerts.iter().find(|exerted| exerted.on == link)?;
-        let node = [exerted.x, exerted.y, exerted.moment][part];
-        (!model.graph.expr(node).is_zero()).then_some(node)
+    // A load may exert a force on a link and a couple besides, as inertia does.
+    let on_link = |exerts: &[Exerted]| -> Vec<Expr<'_>> {
+        let exerted = exerts.iter().filter(|exerted| exerted.on == link);
+        let parts = exerted.map(|exerted| model.graph.expr([exerted.x, exerted.y, exerted.moment][part]));
+        parts.filter(|part| !part.is_zero()).collect()
     };
     let formula = Formula { model, terms: Nodes(&model.graph) };
     let mut terms: Vec<(bool, String)> = Vec::new();
     for row in &linkage.system.rows {
-        let Some(node) = coefficient(&row.exerts) else { continue };
+        let coefficient = on_link(&row.exerts).into_iter().fold(model.graph.zero(), |sum, part| sum + part);
+        if coefficient.is_zero() {
+            continue;
+        }
         let name = match row.source {
             Source::Joint(joint, component) => reaction_name(&model.joint(joint).name.text, component),
             Source::Unknown(unknown) => model.unknown(unknown).name.clone(),
             Source::Drive(drive) => model.drive(drive).name.text.clone(),
         };
-        terms.push(term(&formula, node, Some(&name)));
+        terms.push(term(&formula, coefficient.id(), Some(&name)));
     }
     for case in &linkage.system.cases {
-        if let Some(node) = coefficient(&case.exerts) {
-            terms.push(term(&formula, node, None));
-        }
+        terms.extend(on_link(&case.exerts).into_iter().map(|load| term(&formula, load.id(), None)));
     }
     let mut sum = String::new();
     for (index, (negative, text)) in terms.into_iter().enumerate() {

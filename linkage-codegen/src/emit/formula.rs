@@ -25,13 +25,19 @@ impl Terms<NodeId> for Nodes<'_> {
     }
 
     fn name(&self, term: NodeId) -> Option<String> {
-        if let (Op::Quantity(_), Stage::Posed | Stage::Loaded) = (self.0.op(term), self.0.stage(term)) {
-            return self.0.label(term).map(|label| label.name);
+        let named = |term: NodeId| match (self.0.op(term), self.0.stage(term)) {
+            (Op::Quantity(_), Stage::Posed | Stage::Loaded) => self.0.label(term).map(|label| label.name),
+            _ => None,
+        };
+        if let Some(name) = named(term) {
+            return Some(name);
         }
         let mut open = vec![term];
         let mut operations = 0;
         while let Some(term) = open.pop() {
-            open.extend(self.0.op(term).operands());
+            if named(term).is_none() {
+                open.extend(self.0.op(term).operands());
+            }
             operations += 1;
             if operations > LENGTH {
                 return Some("…".to_owned());

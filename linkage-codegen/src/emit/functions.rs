@@ -419,7 +419,7 @@ fn pose_function(
         .then(|| if from_self { quote!(closures: self.closures,) } else { quote!(closures,) });
     let mut points: Vec<String> = points.iter().map(|point| format!("{point}\n")).collect();
     points.extend(drive_docs.chain(closure_doc));
-    let lines = docs::function(summary, &points, program, &[]);
+    let lines = docs::function(linkage, summary, &points, program, &[]);
     quote! {
         #lines
         #[inline]
@@ -486,8 +486,13 @@ pub(super) fn from_pose(linkage: &Linkage, index: usize) -> TokenStream {
     let base = type_name(&scene.name.text);
     let value =
         result(scene.method, &base, &base, &linkage.plan.scenes[index], &mut outputs(&body, program).into_iter());
-    let lines =
-        docs::function(&docs::scene_summary(linkage, index, true), &[], program, &body.equations(&linkage.model));
+    let lines = docs::function(
+        linkage,
+        &docs::scene_summary(linkage, index, true),
+        &[],
+        program,
+        &body.equations(&linkage.model),
+    );
     quote! {
         #lines
         #[inline]
@@ -607,7 +612,7 @@ pub(super) fn direct(linkage: &Linkage, index: usize) -> TokenStream {
         )],
     };
     let equations = if scene.method == Method::Inverse { body.equations(&linkage.model) } else { Vec::new() };
-    let lines = docs::function(&docs::scene_summary(linkage, index, false), &points, program, &equations);
+    let lines = docs::function(linkage, &docs::scene_summary(linkage, index, false), &points, program, &equations);
     quote! {
         #lines
         #[inline]

@@ -251,6 +251,7 @@ fn prepared(linkage: &Linkage, program: Option<&Program>) -> TokenStream {
     });
     let given = given_params(linkage);
     let lines = docs::function(
+        linkage,
         "How far each loop's driver can go, where its output is at a dead centre, how well it transmits.",
         &[],
         program,

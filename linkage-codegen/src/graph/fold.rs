@@ -7,7 +7,7 @@
 use core::cmp::Ordering;
 
 use super::number::Number;
-use super::{Condition, Expr, Graph, Guard, Kernel, Op, Stage};
+use super::{Condition, Expr, Graph, Guard, Kernel, NodeId, Op, Stage, Symbol};
 
 impl Graph {
     pub(super) fn sum<'g>(&'g self, a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
@@ -331,7 +331,27 @@ impl Graph {
             }
             Op::Mul(x, y) | Op::Div(x, y) => of(x) && of(y),
             Op::Sqrt(x) | Op::Quantity(x) | Op::Held(x) | Op::Checked { value: x, .. } => of(x),
+            Op::Abs(x) => self.is_other_than_zero(self.expr(x)),
             _ => false,
+        }
+    }
+
+    /// Whether the value is positive or negative by its form: a root on either side, or what was checked to be apart from zero.
+    fn is_other_than_zero(&self, a: Expr<'_>) -> bool {
+        let of = |id| self.is_other_than_zero(self.expr(id));
+        match a.op() {
+            Op::Symbol(Symbol::Side(_)) => true,
+            Op::Checked { value, guard } => {
+                let condition = self.guard(guard).condition;
+                let [compared, limit] = condition.operands();
+                let is_it = |x: NodeId| x == value || self.op(value) == Op::Neg(x);
+                let is_of_it = is_it(compared) || matches!(self.op(compared), Op::Abs(x) | Op::Neg(x) if is_it(x));
+                let is_above = matches!(condition, Condition::Above { .. }) && self.is_non_negative(self.expr(limit));
+                is_of_it && is_above || of(value)
+            }
+            Op::Neg(x) | Op::Quantity(x) | Op::Held(x) => of(x),
+            Op::Mul(x, y) | Op::Div(x, y) => of(x) && of(y),
+            _ => self.is_positive(a),
         }
     }
 

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod control;
+mod derivation;
 mod emitted;
 mod emitted_random;
 mod error_bound;

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use crate::support::compile;
 use crate::support::declarations::{declarations, fused_linkages, linkages};
 use crate::support::linkages::Random;
+use linkage_codegen::expand;
 use linkage_codegen::graph::{Failure, Graph, Kernel, NodeId, Op, Order, Sought, Symbol};
 use linkage_codegen::model::{Load, LoadKind, Unknown, UnknownKind, Wanted};
 use linkage_codegen::program::{Counts, Definition, Input, Program, Step, ValueId};
@@ -1023,6 +1024,32 @@ fn no_emitted_function_binds_what_it_does_not_read() {
     }
     assert!(bound > 9000, "only {bound} names");
     assert!(unread.is_empty(), "{} of {bound}: {unread:#?}", unread.len());
+}
+
+/// A root that cannot vanish is not asked whether it does, on whichever side it stands: crank-rocker, slider-crank and a lever with a slot.
+#[test]
+fn no_side_asks_for_a_dead_centre_that_there_is_not() {
+    let crank =
+        "units { mm, N } ground { O: (0, 0), Q: (180mm, 0) } link crank { O -> A: 50mm } revolute O: ground -> crank;
+        drive theta: O; unknown T: torque(ground -> crank);";
+    let rocker =
+        "link coupler { A -> B: 120mm } link rocker { Q -> B: 200mm, D: (60mm, 20mm) } revolute A: crank -> coupler;
+        revolute B: coupler -> rocker; revolute Q: ground -> rocker; load F: force(rocker.D); scene held: equilibrium;";
+    let slider = "link rod { A -> B: 180mm } link block { B } revolute A: crank -> rod; revolute B: rod -> block;
+        prismatic G: ground.O -> block.B along 0deg; load F: force(block.B); scene held: equilibrium;";
+    let lever = "link lever { Q: (0, 0), D: (60mm, 20mm) } revolute Q: ground -> lever; slot S: lever.Q -> crank.A along 0deg of lever;
+        load F: force(lever.D); scene held: equilibrium;";
+    let sides = |joint: &str, of: &str, words: [&str; 3]| words.map(|word| format!("assemble {joint}: {word}({of});"));
+    for (rest, sides) in [
+        (rocker, sides("B", "A -> Q", ["left", "right", "either"])),
+        (slider, sides("B", "A", ["ahead", "behind", "either"])),
+        (lever, sides("S", "Q", ["ahead", "behind", "either"])),
+    ] {
+        for side in sides {
+            let code = expand(format!("mod m; {crank} {rest} {side}").parse().expect("tokens")).to_string();
+            assert!(code.contains("held_at") && !code.contains("DeadCentre"), "{side}");
+        }
+    }
 }
 
 /// What the test before this one looks for is found.
