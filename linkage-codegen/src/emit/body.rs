@@ -276,6 +276,19 @@ impl<'a> Body<'a> {
         lines
     }
 
+    /// What is kept of the program for others, a line each where it is not kept under the name that it has here.
+    pub(super) fn kept(&self, model: &Model) -> Vec<String> {
+        let names = |value| self.names.get(&value).map(ToString::to_string);
+        let kept = self.program.outputs.iter().map(|(name, value)| {
+            let formula = Formula { model, terms: Values { program: self.program, names: &names, of: *value } };
+            (name, names(*value).unwrap_or_else(|| formula.of(*value)))
+        });
+        let lines: Vec<String> =
+            kept.filter(|(name, text)| *name != text).map(|(name, text)| format!("    {name} = {text}")).collect();
+        let heading = (!lines.is_empty()).then(|| "Kept as:".to_owned());
+        heading.into_iter().chain(lines).collect()
+    }
+
     /// The name or the written-out expression of a value.
     pub(super) fn value(&self, value: ValueId) -> TokenStream {
         self.code(value).tokens

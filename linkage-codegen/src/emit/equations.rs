@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::body::Body;
 use super::docs::blocks;
 use super::formula::{Formula, Nodes};
 use super::functions::{body, prepare_program};
@@ -242,41 +241,51 @@ fn term(formula: &Formula<'_, Nodes<'_>>, node: NodeId, unknown: Option<&str>) -
 }
 
 fn closed_forms(linkage: &Linkage) -> String {
+    let model = &linkage.model;
     let mut text = String::from("Closed forms\n------------\n");
-    let mut add = |heading: String, program: &Program, body: &Body<'_>| {
-        text.push_str(&format!("\n{heading}: {}\n", program.counts()));
-        for line in body.equations(&linkage.model) {
-            text.push_str(&format!("  {line}\n"));
-        }
-    };
-    if !linkage.model.params.is_empty() {
-        let program = prepare_program(linkage);
-        add("prepared, from the parameters".into(), &program, &body(linkage, &program));
+    if !model.params.is_empty() {
+        text.push_str(&kept("prepared, from the parameters", linkage, &prepare_program(linkage)));
     }
     if let Some((heading, program)) = super::limits::closed_form(linkage) {
-        add(heading, program, &body(linkage, program));
+        text.push_str(&closed_form(&heading, program, body(linkage, program).equations(model)));
     }
-    let pose = &linkage.functions.pose;
-    add("pose, from the drives".into(), pose, &body(linkage, pose));
-    let searches = linkage.model.graph.searches();
+    text.push_str(&kept("pose, from the drives", linkage, &linkage.functions.pose));
+    let searches = model.graph.searches();
     for ((_, search), functions) in searches.iter().zip(&linkage.functions.searches) {
         let program = &functions.step;
         let heading = format!("{}, each step until nothing but rounding is open", search.name);
-        add(heading, program, &super::search::step(linkage, search, program));
+        text.push_str(&closed_form(&heading, program, super::search::step(linkage, search, program).equations(model)));
     }
-    for (scene, functions) in linkage.model.scenes.iter().zip(&linkage.functions.scenes) {
+    for (scene, functions) in model.scenes.iter().zip(&linkage.functions.scenes) {
         if scene.method != Method::Verify {
-            let program = &functions.from_pose;
-            add(format!("scene {}, from a pose", scene.name), program, &body(linkage, program));
+            let (heading, program) = (format!("scene {}, from a pose", scene.name), &functions.from_pose);
+            text.push_str(&closed_form(&heading, program, body(linkage, program).equations(model)));
         }
     }
     for inverse in &linkage.inverses {
         let Some((scene, program)) = super::inverses::scene(inverse) else { continue };
-        let body = body(inverse, program);
-        text.push_str(&format!("\nscene {}, from what is wanted: {}\n", scene.name, program.counts()));
+        if !model.params.is_empty() {
+            let heading = format!("prepared for the scene {}, from the parameters", scene.name);
+            text.push_str(&kept(&heading, inverse, &prepare_program(inverse)));
+        }
         let groups = super::docs::motion_blocks(inverse);
-        let lines = groups.lines().map(str::to_owned).chain(body.equations(&inverse.model));
-        lines.for_each(|line| text.push_str(&format!("  {line}\n")));
+        let lines = groups.lines().map(str::to_owned).chain(body(inverse, program).equations(&inverse.model));
+        text.push_str(&closed_form(&format!("scene {}, from what is wanted", scene.name), program, lines));
     }
     text
+}
+
+/// A program as text.
+fn closed_form(heading: &str, program: &Program, lines: impl IntoIterator<Item = String>) -> String {
+    let mut text = format!("\n{heading}: {}\n", program.counts());
+    for line in lines {
+        text.push_str(&format!("  {line}\n"));
+    }
+    text
+}
+
+/// A program of which others read what it finds, under the names by which they do.
+fn kept(heading: &str, linkage: &Linkage, program: &Program) -> String {
+    let body = body(linkage, program);
+    closed_form(heading, program, [body.equations(&linkage.model), body.kept(&linkage.model)].concat())
 }

@@ -1,6 +1,6 @@
 //! The derivation as text: what stands in it is evaluated, and held against the equations that are solved.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use linkage_codegen::emit::equations;
 use linkage_codegen::equations::Source;
@@ -37,6 +37,75 @@ fn springs_and_dampers_between_moving_links_are_written_out() {
         scene held: equilibrium;";
     let linkage = analyse(declaration.parse().expect("tokens")).expect("a linkage");
     assert_general("engine", &linkage);
+}
+
+/// No closed form reads a name that is neither given nor found above it: what is prepared and kept is said under the name that others read.
+#[test]
+fn closed_forms_read_what_is_found_above_them() {
+    let (mut looked_at, mut unknown) = (0, Vec::new());
+    for (name, linkage) in linkages() {
+        let text = equations(&linkage);
+        let (_, forms) = text.split_once("Closed forms\n------------\n").expect("closed forms");
+        let given = given_names(&linkage);
+        // What a pose and a prepared linkage keep is read by all that follows.
+        let (mut shared, mut own, mut keeps) = (BTreeSet::new(), BTreeSet::new(), false);
+        for line in forms.lines() {
+            if !line.is_empty() && !line.starts_with(' ') {
+                let found = std::mem::take(&mut own);
+                if keeps {
+                    shared.extend(found);
+                }
+                keeps = line.starts_with("pose") || line.starts_with("prepared");
+            }
+            let Some((found, formula)) = line.strip_prefix("      ").and_then(|line| line.split_once(" = ")) else {
+                continue;
+            };
+            // What a search finds has its own name there.
+            let formula = formula.strip_prefix(found).filter(|rest| rest.starts_with(" by ")).unwrap_or(formula);
+            for read in names_in(formula) {
+                if !(given.contains(read) || shared.contains(read) || own.contains(read)) {
+                    unknown.push(format!("{name}: `{read}` in{line}"));
+                }
+                looked_at += 1;
+            }
+            own.insert(found);
+        }
+    }
+    assert!(unknown.is_empty(), "{}", unknown.join("\n"));
+    assert!(looked_at > 5000, "{looked_at}");
+}
+
+/// What the functions of a linkage have as arguments.
+fn given_names(linkage: &Linkage) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    for model in linkage.inverses.iter().chain([linkage]).map(|linkage| &linkage.model) {
+        for drive in &model.drives {
+            names.insert(drive.name.text.clone());
+            names.extend([Order::Rate, Order::Acceleration].map(|order| drive.motion_name(order)));
+        }
+        names.extend(model.params.iter().map(|param| param.name.text.clone()));
+        names.extend(model.closures.iter().map(|closure| format!("side_{}", model.joint(closure.joint).name)));
+        for load in &model.loads {
+            let values = (0..4).map(|part| load.kind.value_name(part));
+            names.extend(values.map(|value| load.value_name(value)));
+        }
+        names.extend(model.graph.searches().into_iter().map(|(_, search)| search.name));
+    }
+    names
+}
+
+/// The names of values in a formula: neither functions nor words.
+fn names_in(formula: &str) -> impl Iterator<Item = &str> {
+    const WORDS: [&str; 16] = [
+        "where", "else", "and", "unknown", "of", "by", "smallest", "pivot", "over", "the", "size", "its", "terms",
+        "what", "stays", "open",
+    ];
+    let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
+    let words = formula.split(move |c: char| !is_part(c)).filter(|word| word.starts_with(char::is_alphabetic));
+    words.filter(move |word| {
+        let behind = word.as_ptr().addr() - formula.as_ptr().addr() + word.len();
+        !WORDS.contains(word) && !formula[behind..].starts_with('(')
+    })
 }
 
 /// Of a linkage: how many sums were compared.
