@@ -123,6 +123,12 @@ pub fn list(names: &[&str]) -> String {
     }
 }
 
+/// So many of something: `1 joint`, `2 joints`.
+#[must_use]
+pub fn count(n: usize, noun: &str) -> String {
+    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
+}
+
 /// Collects errors.
 #[derive(Debug, Default)]
 pub struct Sink {

@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::Linkage;
+use crate::diagnostics::count;
 use crate::graph::{Failure, Search};
 use crate::model::Method;
 use crate::program::{Program, Step};
@@ -26,14 +27,11 @@ pub(super) fn module(linkage: &Linkage) -> TokenStream {
     if !model.attributes.is_empty() {
         text.push('\n');
     }
-    let moving = model.links.len() - 1;
     text.push_str(&format!(
-        "A planar linkage of {moving} moving link{}, {} joint{} and {} drive{}. Lengths in {}, forces in {}, angles in rad.\n",
-        if moving == 1 { "" } else { "s" },
-        model.joints.len(),
-        if model.joints.len() == 1 { "" } else { "s" },
-        model.drives.len(),
-        if model.drives.len() == 1 { "" } else { "s" },
+        "A planar linkage of {}, {} and {}. Lengths in {}, forces in {}, angles in rad.\n",
+        count(model.links.len() - 1, "moving link"),
+        count(model.joints.len(), "joint"),
+        count(model.drives.len(), "drive"),
         model.units.length.name,
         model.units.force.name,
     ));

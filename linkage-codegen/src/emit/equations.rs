@@ -7,6 +7,7 @@ use super::formula::{Formula, Nodes};
 use super::functions::{body, prepare_program};
 use super::types::load_doc;
 use crate::Linkage;
+use crate::diagnostics::count;
 use crate::equations::joints::Component;
 use crate::equations::{Exerted, Source};
 use crate::graph::{Expr, NodeId, Op, Stage};
@@ -39,12 +40,11 @@ fn mobility(linkage: &Linkage) -> String {
     let moving = model.links.len() - 1;
     let constraints = linkage.system.rows.iter().filter(|row| matches!(row.source, Source::Joint(..))).count();
     format!(
-        "{} links, {moving} of them moving; {} joint{} with {constraints} constraints: mobility 3·{moving} − {constraints} = {}\n\
+        "{} links, {moving} of them moving; {} with {constraints} constraints: mobility 3·{moving} − {constraints} = {}\n\
          lengths in {}, forces in {}; the link that a reaction acts on stands behind the arrow\n\
          sin(link), cos(link): of the angle of the x axis of the link's own frame; link_sin, link_cos: of the direction that it carries\n{}\n",
         model.links.len(),
-        model.joints.len(),
-        if model.joints.len() == 1 { "" } else { "s" },
+        count(model.joints.len(), "joint"),
         3 * moving - constraints,
         model.units.length.name,
         model.units.force.name,

@@ -293,7 +293,7 @@ impl<'m> Scope<'m> {
             }
         };
         if args.len() != count {
-            let problem = format!("`{name}` takes {count} argument{}", if count == 1 { "" } else { "s" });
+            let problem = format!("`{name}` takes {}", crate::diagnostics::count(count, "argument"));
             return Err(Diagnostic::new(place, problem));
         }
         let number = |expr| Quantity { expr, dimension: Some(Dimension::NUMBER) };

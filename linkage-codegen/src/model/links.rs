@@ -282,15 +282,16 @@ fn by_distances(
     if height_squared.sign() == Some(-1) || r1.sign() == Some(-1) || r2.sign() == Some(-1) {
         let problem = format!("no point is at these distances from `{}` and `{}`", given.from, given.to);
         let unit = model.units.length.name;
+        let note = if [r1, r2].iter().any(|distance| distance.sign() == Some(-1)) {
+            "a distance is not less than zero: to which side the point lies, `left` and `right` say".to_owned()
+        } else {
+            let [d, r1, r2] = [d, r1, r2].map(number);
+            format!(
+                "the sides of the triangle are {d} {unit}, {r1} {unit} and {r2} {unit}, and none may be longer than the other two together"
+            )
+        };
         return Err(Diagnostic::new(given.place, problem)
-            .note(if r1.sign() == Some(-1) || r2.sign() == Some(-1) {
-                "a distance is not less than zero: to which side the point lies, `left` and `right` say".to_owned()
-            } else { format!(
-                "the sides of the triangle are {} {unit}, {} {unit} and {} {unit}, and none may be longer than the other two together",
-                number(d),
-                number(r1),
-                number(r2)
-            )})
+            .note(note)
             .help(format!("change a distance, or give coordinates: `{name}: (x, y)`")));
     }
     let requirement =

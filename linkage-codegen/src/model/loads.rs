@@ -166,15 +166,15 @@ fn kind(scope: Scope<'_>, given: &ast::Load, id: LoadId, sink: &Sink) -> Result<
             };
             let moment = scalar(scope, given, id, Kind::Moment)?;
             let Some(on_link) = on_link else { return Ok(None) };
-            if Some(on_link) == from_link && on_link != GROUND {
+            if on_link == GROUND && from_link.is_none_or(|from| from == GROUND) {
+                return Err(Diagnostic::new(on.place(), "a moment on the ground has no effect on the linkage")
+                    .help("let it act on a moving link, or leave it out"));
+            }
+            if Some(on_link) == from_link {
                 let place = from.as_ref().map_or(on.place(), |from| from.place().to(on.place()));
                 return Err(Diagnostic::new(place, format!("`{on}` cannot exert a moment on itself")).help(format!(
                     "write `moment({on})` if it comes from outside, or name the link that reacts it: `moment(ground -> {on})`"
                 )));
-            }
-            if on_link == GROUND && from_link.is_none_or(|from| from == GROUND) {
-                return Err(Diagnostic::new(on.place(), "a moment on the ground has no effect on the linkage")
-                    .help("let it act on a moving link, or leave it out"));
             }
             Ok(Some(LoadKind::Moment { on: on_link, from: from_link, moment: moment.id() }))
         }

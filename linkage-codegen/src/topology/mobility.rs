@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::matching::Unbalanced;
 use super::{Constraint, Input, generic, redundant};
-use crate::diagnostics::{Diagnostic, Sink, list};
+use crate::diagnostics::{Diagnostic, Sink, count, list};
 use crate::model::Model;
 use crate::model::ids::{GROUND, JointId, LinkId};
 
@@ -103,10 +103,6 @@ fn is_driven(model: &Model, joint: usize) -> bool {
 
 fn counted(n: i64, noun: &str) -> String {
     count(usize::try_from(n).unwrap_or(0), noun)
-}
-
-fn count(n: usize, noun: &str) -> String {
-    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
 /// The count is right on the whole, but not everywhere.

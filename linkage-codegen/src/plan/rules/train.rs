@@ -12,6 +12,7 @@
 
 use super::block::Block;
 use super::{Rule, RuleResult};
+use crate::diagnostics::Diagnostic;
 use crate::graph::{Expr, Graph, Vector};
 use crate::model::ids::{JointId, LinkId};
 use crate::model::{Gear, JointKind, Model, UnknownKind};
@@ -25,42 +26,31 @@ use crate::topology::{Group, Input};
 /// The rule.
 pub(super) struct Train;
 
-/// A condition of the angles: factors of the links' angles, and what their sum is.
-struct Condition<'m> {
-    factors: Vec<(LinkId, Expr<'m>)>,
-    sum: Expr<'m>,
-}
-
-fn conditions<'m>(assembly: &Assembly<'m>, group: &Group) -> Vec<Condition<'m>> {
-    let (model, graph) = (assembly.model(), assembly.graph());
-    let gears = joints(group).filter_map(|id| match model.joint(id).kind {
-        JointKind::Gear(gear) => {
-            let centres = gear.centres(model);
-            let within = graph.atan2(centres.y, centres.x);
-            let both = graph.expr(gear.radii[0]) + graph.expr(gear.radii[1]);
-            Some(Condition { factors: factors(model, graph, id, &gear), sum: graph.expr(gear.phase) + both * within })
+/// The equations of the angles of a group's links, or of their rates: what of them meshes and what is driven is given, and those of other links are
+/// known. Nothing if an effort acts that is no torque between two links: its coordinate is not an angle.
+fn equations<'m>(
+    (model, graph): (&'m Model, &'m Graph),
+    group: &Group,
+    meshed: impl Fn(JointId, &Gear) -> Expr<'m>,
+    driven: impl Fn(Input) -> Option<Expr<'m>>,
+    known: impl Fn(LinkId) -> Expr<'m>,
+) -> Option<Vec<Equation<'m>>> {
+    let equation = |factors: &[(LinkId, Expr<'m>)], sum: Expr<'m>| {
+        let mut equation = Equation { coefficients: vec![graph.zero(); group.links.len()], right: sum, gives: None };
+        for (link, factor) in factors {
+            match group.links.iter().position(|own| own == link) {
+                Some(column) => equation.coefficients[column] = equation.coefficients[column] + *factor,
+                None => equation.right = equation.right - *factor * known(*link),
+            }
         }
-        _ => None,
-    });
-    let drives = group.inputs.iter().filter_map(|input| {
-        let Input::Drive(drive) = *input else { return None };
-        let [a, b] = model.joint(model.drive(drive).joint).ends().map(|end| end.link);
-        Some(Condition { factors: vec![(a, -graph.one()), (b, graph.one())], sum: assembly.coordinate(drive) })
-    });
-    gears.chain(drives).collect()
-}
-
-/// The conditions of the rates of the angles: the same, differentiated (Willis). Nothing if an effort acts that is no torque between two links:
-/// the rate of its coordinate is not that of an angle.
-fn conditions_of_rates<'m>(motion: &Motion<'m, '_>, group: &Group) -> Option<Vec<Condition<'m>>> {
-    let (model, graph) = (motion.model(), motion.graph());
+        equation
+    };
     let gears = joints(group).filter_map(|id| match model.joint(id).kind {
         JointKind::Gear(gear) => {
-            let centres = gear.centres(model);
-            let within = motion.change_of(graph.atan2(centres.y, centres.x));
-            let both = graph.expr(gear.radii[0]) + graph.expr(gear.radii[1]);
-            let rolled = motion.meshing(id, &gear) * (both / gear.distance(model));
-            Some(Condition { factors: factors(model, graph, id, &gear), sum: both * within - rolled })
+            let [first, second] = gear.radii.map(|radius| graph.expr(radius));
+            let [a, b] = model.joint(id).ends().map(|end| end.link);
+            let factors = [(a, first), (b, second), (gear.arm[0].link, -(first + second))];
+            Some(equation(&factors, meshed(id, &gear)))
         }
         _ => None,
     });
@@ -70,54 +60,29 @@ fn conditions_of_rates<'m>(motion: &Motion<'m, '_>, group: &Group) -> Option<Vec
             UnknownKind::Drive(drive) => model.joint(model.drive(drive).joint).ends().map(|end| end.link),
             UnknownKind::Force { .. } | UnknownKind::Thrust(_) => return None,
         };
-        let sum = motion.rate_of(*input);
-        Some(Condition { factors: vec![(from, -graph.one()), (to, graph.one())], sum })
+        Some(equation(&[(from, -graph.one()), (to, graph.one())], driven(*input)?))
     });
     gears.map(Some).chain(inputs).collect()
 }
 
-/// By what the angles of two wheels and their arm count where they mesh.
-fn factors<'m>(model: &Model, graph: &'m Graph, joint: JointId, gear: &Gear) -> Vec<(LinkId, Expr<'m>)> {
-    let [first, second] = gear.radii.map(|radius| graph.expr(radius));
-    let [a, b] = model.joint(joint).ends().map(|end| end.link);
-    vec![(a, first), (b, second), (gear.arm[0].link, -(first + second))]
-}
-
-/// Conditions as equations for the links of a group, where the others have known angles, or rates.
-fn equations<'m>(
-    graph: &'m Graph,
-    group: &Group,
-    conditions: Vec<Condition<'m>>,
-    known: impl Fn(LinkId) -> Expr<'m>,
-) -> Vec<Equation<'m>> {
-    let equations = conditions.into_iter().map(|condition| {
-        let coefficients = vec![graph.zero(); group.links.len()];
-        let mut equation = Equation { coefficients, right: condition.sum, gives: None };
-        for (link, factor) in condition.factors {
-            match group.links.iter().position(|own| *own == link) {
-                Some(column) => equation.coefficients[column] = equation.coefficients[column] + factor,
-                None => equation.right = equation.right - factor * known(link),
-            }
-        }
-        equation
-    });
-    equations.collect()
-}
-
+/// The angles or the rates; `verb` says what could not be done without.
 fn solved<'m>(
-    model: &Model,
-    graph: &'m Graph,
+    (model, graph): (&'m Model, &'m Graph),
     group: &Group,
     equations: &[Equation<'m>],
-) -> Result<Vec<Expr<'m>>, usize> {
+    verb: &str,
+) -> Result<Vec<Expr<'m>>, Diagnostic> {
     let links = model.link_names(&group.links);
     let determinant = format!("det_{}", links.replace(" + ", "_"));
     let spread = graph.one();
-    solve(
-        graph,
-        equations,
-        Core { name: &determinant, group: &links, spread, refined: false, unknown: &|_, value| value },
-    )
+    let core = Core { name: &determinant, group: &links, spread, refined: false, unknown: &|_, value| value };
+    solve(graph, equations, core).map_err(|_| crate::plan::unsupported(model, group, verb))
+}
+
+/// Both radii together, and the angle of the line of centres in the arm's frame.
+fn line_of_centres<'m>((model, graph): (&'m Model, &'m Graph), gear: &Gear) -> [Expr<'m>; 2] {
+    let ([first, second], centres) = (gear.radii.map(|radius| graph.expr(radius)), gear.centres(model));
+    [first + second, graph.atan2(centres.y, centres.x)]
 }
 
 fn joints(group: &Group) -> impl Iterator<Item = JointId> {
@@ -151,9 +116,14 @@ impl Rule for Train {
                 )));
             }
         }
-        let equations = equations(graph, group, conditions(assembly, group), |link| assembly.placement.angle(link));
-        let angles =
-            solved(model, graph, group, &equations).map_err(|_| crate::plan::unsupported(model, group, "place"))?;
+        let meshed = |_: JointId, gear: &Gear| {
+            let [both, within] = line_of_centres((model, graph), gear);
+            graph.expr(gear.phase) + both * within
+        };
+        let driven = |input| Group::drive_of(model, input).map(|drive| assembly.coordinate(drive));
+        let known = |link| assembly.placement.angle(link);
+        let Some(equations) = equations((model, graph), group, meshed, driven, known) else { return Ok(()) };
+        let angles = solved((model, graph), group, &equations, "place")?;
         let x_axis = Vector::new(graph.one(), graph.zero());
         for (link, angle) in group.links.iter().zip(angles) {
             let name = &model.link(*link).name;
@@ -171,11 +141,18 @@ impl Rule for Train {
     }
 
     fn follow(&self, motion: &mut Motion<'_, '_>, group: &Group) -> RuleResult {
-        let Some(conditions) = conditions_of_rates(motion, group) else { return Block.follow(motion, group) };
         let (model, graph) = (motion.model(), motion.graph());
-        let equations = equations(graph, group, conditions, |link| motion.rate(link));
-        let rates =
-            solved(model, graph, group, &equations).map_err(|_| crate::plan::unsupported(model, group, "move"))?;
+        // What the position says, differentiated.
+        let meshed = |joint: JointId, gear: &Gear| {
+            let [both, within] = line_of_centres((model, graph), gear);
+            both * motion.change_of(within) - motion.meshing(joint, gear) * (both / gear.distance(model))
+        };
+        let driven = |input| Some(motion.rate_of(input));
+        let known = |link| motion.rate(link);
+        let Some(equations) = equations((model, graph), group, meshed, driven, known) else {
+            return Block.follow(motion, group);
+        };
+        let rates = solved((model, graph), group, &equations, "move")?;
         let mut open = Vec::new();
         for (link, rate) in group.links.iter().zip(rates) {
             open.push((*link, motion.named_rate(rate, &model.link(*link).name.text, " from its gears")));

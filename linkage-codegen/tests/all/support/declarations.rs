@@ -104,7 +104,7 @@ pub fn coordinates(linkage: &Linkage) -> impl Iterator<Item = Vec<f64>> {
 /// What no example has: dimensions at run time, single precision, a motion through the folds, a driven slide, two drives, springs,
 /// cylinders, slots, welds, gears, inner slides, unknowns elsewhere than at the drives, equations of motion, inverse scenes,
 /// derivatives, fused arithmetic, a group of class IV.
-pub const OTHERS: [(&str, &str); 24] = [
+pub const OTHERS: [(&str, &str); 25] = [
     (
         "class_iv",
         "/// A group of class IV: two plates, on the crank and on the ground, joined by two rods.
@@ -364,6 +364,20 @@ pub const OTHERS: [(&str, &str); 24] = [
         load W: gravity = 9.81m/s^2 @ -90deg; load I: inertia; load tip: force(lower.tool);
         scene held: equilibrium(W, tip) -> (effort_a, effort_b); scene torques: virtual_work(W, tip) -> (effort_a, effort_b);
         scene dynamics: equilibrium -> (effort_a, effort_b, C); scene place: position -> (lower.tool);",
+    ),
+    (
+        "planetary_drive",
+        "/// A planet that two motors turn, by the arm and by the sun, and a rod on a pin beside its centre: what both do at speed.
+        pub mod planetary_drive; units { mm, N }
+        ground { O: (0, 0), Q: (200mm, 0) } link arm { O -> P: 50mm } link sun { O } link planet { P: (0, 0), E: (22mm, 0) }
+        link rod { E -> R: 120mm } link lever { Q -> R: 100mm }
+        mass planet: 1kg at P, inertia 500kg*mm^2; mass rod: 0.3kg at (60mm, 0), inertia 400kg*mm^2;
+        revolute Oa: ground.O -> arm.O; revolute Os: ground.O -> sun.O; revolute P: arm -> planet;
+        gear G: sun.O -> planet.P, radii (20mm, 30mm), pressure_angle 20deg, flank left;
+        revolute E: planet -> rod; revolute R: rod -> lever; revolute Q: ground -> lever;
+        drive a: Oa; drive b: Os; assemble R: right(E -> Q); load I: inertia; load M: moment(lever);
+        scene held: equilibrium -> (effort_a, effort_b, G); scene torque: virtual_work -> (effort_a, effort_b);
+        scene speeds: velocity -> (planet.angle, E); scene turning: acceleration -> (planet.angle, lever.angle);",
     ),
     (
         "geared_five_bar",
