@@ -79,6 +79,17 @@ linkage! {
 }
 
 linkage! {
+    /// A lever that is pulled in any direction.
+    mod pulled;
+    ground     { O: (0, 0) }
+    link lever { O -> A: 0.4m }
+    revolute O: ground -> lever;
+    drive theta: O;
+    load P: force(lever.A);
+    scene over: virtual_work -> (advantage(P));
+}
+
+linkage! {
     /// A five-bar with two drives.
     mod five_bar;
     ground     { O1: (0, 0), O2: (0.5m, 0) }
@@ -319,6 +330,15 @@ fn at_a_dead_centre_of_the_output_the_advantage_is_unbounded() -> Result<(), Err
     // At right angles the piston moves as fast as the crank's pin: the force there, times the crank, is the torque.
     assert!((stroke(core::f64::consts::FRAC_PI_2)? - 25.0).abs() < 1e-12);
     Ok(())
+}
+
+#[test]
+fn a_force_that_vanishes_has_no_direction_to_be_held_in() {
+    let pull = |x: f64, y: f64| pulled::over_at(0.0, &pulled::Loads { P: [x, y].into() }).map(|over| over.P_advantage);
+    assert_eq!(pull(0.0, 1e-300), Ok(2.5));
+    assert_eq!(pull(0.0, -2.0), Ok(-2.5));
+    assert_eq!(pull(3.0, 0.0), Err(Error::DeadCentre { group: "P", pivot: "v_along_P" }));
+    assert_eq!(pull(0.0, 0.0), Err(Error::NoDirection { of: "P" }));
 }
 
 #[test]

@@ -512,12 +512,13 @@ struct Arena {
     number_index: FxHashMap<number::Key, NumberId>,
     guards: Vec<Guard>,
     guard_index: FxHashMap<Guard, GuardId>,
-    labels: BTreeMap<NodeId, Label>,
+    labels: BTreeMap<NodeId, (Label, SectionId)>,
     /// The scene whose results are being worked out, and in which scene a label was given.
     scene: Option<usize>,
     labelled_in: BTreeMap<NodeId, usize>,
     /// What another scene calls a value that an earlier one has named, and under which heading.
     labels_of_scenes: BTreeMap<(usize, NodeId), (Label, SectionId)>,
+    results_of_scenes: BTreeMap<(usize, NodeId), SectionId>,
     positive: BTreeSet<NodeId>,
     /// Quotients that are divided, whatever others have the same divisor.
     divided: BTreeSet<NodeId>,
@@ -667,17 +668,30 @@ impl Graph {
     /// A node's name.
     #[must_use]
     pub fn label(&self, id: NodeId) -> Option<Label> {
-        self.arena.borrow().labels.get(&id).cloned()
+        self.arena.borrow().labels.get(&id).map(|(label, _)| label.clone())
     }
 
-    /// A node's name in the functions of a scene, and its heading if that is the scene's own.
+    /// A node's name in the functions of a scene.
     #[must_use]
-    pub fn label_in(&self, scene: Option<usize>, id: NodeId) -> (Option<Label>, Option<String>) {
+    pub fn label_in(&self, scene: Option<usize>, id: NodeId) -> Option<Label> {
+        self.arena.borrow().given_in(scene, id).map(|(label, _)| label.clone())
+    }
+
+    /// The heading under which a node got its name or became a result of the scene, whatever made it before.
+    #[must_use]
+    pub fn heading_in(&self, scene: Option<usize>, id: NodeId) -> Option<String> {
         let arena = self.arena.borrow();
-        let own = scene.and_then(|scene| arena.labels_of_scenes.get(&(scene, id)));
-        match own {
-            Some((label, section)) => (Some(label.clone()), Some(arena.sections[section.0 as usize].clone())),
-            None => (arena.labels.get(&id).cloned(), None),
+        let given = arena.given_in(scene, id).map(|(_, section)| *section);
+        let section = given.or_else(|| arena.results_of_scenes.get(&(scene?, id)).copied())?;
+        Some(arena.sections[section.0 as usize].clone())
+    }
+
+    /// These are results of the scene that is worked out, under the heading that is open.
+    pub fn are_results(&self, nodes: impl IntoIterator<Item = NodeId>) {
+        let arena = &mut *self.arena.borrow_mut();
+        let (Some(scene), section) = (arena.scene, SectionId(index(arena.sections.len() - 1))) else { return };
+        for node in nodes {
+            arena.results_of_scenes.entry((scene, node)).or_insert(section);
         }
     }
 
@@ -700,13 +714,17 @@ impl Graph {
     fn set_label(&self, id: NodeId, label: Label) {
         let arena = &mut *self.arena.borrow_mut();
         let section = SectionId(index(arena.sections.len() - 1));
-        match (arena.labels.get(&id), arena.scene) {
+        match (arena.labels.get_mut(&id), arena.scene) {
+            // The general equations have no headings.
+            (Some((first, own)), _) if first.name == label.name && arena.sections[own.0 as usize].is_empty() => {
+                *own = section
+            }
             (None, scene) => {
-                arena.labels.insert(id, label);
+                arena.labels.insert(id, (label, section));
                 arena.labelled_in.extend(scene.map(|scene| (id, scene)));
             }
             // A name that the pose gave is that of all.
-            (Some(first), Some(scene))
+            (Some((first, _)), Some(scene))
                 if first.name != label.name && arena.labelled_in.get(&id).is_some_and(|own| *own != scene) =>
             {
                 arena.labels_of_scenes.entry((scene, id)).or_insert((label, section));
@@ -718,7 +736,8 @@ impl Graph {
     /// Names a value that a pose keeps.
     pub fn name_kept(&self, value: NodeId, name: &str) {
         let label = Label { name: name.to_owned(), equation: String::new() };
-        self.arena.borrow_mut().labels.entry(value).or_insert(label);
+        let arena = &mut *self.arena.borrow_mut();
+        arena.labels.entry(value).or_insert((label, arena.sections_of[value.index()]));
     }
 
     /// The heading under which a node was made, empty for none.
@@ -911,6 +930,12 @@ impl Graph {
 }
 
 impl Arena {
+    /// A node's name in the functions of a scene, and the section in which it was given.
+    fn given_in(&self, scene: Option<usize>, id: NodeId) -> Option<&(Label, SectionId)> {
+        let own = scene.and_then(|scene| self.labels_of_scenes.get(&(scene, id)));
+        own.or_else(|| self.labels.get(&id))
+    }
+
     fn stage_of(&self, op: &Op) -> Stage {
         let own = match op {
             Op::Symbol(Symbol::Parameter(_)) => Stage::Prepared,

@@ -108,6 +108,14 @@ impl<'g> Vector<'g> {
         Self { x: self.x.named(format!("{name}_x"), equation), y: self.y.named(format!("{name}_y"), equation) }
     }
 
+    /// The same for what is made already: its names stand under the headings of where it was made.
+    #[must_use]
+    pub fn named_where_made(self, name: &str, equation: &str) -> Self {
+        let [x, y] = [(self.x, "x"), (self.y, "y")]
+            .map(|(part, axis)| self.graph().beside(part.id(), || part.named(format!("{name}_{axis}"), equation)));
+        Self { x, y }
+    }
+
     /// Names both components of a direction, `_cos` and `_sin`.
     #[must_use]
     pub fn named_direction(self, name: &str, equation: &str) -> Self {

@@ -48,7 +48,7 @@ pub(super) fn outputs<'m>(
     let forces = Forces { model, groups: &assembly.topology.forces, rules, motion_rules, assembly, posed, cases, sink };
     let output = |(index, scene): (usize, &Scene)| {
         model.graph.begin_scene(index);
-        match scene.method {
+        let output = match scene.method {
             Method::Position => position(&forces, scene),
             Method::Velocity => motion(&forces, scene, posed.velocities, Order::Rate),
             Method::Acceleration => motion(&forces, scene, posed.accelerations, Order::Acceleration),
@@ -61,7 +61,8 @@ pub(super) fn outputs<'m>(
             Method::Verify => forces.verify(scene, equations),
             // Of the results of another one, once these are known.
             Method::Derivative => Output::Record(Vec::new()),
-        }
+        };
+        forces.are_results(output)
     };
     let mut all: Vec<Output> = model.scenes.iter().enumerate().map(output).collect();
     let mut sensitivities = Sensitivities::new(assembly, motion_rules, sink);
@@ -237,7 +238,14 @@ impl<'m> Forces<'_, 'm> {
                 [x, y].into_iter().for_each(|part| self.model.graph.pass_on(part));
             }
         }
+        self.model.graph.begin_section(format!("Results{}", case.trim_start_matches("forces")));
         balance
+    }
+
+    /// The same results; they stand under the heading that is open.
+    fn are_results(&self, output: Output) -> Output {
+        self.model.graph.are_results(output.leaves().into_iter().map(|(_, node)| node));
+        output
     }
 
     /// An error of a rule is the same in every scene: once is enough.
@@ -324,7 +332,7 @@ impl<'m> Forces<'_, 'm> {
                 let balance = self.balance(&case_prefix(self.model, case), actions);
                 let reacted = self.reacted_by_ground(&[*load]);
                 let reacted = if reacted.is_empty() { &[] } else { actions };
-                Output::Record(self.results(&balance, &scene.results, reacted))
+                self.are_results(Output::Record(self.results(&balance, &scene.results, reacted)))
             };
             let value = match self.model.load(*load).kind {
                 kind if kind.is_per_link() => {
@@ -597,9 +605,17 @@ impl<'m> Forces<'_, 'm> {
         let velocity = graph.expr(velocity);
         let pivot = motion.name(&format!("v_along_{name}"));
         let velocity = velocity.named(pivot.clone(), format!("velocity along {name}, at unit rate"));
+        let directed = match self.model.load(load).kind {
+            // A force that vanishes has no direction along which its point could move.
+            LoadKind::Force { force, .. } => {
+                let size = graph.expr(force.x).abs() + graph.expr(force.y).abs();
+                velocity.require_above(size, graph.zero(), Failure::NoDirection { of: name.text.clone() })
+            }
+            _ => velocity,
+        };
         let failure = Failure::DeadCentre { group: name.text.clone(), pivot };
         let limit = graph.epsilons(8) * velocity.magnitude_given(&mut self.unit_vectors());
-        let divisor = velocity.require_above(velocity.abs(), limit, failure);
+        let divisor = directed.require_above(velocity.abs(), limit, failure);
         Output::scalar(graph.one() / divisor, Meaning::Number)
     }
 
@@ -743,7 +759,7 @@ fn case_prefix(model: &Model, case: &Case) -> String {
 fn reaction(balance: &Balance<'_, '_>, joint: JointId) -> Output {
     let name = balance.name(joint_name(balance.model(), joint));
     let reaction = balance.reaction(joint);
-    let force = reaction.force.ground().named(&name, &format!("{name} in ground axes"));
+    let force = reaction.force.ground().named_where_made(&name, &format!("{name} in ground axes"));
     let Some((ty, components)) = reaction_type(&balance.model().joint(joint).kind) else {
         return Output::vector(force, Meaning::Force);
     };

@@ -209,8 +209,8 @@ impl Building<'_> {
     fn add(&mut self, node: NodeId, definition: Definition) -> ValueId {
         let graph = self.extract.graph;
         let id = ValueId::new(self.program.values.len());
-        let (label, section) = graph.label_in(self.scene, node);
-        let section = section.unwrap_or_else(|| graph.section(node));
+        let label = graph.label_in(self.scene, node);
+        let section = graph.heading_in(self.scene, node).unwrap_or_else(|| graph.section(node));
         let (divided, component) = (graph.is_divided(node), self.component(node));
         self.program.values.push(Value { definition, label, section, divided, component, within: None });
         self.placed.insert(node, id);
@@ -237,11 +237,11 @@ impl Building<'_> {
                     Op::Quantity(inner) | Op::Held(inner) | Op::Checked { value: inner, .. } => {
                         let value = self.value(inner);
                         self.placed.insert(node, value);
-                        let (label, section) = self.extract.graph.label_in(self.scene, node);
                         let own = &mut self.program.values[value.index()];
                         if own.label.is_none() {
-                            own.label = label;
-                            own.section = section.unwrap_or_else(|| own.section.clone());
+                            own.label = self.extract.graph.label_in(self.scene, node);
+                            own.section =
+                                self.extract.graph.heading_in(self.scene, node).unwrap_or_else(|| own.section.clone());
                         }
                         value
                     }
