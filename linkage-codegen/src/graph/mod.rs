@@ -715,18 +715,19 @@ impl Graph {
         let arena = &mut *self.arena.borrow_mut();
         let section = SectionId(index(arena.sections.len() - 1));
         match (arena.labels.get_mut(&id), arena.scene) {
-            // The general equations have no headings.
-            (Some((first, own)), _) if first.name == label.name && arena.sections[own.0 as usize].is_empty() => {
-                *own = section
+            // One that came without a meaning, or without a heading as in the general equations, gets those that come with it later.
+            (Some((first, own)), _) if first.name == label.name => {
+                let says_more = first.equation.is_empty() && !label.equation.is_empty();
+                if says_more || arena.sections[own.0 as usize].is_empty() {
+                    (*first, *own) = (label, section);
+                }
             }
             (None, scene) => {
                 arena.labels.insert(id, (label, section));
                 arena.labelled_in.extend(scene.map(|scene| (id, scene)));
             }
             // A name that the pose gave is that of all.
-            (Some((first, _)), Some(scene))
-                if first.name != label.name && arena.labelled_in.get(&id).is_some_and(|own| *own != scene) =>
-            {
+            (Some(_), Some(scene)) if arena.labelled_in.get(&id).is_some_and(|own| *own != scene) => {
                 arena.labels_of_scenes.entry((scene, id)).or_insert((label, section));
             }
             _ => {}

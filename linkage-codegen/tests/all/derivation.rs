@@ -75,6 +75,41 @@ fn closed_forms_read_what_is_found_above_them() {
     assert!(looked_at > 5000, "{looked_at}");
 }
 
+/// A result stands under the heading of what asks for it, whatever other scene had made it before; a load's own contribution under that of
+/// this load.
+#[test]
+fn values_stand_under_the_headings_of_their_own_scenes() {
+    let (mut results, mut contributions) = (0, 0);
+    for (name, linkage) in linkages() {
+        let text = equations(&linkage);
+        let loads: Vec<String> = linkage.model.loads.iter().map(|load| load.name.text.clone()).collect();
+        let (mut of_scene, mut heading, mut meaning) = (false, "", "");
+        for line in text.lines().filter(|line| !line.is_empty()) {
+            let words = line.trim_start();
+            match line.len() - words.len() {
+                0 => of_scene = words.starts_with("scene"),
+                _ if !of_scene => {}
+                2 => heading = words,
+                4 => meaning = words,
+                6 if meaning == "a result" => {
+                    let is_others = heading.starts_with("Group") || heading.starts_with("Load");
+                    assert!(!is_others, "{name}: {words} under {heading}");
+                    results += 1;
+                }
+                6 => {
+                    let Some((_, case)) = heading.trim_end_matches(':').split_once(": forces by ") else { continue };
+                    let is_of = |load: &&String| words.starts_with(&format!("{load}_"));
+                    let Some(load) = loads.iter().filter(is_of).max_by_key(|load| load.len()) else { continue };
+                    assert!(case.starts_with(load.as_str()), "{name}: {words} under {heading}");
+                    contributions += 1;
+                }
+                _ => {}
+            }
+        }
+    }
+    assert!(results > 50 && contributions > 50, "{results} {contributions}");
+}
+
 /// What the functions of a linkage have as arguments.
 fn given_names(linkage: &Linkage) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
