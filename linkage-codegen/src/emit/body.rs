@@ -10,6 +10,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use self::blocks::Blocks;
+use super::docs::told;
 use super::formula::{Formula, Values};
 use super::literals::{ident, literal};
 use crate::graph::number::Number;
@@ -72,6 +73,9 @@ impl From<TokenStream> for Statement<'_> {
         Self { section: "", meaning: Cow::Borrowed(""), code }
     }
 }
+
+/// What stands above a condition in the derivation, before the error if it does not hold.
+pub(super) const REQUIRED: &str = "required, else";
 
 /// What stands above values, one after the other: the heading of a new section, and what a value means.
 #[derive(Default)]
@@ -258,20 +262,36 @@ impl<'a> Body<'a> {
         matches!(self.program.op(value), Some(Op::Kernel { kernel: Kernel::SinCos | Kernel::SinCosSum(_), .. }))
     }
 
-    /// The program as equations, a line each, under the headings of its sections; a line above says what an equation means.
+    /// The program as equations, a line each, under the headings of its sections, and what it requires; a line above says what it means.
     pub(super) fn equations(&self, model: &Model) -> Vec<String> {
         let mut notes = Notes::default();
         let mut lines = Vec::new();
         let names = |value| self.names.get(&value).map(ToString::to_string);
+        let formula = |of| Formula { model, terms: Values { program: self.program, names: &names, of } }.of(of);
         for step in &self.program.steps {
-            let Step::Let(of) = step else { continue };
-            let Some(name) = names(*of) else { continue };
-            let (section, meaning) = self.notes_of(*of);
-            let (heading, meaning) = notes.above(section, meaning);
-            lines.extend(heading.map(|heading| format!("{heading}:")));
-            lines.extend(meaning.map(|meaning| format!("  {meaning}")));
-            let formula = Formula { model, terms: Values { program: self.program, names: &names, of: *of } };
-            lines.push(format!("    {name} = {}", formula.of(*of)));
+            match step {
+                Step::Let(of) => {
+                    let Some(name) = names(*of) else { continue };
+                    let (section, meaning) = self.notes_of(*of);
+                    let (heading, meaning) = notes.above(section, meaning);
+                    lines.extend(heading.map(|heading| format!("{heading}:")));
+                    lines.extend(meaning.map(|meaning| format!("  {meaning}")));
+                    lines.push(format!("    {name} = {}", formula(*of)));
+                }
+                Step::Check { guard, .. } => {
+                    let (error, what) = told(&guard.failure);
+                    let meaning = format!("{REQUIRED} {error}: {}", what.replace('`', ""));
+                    lines.extend(notes.above("", meaning.into()).1.map(|meaning| format!("  {meaning}")));
+                    let [value, limit] =
+                        guard.condition.operands().map(|side| names(side).unwrap_or_else(|| formula(side)));
+                    let sign = match guard.condition {
+                        Condition::Above { .. } => '>',
+                        Condition::AtLeast { .. } => '≥',
+                    };
+                    lines.push(format!("    {value} {sign} {limit}"));
+                }
+                Step::FiniteInput(_) | Step::FiniteResults(_) => {}
+            }
         }
         lines
     }

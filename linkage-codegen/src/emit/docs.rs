@@ -206,26 +206,31 @@ fn errors(linkage: &Linkage, program: &Program) -> Vec<String> {
 }
 
 fn of_failure<T>(failure: &Failure<T>) -> String {
+    let (error, what) = told(failure);
+    format!("* [`Error::{error}`]: {what}.")
+}
+
+/// The error that a failure is, and what it says.
+pub(super) fn told<T>(failure: &Failure<T>) -> (&'static str, String) {
     match failure {
         Failure::CannotAssemble { group, joint, .. } => {
-            format!("* [`Error::CannotAssemble`]: {group} cannot be closed at `{joint}`.")
+            ("CannotAssemble", format!("{group} cannot be closed at `{joint}`"))
         }
-        Failure::CoincidentPivots { group, joint } => format!(
-            "* [`Error::CoincidentPivots`]: the outer joints of {group} coincide, the place of `{joint}` is open."
-        ),
+        Failure::CoincidentPivots { group, joint } => {
+            ("CoincidentPivots", format!("the outer joints of {group} coincide, the place of `{joint}` is open"))
+        }
         Failure::NoConvergence { group, .. } => {
-            format!("* [`Error::NoConvergence`]: the search for the places of {group} does not arrive.")
+            ("NoConvergence", format!("the search for the places of {group} does not arrive"))
         }
         Failure::DeadCentre { group, pivot } => {
-            format!("* [`Error::DeadCentre`]: {group} is at a dead centre, `{pivot}` vanishes.")
+            ("DeadCentre", format!("{group} is at a dead centre, `{pivot}` vanishes"))
         }
-        Failure::OtherSide { joint } => format!(
-            "* [`Error::OtherSide`]: only with `{joint}` on the other side than is chosen does it have these coordinates."
+        Failure::OtherSide { joint } => (
+            "OtherSide",
+            format!("only with `{joint}` on the other side than is chosen does it have these coordinates"),
         ),
-        Failure::NoDirection { of } => format!("* [`Error::NoDirection`]: {of} vanishes."),
-        Failure::CoincidentEnds { of } => {
-            format!("* [`Error::CoincidentEnds`]: the points between which `{of}` acts coincide.")
-        }
-        Failure::Parameter { requirement } => format!("* [`Error::Parameter`]: {requirement}."),
+        Failure::NoDirection { of } => ("NoDirection", format!("{of} vanishes")),
+        Failure::CoincidentEnds { of } => ("CoincidentEnds", format!("the points between which `{of}` acts coincide")),
+        Failure::Parameter { requirement } => ("Parameter", requirement.clone()),
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::body::REQUIRED;
 use super::docs::blocks;
 use super::formula::{Formula, Nodes};
 use super::functions::{body, prepare_program};
@@ -242,7 +243,7 @@ fn term(formula: &Formula<'_, Nodes<'_>>, node: NodeId, unknown: Option<&str>) -
 
 fn closed_forms(linkage: &Linkage) -> String {
     let model = &linkage.model;
-    let mut text = String::from("Closed forms\n------------\n");
+    let mut text = String::new();
     if !model.params.is_empty() {
         text.push_str(&kept("prepared, from the parameters", linkage, &prepare_program(linkage)));
     }
@@ -272,7 +273,9 @@ fn closed_forms(linkage: &Linkage) -> String {
         let lines = groups.lines().map(str::to_owned).chain(body(inverse, program).equations(&inverse.model));
         text.push_str(&closed_form(&format!("scene {}, from what is wanted", scene.name), program, lines));
     }
-    text
+    let limits = "\nThe limit of what is required is what rounding makes of zero: ε times the sizes of which the compared value is made.\n";
+    let limits = if text.contains(REQUIRED) { limits } else { "" };
+    format!("Closed forms\n------------\n{limits}{text}")
 }
 
 /// A program as text.

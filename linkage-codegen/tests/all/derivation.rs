@@ -57,9 +57,9 @@ fn closed_forms_read_what_is_found_above_them() {
                 }
                 keeps = line.starts_with("pose") || line.starts_with("prepared");
             }
-            let Some((found, formula)) = line.strip_prefix("      ").and_then(|line| line.split_once(" = ")) else {
-                continue;
-            };
+            let Some(line) = line.strip_prefix("      ") else { continue };
+            // What is required reads what is found as well.
+            let (found, formula) = line.split_once(" = ").unwrap_or(("", line));
             // What a search finds has its own name there.
             let formula = formula.strip_prefix(found).filter(|rest| rest.starts_with(" by ")).unwrap_or(formula);
             for read in names_in(formula) {
