@@ -2,6 +2,7 @@
 //! generated functions, and every item is sound by itself; what only the whole linkage can tell comes later.
 
 mod evaluate;
+mod generated;
 pub mod ids;
 pub(crate) mod inverses;
 mod joints;
@@ -12,9 +13,8 @@ mod names;
 mod options;
 mod scenes;
 mod turns;
-pub(crate) use scenes::OWN_TYPES;
 pub use scenes::type_name;
-pub(crate) use values::{OWN_PATTERNS, PLACE, SWEPT, arm_name, reciprocal_name};
+pub(crate) use values::{OWN_CONSTANTS, OWN_PATTERNS, PLACE, SWEPT, arm_name, reciprocal_name};
 mod sweeps;
 pub mod units;
 mod values;
