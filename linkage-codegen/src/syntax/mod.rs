@@ -4,6 +4,7 @@
 
 pub mod ast;
 mod header;
+mod hyphens;
 mod items;
 mod loads;
 mod quantity;
@@ -83,7 +84,7 @@ pub fn parse(input: TokenStream, sink: &Sink) -> Option<Ast> {
         return None;
     }
     let read = |stream: ParseStream<'_>| Ok(declaration(stream, sink));
-    match read.parse2(input) {
+    match read.parse2(hyphens::joined(input, sink)) {
         Ok(ast) => ast,
         Err(error) => {
             sink.report(error);
