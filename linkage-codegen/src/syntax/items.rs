@@ -353,6 +353,13 @@ fn assemble(input: ParseStream<'_>, keyword: &Name) -> Result<Item> {
     if content.peek(Token![->]) {
         content.parse::<Token![->]>()?;
         joints.push(name(&content)?);
+    } else if content.peek(Token![,]) && content.peek2(syn::Ident) {
+        take(&content);
+        let help = format!("write `{side}({} -> {})`", joints[0], name(&content)?);
+        return Err(Error::new(
+            joints[0].span,
+            format!("an arrow stands between the two joints of a line\nhelp: {help}"),
+        ));
     }
     optional_comma(&content)?;
     let begin = input.fork();
