@@ -155,9 +155,7 @@ impl<'m> Scope<'m> {
         if body.unread {
             return Ok(None);
         }
-        let problem = format!("the link `{}` has no point `{name}`", body.name);
-        Err(Diagnostic::new(name.place(), problem)
-            .suggest(&name.text, body.points.iter().map(|p| p.name.text.as_str())))
+        Err(body.without_point(name, []))
     }
 
     /// An expression. A constant far beyond any scalar is refused at once: to go on with it could take any time.

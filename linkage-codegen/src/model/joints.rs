@@ -69,7 +69,12 @@ pub(super) fn end(scope: Scope<'_>, end: &ast::End, joint: Option<&Name>) -> Res
             let points: Vec<String> = points.iter().map(|point| format!("{}.{}", end.link, point.name)).collect();
             let points: Vec<&str> = points.iter().map(String::as_str).collect();
             let help = match points.as_slice() {
-                [] => format!("give the link one, and write it behind the link: `{}.P`", end.link),
+                [] => match scope.model.links.get(link.index()) {
+                    Some(body) if !body.unread => {
+                        format!("{}, and write `{}.P` here", body.with_point("one", "P"), end.link)
+                    }
+                    _ => format!("write it behind the link: `{}.P`", end.link),
+                },
                 [one] => format!("write `{one}`"),
                 several => format!("choose from {}", list(several)),
             };
@@ -81,15 +86,15 @@ pub(super) fn end(scope: Scope<'_>, end: &ast::End, joint: Option<&Name>) -> Res
 
 /// A joint's name is no point of its link.
 fn without_point(model: &Model, link: LinkId, end: &ast::End, joint: &Name) -> Diagnostic {
-    let points = model.links.get(link.index()).map_or(&[][..], |link| &link.points);
-    let names = points.iter().map(|point| point.name.text.as_str());
-    let other = closest(&joint.text, names.clone()).or_else(|| names.clone().next());
+    let body = model.link(link);
+    let names = body.points.iter().map(|point| point.name.text.as_str());
     let problem = format!("the link `{}` has no point `{joint}` for the joint `{joint}`", end.link);
-    Diagnostic::new(end.link.place(), problem).help(format!(
-        "give the link that point, or say which other one it is: `{}.{}`",
-        end.link,
-        other.unwrap_or("P")
-    ))
+    Diagnostic::new(end.link.place(), problem).help(
+        match closest(&joint.text, names.clone()).or_else(|| names.clone().next()) {
+            Some(other) => format!("give the link that point, or say which other one it is: `{}.{other}`", end.link),
+            None => body.with_point("that one", &joint.text),
+        },
+    )
 }
 
 fn kind(scope: Scope<'_>, given: &ast::Joint, ends: [Option<End>; 2]) -> Result<JointKind, Diagnostic> {

@@ -449,14 +449,19 @@ fn result(
             if point.text == "angle" {
                 return Ok(Some(Wanted::Angle(id)));
             }
-            Ok(point_of(model, id, link, point)?.map(Wanted::Point))
+            Ok(point_of(model, id, point)?.map(Wanted::Point))
         }
         ResultItem::Name(name) => named_result(model, given, method, name, names),
+        ResultItem::Along(of, along) if !method.has_loads() && of.point.as_ref().is_some_and(|p| p.text == "angle") => {
+            let whole = of.written();
+            let problem = format!("`{whole}` turns, and has no part along `{along}`");
+            Err(Diagnostic::new(of.place().to(along.place()), problem).help(format!("write `{whole}`")))
+        }
         ResultItem::Along(of, link) if matches!(method, Method::Velocity | Method::Acceleration) => {
             let spot = match &of.point {
                 Some(point) => {
                     let Some(id) = names.find(Role::Link, &of.link)?.map(LinkId::new) else { return Ok(None) };
-                    point_of(model, id, &of.link, point)?.map(Spot::Point)
+                    point_of(model, id, point)?.map(Spot::Point)
                 }
                 None => names.find(Role::Joint, &of.link)?.map(|joint| Spot::Joint(JointId::new(joint))),
             };
@@ -467,6 +472,9 @@ fn result(
                     return Err(
                         Diagnostic::new(link.place(), problem).help("resolve it along a link, or ask for the vector")
                     );
+                }
+                if let Some(fixed) = spot.filter(|spot| model.is_fixed(*spot)) {
+                    return Err(without_path(of, fixed));
                 }
                 return Ok(spot.map(|spot| Wanted::Resolved(spot, Along::Path)));
             }
@@ -482,13 +490,15 @@ fn result(
         }
         ResultItem::OfPoint(what, point) => shaking(model, given, method, (what, point), names),
         ResultItem::OfLink(what, link) => of_link(model, given, method, (what, link), names),
-        ResultItem::Along(of, link) if method == Method::Coefficients => {
-            let (place, shown) = (of.place().to(link.place()), format!("{} along {link}", of.written()));
-            Err(cannot(given, place, &shown, "a part along a link").help("ask for the whole vector"))
+        ResultItem::Along(of, link) if matches!(method, Method::Position | Method::Coefficients) => {
+            let (place, whole) = (of.place().to(link.place()), of.written());
+            Err(cannot(given, place, &format!("{whole} along {link}"), "a part of a vector")
+                .help(format!("ask for the whole vector: `{whole}`")))
         }
         ResultItem::Along(joint, link) => {
             let link_id = names.find(Role::Link, link)?.map(LinkId::new);
-            let joint_id = reaction_of(given, method, (joint, "along"), names, joint.place().to(link.place()))?;
+            let joint_id =
+                reaction_of(given, method, (joint, &format!("along {link}")), names, joint.place().to(link.place()))?;
             Ok(joint_id.zip(link_id).map(|(joint, link)| Wanted::Along(joint, link)))
         }
         ResultItem::About(joint, point) => {
@@ -503,7 +513,14 @@ fn result(
                     }
                 };
             }
-            let Some(id) = reaction_of(given, method, (joint, "about"), names, joint.place().to(point.place()))? else {
+            let Some(id) = reaction_of(
+                given,
+                method,
+                (joint, &format!("about {}", point.written())),
+                names,
+                joint.place().to(point.place()),
+            )?
+            else {
                 return Ok(None);
             };
             if let Some(of) = model.joints.get(id.index()).filter(|of| of.kind.turn().is_none()) {
@@ -516,17 +533,25 @@ fn result(
     }
 }
 
+/// That a point which never moves has no path.
+fn without_path(of: &ast::End, fixed: Spot) -> Diagnostic {
+    let whole = of.written();
+    let why = match fixed {
+        Spot::Point(End { link: GROUND, .. }) => "it is a point of the ground".to_owned(),
+        _ => "a joint holds it to the ground".to_owned(),
+    };
+    Diagnostic::new(of.place(), format!("`{whole}` never moves, and has no path"))
+        .note(why)
+        .help("ask for a point that moves, or leave it out")
+}
+
 /// A point of a link by its name.
-fn point_of(model: &Model, id: LinkId, link: &Name, point: &Name) -> Result<Option<End>, Diagnostic> {
+fn point_of(model: &Model, id: LinkId, point: &Name) -> Result<Option<End>, Diagnostic> {
     let Some(body) = model.links.get(id.index()) else { return Ok(None) };
     match body.points.iter().position(|p| p.name.text == point.text) {
         Some(index) => Ok(Some(End { link: id, point: PointId::new(index) })),
         None if body.unread => Ok(None),
-        None => {
-            let known = body.points.iter().map(|p| p.name.text.as_str()).chain(["angle"]);
-            let problem = format!("the link `{link}` has no point `{point}`");
-            Err(Diagnostic::new(point.place(), problem).suggest(&point.text, known))
-        }
+        None => Err(body.without_point(point, ["angle"])),
     }
 }
 
@@ -649,20 +674,21 @@ fn advantage(
 fn reaction_of(
     given: &ast::Scene,
     method: Method,
-    (end, word): (&ast::End, &str),
+    (end, behind): (&ast::End, &str),
     names: &Names,
     whole: Place,
 ) -> Result<Option<JointId>, Diagnostic> {
     let joint = &end.link;
+    if !matches!(method, Method::Equilibrium | Method::Superposition) {
+        let shown = format!("{} {behind}", end.written());
+        return Err(cannot(given, whole, &shown, "the reaction of a joint").help("`equilibrium` gives it"));
+    }
     if let Some(point) = &end.point {
+        let word = behind.split(' ').next().unwrap_or_default();
         let problem = format!("before `{word}` stands a joint, and `{joint}.{point}` is a point");
         return Err(Diagnostic::new(end.place(), problem).help("write the name of the joint alone"));
     }
-    let found = names.find(Role::Joint, joint)?.map(JointId::new);
-    if matches!(method, Method::Equilibrium | Method::Superposition) {
-        return Ok(found);
-    }
-    Err(cannot(given, whole, &joint.text, "the reaction of a joint").help("`equilibrium` gives it"))
+    Ok(names.find(Role::Joint, joint)?.map(JointId::new))
 }
 
 fn word(method: Method) -> &'static str {
