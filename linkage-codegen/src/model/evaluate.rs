@@ -2,11 +2,12 @@
 
 use super::Model;
 use super::ids::{LinkId, ParamId, PointId};
-use super::names::{Entry, FUNCTIONS, Names, Role};
+use super::names::{Entry, Names, Role};
 use super::units::{Dimension, Kind, unit, unit_names};
 use crate::diagnostics::{Diagnostic, Place, closest};
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Symbol, Vector};
+use crate::syntax::FUNCTIONS;
 use crate::syntax::ast::{Direction, DirectionKind, Name, Value, ValueKind, VectorKind, VectorValue};
 
 /// An expression and its dimension; the bare zero has none, and fits all.

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 use crate::model::units::unit_names;
-use crate::syntax::JOINTS;
 use crate::syntax::ast::{self, Ast, Broken, Item, Name};
+use crate::syntax::{FUNCTIONS, JOINTS};
 
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,9 +155,6 @@ fn meaning_in_values(name: &str) -> Option<&'static str> {
     }
 }
 
-/// Names of functions in expressions.
-pub(super) const FUNCTIONS: [&str; 8] = ["sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2"];
-
 impl Names {
     /// Every name with its role and its place in the list of that role. The ground is the first link.
     pub(super) fn collect(ast: &Ast, sink: &Sink) -> Self {
@@ -192,6 +189,8 @@ impl Names {
             entry.sound = false;
         }
         match self.entries.get(&name.text) {
+            // What could not be read is an error already.
+            Some(_) if name.text == "ground" && !entry.sound => {}
             Some(_) if name.text == "ground" => sink.report(
                 Diagnostic::new(name.place(), "`ground` is the fixed link, and no name for another item")
                     .help("its points are declared by `ground { A0: (0, 0) }`"),
@@ -214,8 +213,12 @@ impl Names {
             Some(entry) if entry.role == role => Ok(Some(entry.index)),
             _ if self.may_mean(&[role], &name.text) => Ok(None),
             Some(entry) => Err(entry.instead_of(role, name).suggest(&name.text, self.of(role))),
-            None => Err(Diagnostic::new(name.place(), format!("there is no {} `{name}`", role.noun()))
-                .suggest(&name.text, self.of(role))),
+            None => {
+                let found = Diagnostic::new(name.place(), format!("there is no {} `{name}`", role.noun()));
+                let found = found.suggest(&name.text, self.of(role));
+                // One that is like no other one is not misspelt, but missing.
+                Err(if closest(&name.text, self.of(role)).is_none() { found.once() } else { found })
+            }
         }
     }
 

@@ -307,6 +307,10 @@ fn results(
                 sink.report(Diagnostic::new(place, "this result is listed twice").help("leave one of them out"));
             }
             Ok(Some(wanted)) => {
+                // Where a joint is could be another mistake.
+                if sink.is_clean() {
+                    without_path(model, item, wanted).into_iter().for_each(|error| sink.report(error));
+                }
                 let name = model.result_name(wanted);
                 if name.is_some() && results.iter().any(|other| model.result_name(*other) == name) {
                     let problem = format!("two results would be called `{}`", name.unwrap_or_default());
@@ -387,6 +391,9 @@ fn likely(model: &Model, names: &Names, item: &ResultItem) -> (String, Option<Wa
         _ => {}
     }
     let ast::End { link, point } = end_of(item);
+    if let Some(joint) = names.entry(&link.text).filter(|entry| entry.role == Role::Joint) {
+        return (link.text, Some(Wanted::Joint(JointId::new(joint.index))));
+    }
     if let Some(point) = point {
         let id = LinkId::new(names.near(Role::Link, &link.text).unwrap_or(0));
         let at = Wanted::Point(End { link: id, point: PointId::FIRST });
@@ -441,6 +448,10 @@ fn result(
         _ if method == Method::Motion => part(item).map(Some),
         ResultItem::Point(link, point) => {
             let place = link.place().to(point.place());
+            if let Some(joint) = names.entry(&link.text).filter(|entry| entry.role == Role::Joint) {
+                let help = format!("ask for the whole result, `{link}`, and read its `.{point}` in the code");
+                return Err(Diagnostic::new(place, joint.instead_of(Role::Link, link).message()).help(help));
+            }
             let Some(id) = names.find(Role::Link, link)?.map(LinkId::new) else { return Ok(None) };
             if method.has_loads() {
                 let what = if point.text == "angle" { "the angle of a link" } else { "the place of a point" };
@@ -472,9 +483,6 @@ fn result(
                     return Err(
                         Diagnostic::new(link.place(), problem).help("resolve it along a link, or ask for the vector")
                     );
-                }
-                if let Some(fixed) = spot.filter(|spot| model.is_fixed(*spot)) {
-                    return Err(without_path(of, fixed));
                 }
                 return Ok(spot.map(|spot| Wanted::Resolved(spot, Along::Path)));
             }
@@ -533,16 +541,17 @@ fn result(
     }
 }
 
-/// That a point which never moves has no path.
-fn without_path(of: &ast::End, fixed: Spot) -> Diagnostic {
-    let whole = of.written();
-    let why = match fixed {
-        Spot::Point(End { link: GROUND, .. }) => "it is a point of the ground".to_owned(),
-        _ => "a joint holds it to the ground".to_owned(),
+/// That what never moves has no path.
+fn without_path(model: &Model, item: &ResultItem, wanted: Wanted) -> Option<Diagnostic> {
+    let Wanted::Resolved(spot, Along::Path) = wanted else { return None };
+    let why = match spot {
+        Spot::Point(End { link: GROUND, .. }) => "it is a point of the ground",
+        _ if model.is_fixed(spot) => "a joint holds it to the ground",
+        _ => return None,
     };
-    Diagnostic::new(of.place(), format!("`{whole}` never moves, and has no path"))
-        .note(why)
-        .help("ask for a point that moves, or leave it out")
+    let of = end_of(item);
+    let problem = format!("`{}` never moves, and has no path", of.written());
+    Some(Diagnostic::new(of.place(), problem).note(why).help("ask for a point that moves, or leave it out"))
 }
 
 /// A point of a link by its name.

@@ -143,14 +143,10 @@ fn atom(input: ParseStream<'_>) -> Result<Value> {
 /// What stands in the invisible brackets that come next, if there is more than one token in them: an expression that a macro by example has
 /// captured, as `$length:expr`, and that counts as one.
 fn captured(input: ParseStream<'_>) -> Option<TokenStream> {
-    let inner = invisible(input)?;
-    (inner.clone().into_iter().nth(1).is_some()).then_some(inner)
-}
-
-/// The same, of however many tokens.
-fn invisible(input: ParseStream<'_>) -> Option<TokenStream> {
     match input.fork().parse::<TokenTree>() {
-        Ok(TokenTree::Group(group)) if group.delimiter() == Delimiter::None => Some(group.stream()),
+        Ok(TokenTree::Group(group)) if group.delimiter() == Delimiter::None => {
+            Some(group.stream()).filter(|inner| inner.clone().into_iter().nth(1).is_some())
+        }
         _ => None,
     }
 }
@@ -196,7 +192,7 @@ impl SourceText for Lit {
 }
 
 /// Whether the next token is `( …, … )`.
-pub(super) fn at_pair(input: ParseStream<'_>) -> bool {
+fn at_pair(input: ParseStream<'_>) -> bool {
     is_pair(input.fork().parse::<TokenTree>().ok())
 }
 

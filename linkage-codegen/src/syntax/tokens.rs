@@ -17,7 +17,7 @@ help: document the module above `mod`, and write plain comments `// …` beside 
 pub(super) fn name(input: ParseStream<'_>) -> Result<Name> {
     let begin = input.fork();
     let name = word(input)?;
-    if !input.peek(syn::Token![-]) {
+    if !input.peek(syn::Token![-]) || input.peek(syn::Token![->]) {
         return Ok(name);
     }
     let ahead: Vec<TokenTree> = begin.parse::<TokenStream>()?.into_iter().collect();

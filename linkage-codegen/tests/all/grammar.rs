@@ -46,7 +46,7 @@ fn every_item_has_an_example() {
 /// What is said to slips that are near something else.
 #[test]
 fn slips_are_told_what_is_meant() {
-    for (slip, expected) in [
+    one_error_each(&[
         ("unknown T: torque(ground.O -> crank.O);", "write `torque(ground -> crank)`"),
         ("unknown T: torque(ground, crank);", "write `torque(ground -> crank)`"),
         ("emit source; emit source;", "`emit source` is chosen already"),
@@ -106,6 +106,13 @@ fn slips_are_told_what_is_meant() {
             "there is no advantage over `G`: `v_along_G` is zero",
         ),
         ("load f: force(crank.A); scene d: derivative(held) by (f, F);", "`F` among the results of `d`"),
+    ]);
+}
+
+/// What one does who writes the first declaration: a mistake is one error, where it was made.
+#[test]
+fn first_slips_are_one_error_each() {
+    one_error_each(&[
         ("link four-bar { A } mass four-bar: 1kg at A;", "write `four_bar`"),
         ("param l-2: length = 1m; mass crank: 1kg at (l-2-5mm, 0);", "write `l_2`"),
         ("load G: force(crank.A-1);", "`A-1` is no name: names have no hyphens"),
@@ -130,7 +137,34 @@ fn slips_are_told_what_is_meant() {
         ("link ring { } load G: force(ring);", "as in `link ring { P }`, and write `ring.P` here"),
         ("link ring { } scene p: position -> (ring.A);", "give it that one, as in `link ring { A }`"),
         ("assemble O: left(O, A);", "write `left(O -> A)`"),
-    ] {
+        ("link rod { A - B: 1m }", "expected `->`, found `-`"),
+        ("link rod { A: 1m, 2m, B: (1m, 0) }", "the coordinates of a point stand in parentheses"),
+        ("link rod { A: above(A -> B, 1m, 1m) }", "there is no side `above`"),
+        ("link rod { A: 1m }", "as in `A -> B: 80mm`"),
+        ("revolute ground -> crank: R; unknown T: thrust(ground.O, crank.A);", "expected `:`"),
+        ("weld joint: ground -> crank;", "neither `ground` nor `crank` has a point `joint`"),
+        ("load G: moment(rod); load H: moment(rod);", "there is no link `rod`"),
+        ("mass crank: 1kg at (1m);", "expected a vector"),
+        ("unknown T: moment(ground -> crank);", "did you mean `torque`?"),
+        ("load G: torque(crank);", "did you mean `moment`?"),
+        ("load G: moment(crank.A) = 1N*m;", "leave the point out: `moment(crank)`"),
+        ("load G: force(crank.A) = 1N, 2N;", "write `= (x, y)`"),
+        ("load G: force(crank.A) = (1N, 2N) in crank;", "the frame of a force stands in front of its size"),
+        ("force G: crank.A = (1N, 0N); scene g: virtual_work(G);", "it is a load"),
+        ("let r = 1m; link rod { A -> B: r }", "did you mean `param`?"),
+        ("drive p: O, rate 1rpm;", "the motion of a drive stands in braces"),
+        ("assemble left: O(A -> B);", "the joint comes first: `assemble O: left(…);`"),
+        ("assemble O: open;", "there is no side `open`"),
+        ("scene g: equilibrium -> (O.x);", "ask for the whole result, `O`, and read its `.x` in the code"),
+        ("scene g: position -> (crank.A.x);", "write `crank.A`, and read its parts in the code"),
+        ("scene g: equilibrium -> (O along crank.A);", "write `along crank`"),
+        ("units { mm, N } units { mm, N }", "the unit of length is chosen already"),
+    ]);
+}
+
+/// Each of these items is refused beside a sound crank, by one error that says this.
+fn one_error_each(slips: &[(&str, &str)]) {
+    for (slip, expected) in slips {
         let text = format!(
             "mod slips; ground {{ O: (0, 0) }} link crank {{ O -> A: 1m }} revolute O: ground -> crank; drive q: O;
              load F: force(crank.A); scene held: equilibrium; {slip}"
