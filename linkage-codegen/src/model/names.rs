@@ -109,7 +109,8 @@ pub(super) fn unread(item: &Item, role: Role) -> Option<(&Broken, &Name)> {
 pub(super) fn distinct(ast: &Ast, sink: &Sink) -> Ast {
     let mut seen: BTreeSet<(usize, String)> = BTreeSet::new();
     let mut items: Vec<Item> = Vec::new();
-    for item in &ast.items {
+    let swapped = with_drives_in_order(ast, sink);
+    for item in &swapped {
         if let Some((role, Some(name))) = declared(item) {
             let first = seen.insert((role as usize, name.text.clone()));
             if !first {
@@ -136,6 +137,24 @@ pub(super) fn distinct(ast: &Ast, sink: &Sink) -> Ast {
         items.push(item.clone());
     }
     Ast { items, ..ast.clone() }
+}
+
+/// The items with `drive JOINT: NAME;` the right way round, which is reported.
+fn with_drives_in_order(ast: &Ast, sink: &Sink) -> Vec<Item> {
+    let is_joint = |name: &Name| {
+        let joints = ast.items.iter().filter_map(declared).filter(|(role, _)| *role == Role::Joint);
+        joints.filter_map(|(_, own)| own).any(|own| own.text == name.text)
+    };
+    let in_order = |item: &Item| match item {
+        Item::Drive(drive) if is_joint(&drive.name) && !is_joint(&drive.joint) => {
+            let ast::Drive { name: joint, joint: name, .. } = drive.clone();
+            let problem = format!("`{joint}` is a joint, and the name of the drive comes first");
+            sink.report(Diagnostic::new(joint.place(), problem).help(format!("write `drive {name}: {joint};`")));
+            Item::Drive(ast::Drive { name, joint, ..drive.clone() })
+        }
+        other => other.clone(),
+    };
+    ast.items.iter().map(in_order).collect()
 }
 
 fn taken(name: &Name, by: Entry) -> Diagnostic {

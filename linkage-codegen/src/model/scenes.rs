@@ -784,6 +784,8 @@ fn named_result(
             Err(Diagnostic::new(name.place(), format!("of the link `{name}`, its angle or a point?"))
                 .help(format!("write `{name}.angle`, or a point of it, such as `{name}.{point}`")))
         }
+        // The effort at a drive whose name could not be read.
+        None if name.text.starts_with("effort_") && names.may_be(Role::Drive) => Ok(None),
         None if name.text == "power" => power(model, given, method, (name.place(), None), names),
         _ if names.may_mean(&[Role::Joint, Role::Load, Role::Unknown], &name.text) => Ok(None),
         _ => {

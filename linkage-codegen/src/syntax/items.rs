@@ -21,6 +21,9 @@ use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 /// Reads an item. A word that was meant to be another one is a slip, and reading goes on as if it were that.
 pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let begin = input.fork();
+    if input.peek(Token![;]) || input.peek(Token![,]) {
+        return Err(input.error("nothing stands between items but their own `;`\nhelp: leave this one out"));
+    }
     if peek_word(input).is_none() {
         return Err(input.error("expected an item, such as `link`, `revolute` or `load`"));
     }
@@ -56,6 +59,11 @@ pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         "ground" => link(input, &keyword, None, slips),
         "link" => {
             let name = name(input)?;
+            if name.text == "ground" {
+                let problem = "`ground` is the fixed link, and stands by itself";
+                slips.report(Diagnostic::new(name.place(), problem).help("write `ground { … }`"));
+                return link(input, &keyword, None, slips);
+            }
             link(input, &keyword, Some(name), slips)
         }
         "mass" => mass(input),
@@ -246,7 +254,8 @@ fn mass(input: ParseStream<'_>) -> Result<Item> {
     let link = colon_name(input)?;
     let mass = value(input)?;
     expect_word(input, "at")?;
-    let named = !input.peek(Paren) && (input.peek2(Token![,]) || input.peek2(Token![;]));
+    let named =
+        !input.peek(Paren) && (input.peek2(Token![,]) || input.peek2(Token![;]) || input.peek2(syn::Ident::peek_any));
     let at = if named { PointRef::Named(name(input)?) } else { PointRef::At(vector(input)?) };
     let mut inertia = None;
     if input.peek(Token![,]) {

@@ -251,6 +251,11 @@ pub(super) fn vector(input: ParseStream<'_>) -> Result<VectorValue> {
 
 /// `(value | vector | P -> Q) (of LINK)?`
 pub(super) fn direction(input: ParseStream<'_>) -> Result<Direction> {
+    if peek_word(input).is_some() && input.peek2(Token![.]) {
+        let link = name(input)?;
+        let help = format!("write both points alone, and the link behind them: `P -> Q of {link}`");
+        return Err(Error::new(link.span, format!("a line goes through two points of one link\nhelp: {help}")));
+    }
     let (kind, mut place) = if peek_word(input).is_some() && input.peek2(Token![->]) {
         let from = name(input)?;
         input.parse::<Token![->]>()?;
@@ -270,6 +275,9 @@ pub(super) fn direction(input: ParseStream<'_>) -> Result<Direction> {
         }
     };
     let of = if eat_word(input, "of") { Some(name(input)?) } else { None };
+    if let Some(link) = of.as_ref().filter(|_| input.peek(Token![.])) {
+        return Err(input.error(format!("behind `of` stands a link, and no point of it\nhelp: write `of {link}`")));
+    }
     if let Some(of) = &of {
         place = place.to(of.place());
     }

@@ -159,6 +159,18 @@ fn first_slips_are_one_error_each() {
         ("scene g: position -> (crank.A.x);", "write `crank.A`, and read its parts in the code"),
         ("scene g: equilibrium -> (O along crank.A);", "write `along crank`"),
         ("units { mm, N } units { mm, N }", "the unit of length is chosen already"),
+        ("mass crank: 1kg at A inertia 1kg*m^2;", "expected `;`, found `inertia`"),
+        ("scalar f64;;", "leave this one out"),
+        ("link rod { A }, weld A: crank -> rod;", "leave this one out"),
+        ("revolute W: ground.O -> crank.A; drive W: p;", "write `drive p: W;`"),
+        ("load G: gravity = 9.81m/s2 @ -90deg; mass crank: 1kg at A;", "did you mean `s^2`?"),
+        ("mass crank: 1kg at A, inertia 5kg*mm2;", "did you mean `mm^2`?"),
+        (
+            "weld P: ground.O -> crank.A; prismatic R: ground.O -> crank.A along crank.O -> crank.A;",
+            "`P -> Q of crank`",
+        ),
+        ("prismatic R: ground.O -> crank.A along 0deg of crank.A;", "write `of crank`"),
+        ("drive: O; scene g: equilibrium -> (effort_p);", "expected a name, found `:`"),
     ]);
 }
 
