@@ -136,3 +136,31 @@ fn a_polar_direction_of_negative_size_points_the_other_way() -> Result<(), Error
     assert!(matches!(none, Err(Error::Parameter { requirement }) if requirement.contains("`r @ 30deg`")), "{none:?}");
     Ok(())
 }
+
+macro_rules! lever {
+    ($name:ident, $length:expr, $end:expr, $load:expr, $stretch:literal) => {
+        linkage! {
+            /// A lever of lengths that a macro by example has captured.
+            mod $name;
+            units { mm, N }
+            ground { O }
+            link lever { O -> A: 2 * $length, B: $end, C: (-$length, $length / 2), D: $stretch @ $length / 1mm * 1rad }
+            revolute O: ground -> lever;
+            drive theta: O;
+            load F: force(lever.B) = $load;
+            scene places: position -> (lever.A, lever.B, lever.C, lever.D);
+            scene torque: equilibrium;
+        }
+    };
+}
+
+lever!(captured, 3mm - 1mm, (5mm, 2 * 3mm), (1N, 2N + 3N), 7mm);
+lever!(plain, 2mm, (5mm, 6mm), (1N, 5N), 7mm);
+
+#[test]
+fn what_a_macro_has_captured_is_one_value() -> Result<(), Error> {
+    assert_eq!(format!("{:?}", captured::places_at(0.3)?), format!("{:?}", plain::places_at(0.3)?));
+    assert_eq!(format!("{:?}", captured::torque_at(0.3)?), format!("{:?}", plain::torque_at(0.3)?));
+    assert!((plain::places_at(0.0)?.lever_A.x - 4.0).abs() < 1e-12);
+    Ok(())
+}

@@ -43,19 +43,27 @@ impl Place {
 pub struct Diagnostic {
     place: Place,
     message: String,
+    /// Whether the same elsewhere is the same mistake.
+    once: bool,
 }
 
 impl Diagnostic {
     /// A problem at a place.
     #[must_use]
     pub fn new(place: Place, problem: impl Into<String>) -> Self {
-        Self { place, message: problem.into() }
+        Self { place, message: problem.into(), once: false }
     }
 
     /// The same at another place.
     #[must_use]
     pub fn moved(self, place: Option<Place>) -> Self {
         Self { place: place.unwrap_or(self.place), ..self }
+    }
+
+    /// Where the same is found at several places, it is told at the first.
+    #[must_use]
+    pub fn once(self) -> Self {
+        Self { once: true, ..self }
     }
 
     /// The way out. Each line of the text stands under the mark.
@@ -138,7 +146,10 @@ pub struct Sink {
 impl Sink {
     /// Takes an error.
     pub fn report(&self, diagnostic: impl Into<Diagnostic>) {
-        self.found.borrow_mut().push(diagnostic.into());
+        let (diagnostic, mut found) = (diagnostic.into(), self.found.borrow_mut());
+        if !diagnostic.once || found.iter().all(|other| other.message != diagnostic.message) {
+            found.push(diagnostic);
+        }
     }
 
     /// Takes the error of a result and passes the rest on.

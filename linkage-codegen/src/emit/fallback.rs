@@ -10,15 +10,16 @@ use super::literals::ident;
 use super::types::{closures, forward_signature, given_motion, loads, motion, results, run_time_loads, scalar};
 use crate::graph::NodeId;
 use crate::model::ids::LinkId;
-use crate::model::{Along, By, Load, Method, Model, OWN_TYPES, Part, Scene, Wanted, type_name};
+use crate::model::{Along, By, Inverse, Load, Method, Model, OWN_CONSTANTS, Part, Scene, Sweep, Wanted, type_name};
 use crate::plan::{Field, Meaning, Output, coefficient_names, reaction_type};
+use crate::syntax::ast::Name;
 
 /// The names of a module. Where several things would have one name, the first has it.
 #[must_use]
 pub fn module(mut model: Model) -> TokenStream {
     let names: Vec<Ident> = model.scenes.iter().map(|scene| ident(&scene.name.text)).collect();
     let direct: Vec<Ident> = model.scenes.iter().map(|scene| ident(&format!("{}_at", scene.name))).collect();
-    name_types_apart(&mut model);
+    name_apart(&mut model);
     let model = &model;
     let (visibility, name) = (&model.visibility, ident(&model.name.text));
     let runtime = model.runtime.clone().unwrap_or_else(|| quote!(::linkage_runtime));
@@ -99,13 +100,8 @@ fn wrenches(model: &Model) -> bool {
     model.has_wrenches() || model.scenes.iter().any(|scene| scene.refused.iter().any(refused))
 }
 
-/// The sweeps, but for those that have the name of a scene.
 fn sweeps(model: &Model, runtime: &TokenStream) -> TokenStream {
-    let mut seen: BTreeSet<String> = model.scenes.iter().map(|scene| type_name(&scene.name.text)).collect();
-    let taken: BTreeSet<String> = model.scenes.iter().map(|scene| format!("{}_at", scene.name)).collect();
-    let distinct = model.sweeps.iter().filter(|sweep| !taken.contains(&sweep.name.text));
-    let distinct = distinct.filter(|sweep| seen.insert(type_name(&sweep.name.text)));
-    let all = distinct.map(|sweep| {
+    let all = model.sweeps.iter().map(|sweep| {
         let scene = &model.scenes[sweep.scene];
         let output = match scene.method {
             Method::Verify => Output::Record(Vec::new()),
@@ -116,20 +112,58 @@ fn sweeps(model: &Model, runtime: &TokenStream) -> TokenStream {
     all.collect()
 }
 
-/// Lets the results of every scene have types of their own, in whatever way its name clashes.
-fn name_types_apart(model: &mut Model) {
-    let mut taken: BTreeSet<String> = OWN_TYPES.iter().map(|name| (*name).to_owned()).collect();
-    taken.insert("Default".into());
-    taken.extend(model.loads.iter().filter(|load| load.kind.is_spring()).map(crate::model::Load::type_name));
-    for scene in &mut model.scenes {
-        if !scene.name.is_usable() {
-            scene.name.text.push('_');
-        }
-        while taken.contains(&type_name(&scene.name.text)) {
-            scene.name.text.push_str("_x");
-        }
-        taken.insert(type_name(&scene.name.text));
+/// Lets functions and types have names of their own, in whatever way names clash. The types of sweeps and inverse scenes are written where the
+/// module is used, those of other scenes hardly ever are: these give way.
+fn name_apart(model: &mut Model) {
+    let mut taken: BTreeSet<String> = model.own_types().map(str::to_owned).collect();
+    taken.extend(["Default", "Wrench"].map(str::to_owned));
+    taken.extend(model.loads.iter().filter(|load| load.kind.is_spring()).map(Load::type_name));
+    taken.extend(OWN_CONSTANTS.map(function));
+    taken.extend(model.scenes.iter().map(|scene| function(&format!("{}_at", scene.name))));
+    for sweep in &mut model.sweeps {
+        rename(sweep, |sweep| &mut sweep.name, names_of_sweep, &mut taken);
     }
+    for inverse in &mut model.inverses {
+        rename(inverse, |inverse| &mut inverse.name, names_of_inverse, &mut taken);
+        for name in &mut inverse.swept {
+            let mut sweep = Sweep { name: name.clone(), scene: 0 };
+            rename(&mut sweep, |sweep| &mut sweep.name, names_of_sweep, &mut taken);
+            *name = sweep.name;
+        }
+    }
+    for index in 0..model.scenes.len() {
+        let types = |model: &Model| model.types_of(&model.scenes[index]).into_iter().map(|(name, _)| name).collect();
+        rename(model, |model| &mut model.scenes[index].name, types, &mut taken);
+    }
+}
+
+/// A function among the names that are taken: it may be called like a type.
+fn function(name: &str) -> String {
+    format!("fn {name}")
+}
+
+fn names_of_sweep(sweep: &Sweep) -> Vec<String> {
+    sweep.types().into_iter().chain([function(&sweep.name.text)]).collect()
+}
+
+fn names_of_inverse(inverse: &Inverse) -> Vec<String> {
+    inverse.types().into_iter().chain([function(&format!("{}_at", inverse.name))]).collect()
+}
+
+/// Gives something another name, if one is taken of all that it brings.
+fn rename<T>(
+    thing: &mut T,
+    name: impl Fn(&mut T) -> &mut Name,
+    brings: impl Fn(&T) -> Vec<String>,
+    taken: &mut BTreeSet<String>,
+) {
+    if !name(thing).is_usable() {
+        name(thing).text.push('_');
+    }
+    while brings(thing).iter().any(|made| taken.contains(made)) {
+        name(thing).text.push_str("_x");
+    }
+    taken.extend(brings(thing));
 }
 
 /// The first method of each name.

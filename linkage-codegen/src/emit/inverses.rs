@@ -1,7 +1,5 @@
 //! Inverse scenes: a function for each, of the linkage as it is driven where a motion is wanted.
 
-use std::collections::BTreeSet;
-
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -10,7 +8,7 @@ use super::literals::ident;
 use super::types::{drive_doc, has_params, linkage_type, prepared_fields, scalar};
 use super::{functions, sweeps, types};
 use crate::Linkage;
-use crate::model::{Inverse, Model, Scene, Sweep, type_name};
+use crate::model::{Inverse, Model, Scene};
 use crate::program::Program;
 
 /// The scene of such a linkage, with its program.
@@ -58,14 +56,7 @@ pub(super) fn points(inverse: &Linkage) -> Vec<String> {
 /// The same without bodies, for a declaration that has errors.
 pub(super) fn stand_ins(model: &Model, runtime: &TokenStream) -> TokenStream {
     let scalar = scalar(model);
-    // Where several things would have one name, the first has it.
-    let scenes = model.scenes.iter().map(|scene| &scene.name).chain(model.inverses.iter().map(|inverse| &inverse.name));
-    let own = model.sweeps.iter().map(|sweep| sweep.name.text.clone());
-    let mut names: BTreeSet<String> = scenes.map(|name| format!("{name}_at")).chain(own).collect();
-    let types = model.scenes.iter().map(|scene| type_name(&scene.name.text));
-    let own = model.sweeps.iter().flat_map(Sweep::types);
-    let mut types: BTreeSet<String> = types.chain(model.inverses.iter().flat_map(Inverse::types)).chain(own).collect();
-    let mut one = |inverse: &Inverse| {
+    let one = |inverse: &Inverse| {
         let [ty, motion, _] = inverse.types().map(|ty| ident(&ty));
         let function = ident(&format!("{}_at", inverse.name));
         let results = inverse.results.iter().filter_map(|(drive, order)| {
@@ -89,11 +80,7 @@ pub(super) fn stand_ins(model: &Model, runtime: &TokenStream) -> TokenStream {
                 pub struct #motion { #(pub #wanted: #scalar),* }
             }
         });
-        let distinct = |sweep: &Sweep| {
-            names.insert(sweep.name.text.clone()) && sweep.types().into_iter().all(|ty| types.insert(ty))
-        };
-        let sweeps: Vec<Sweep> = inverse.sweeps().filter(distinct).collect();
-        let sweeps = sweeps.iter().map(|sweep| {
+        let sweeps = inverse.sweeps().map(|sweep| {
             let [inputs, outputs] = sweep.types().map(|ty| ident(&ty));
             let name = ident(&sweep.name.text);
             let nothing_given = (placed.is_empty() && wanted.is_empty()).then(sweeps::nothing_lent);
@@ -114,7 +101,5 @@ pub(super) fn stand_ins(model: &Model, runtime: &TokenStream) -> TokenStream {
             #(#sweeps)*
         }
     };
-    let mut seen = BTreeSet::new();
-    let distinct = model.inverses.iter().filter(|inverse| seen.insert(inverse.types()[0].clone()));
-    distinct.map(&mut one).collect()
+    model.inverses.iter().map(one).collect()
 }

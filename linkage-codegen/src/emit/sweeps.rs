@@ -23,25 +23,28 @@ fn inputs(model: &Model, sweep: &Sweep, runtime: &TokenStream, whole: bool) -> T
     let scene = &model.scenes[sweep.scene];
     let ty = ident(&sweep.types()[0]);
     let drives = model.drives.iter().map(|drive| {
-        let (name, doc) = (
-            ident(&drive.name.text),
-            if whole { format!(" {}", drive_doc(model, &drive.name.text)) } else { String::new() },
-        );
-        quote!(#[doc = #doc] pub #name: #runtime::Series<'a, #scalar>)
+        let doc = if whole { format!(" {}", drive_doc(model, &drive.name.text)) } else { String::new() };
+        (drive.name.text.clone(), doc, quote!(#scalar))
     });
-    let motion = model.swept_motion(scene).into_iter().map(|(drive, order)| {
-        let (name, doc) = (ident(&drive.motion_name(order)), format!(" {}", motion_doc(model, drive, order)));
-        quote!(#[doc = #doc] pub #name: #runtime::Series<'a, #scalar>)
+    let motion = model.swept_motion(scene).into_iter();
+    let motion = motion.map(|(drive, order)| {
+        (drive.motion_name(order), format!(" {}", motion_doc(model, drive, order)), quote!(#scalar))
     });
     let loads = model.swept_loads(scene).into_iter().map(|load| {
         let load = model.load(load);
-        let (name, doc) =
-            (ident(&load.name.text), if whole { format!(" {}", load_doc(model, load)) } else { String::new() });
-        let value = load_value(model, load);
-        quote!(#[doc = #doc] pub #name: #runtime::Series<'a, #value>)
+        let doc = if whole { format!(" {}", load_doc(model, load)) } else { String::new() };
+        (load.name.text.clone(), doc, load_value(model, load))
     });
     let doc = format!(" What is given at each position of the sweep `{}`.", sweep.name);
-    let members: Vec<TokenStream> = drives.chain(motion).chain(loads).collect();
+    // In a module that is only a stand-in, names may meet.
+    let mut seen = BTreeSet::new();
+    let distinct = drives.chain(motion).chain(loads).filter(|(name, ..)| seen.insert(name.clone()));
+    let members: Vec<TokenStream> = distinct
+        .map(|(name, doc, value)| {
+            let name = ident(&name);
+            quote!(#[doc = #doc] pub #name: #runtime::Series<'a, #value>)
+        })
+        .collect();
     let nothing = members.is_empty().then(nothing_lent);
     quote! {
         #[doc = #doc]

@@ -2,11 +2,12 @@
 
 use super::Model;
 use super::ids::{LinkId, ParamId, PointId};
-use super::names::{Entry, FUNCTIONS, Names, Role};
+use super::names::{Entry, Names, Role};
 use super::units::{Dimension, Kind, unit, unit_names};
 use crate::diagnostics::{Diagnostic, Place, closest};
 use crate::graph::number::Number;
 use crate::graph::{Expr, Failure, Symbol, Vector};
+use crate::syntax::FUNCTIONS;
 use crate::syntax::ast::{Direction, DirectionKind, Name, Value, ValueKind, VectorKind, VectorValue};
 
 /// An expression and its dimension; the bare zero has none, and fits all.
@@ -155,9 +156,7 @@ impl<'m> Scope<'m> {
         if body.unread {
             return Ok(None);
         }
-        let problem = format!("the link `{}` has no point `{name}`", body.name);
-        Err(Diagnostic::new(name.place(), problem)
-            .suggest(&name.text, body.points.iter().map(|p| p.name.text.as_str())))
+        Err(body.without_point(name, []))
     }
 
     /// An expression. A constant far beyond any scalar is refused at once: to go on with it could take any time.
@@ -255,13 +254,13 @@ impl<'m> Scope<'m> {
                     .help("a value is a number with its unit, such as `80mm`, or a parameter"))
             }
             (None, _) => {
+                let param = closest(name, self.names.of(Role::Param)).map(str::to_owned);
                 // Two letters are close to some unit or other: what is meant is one that differs in case alone.
                 let is_near = |word: &&str| name.len() > 2 || word.eq_ignore_ascii_case(name);
-                let mut known: Vec<&str> = self.names.of(Role::Param).collect();
-                unit_names().chain(FUNCTIONS).filter(is_near).for_each(|word| known.push(word));
+                let word = || closest(name, unit_names().chain(FUNCTIONS).filter(is_near)).map(str::to_owned);
                 let problem = format!("there is no parameter or unit `{name}`");
                 let found = Diagnostic::new(place, problem);
-                Err(match closest(name, known) {
+                Err(match param.or_else(|| meant(name)).or_else(word) {
                     Some(near) => found.help(format!("did you mean `{near}`?")),
                     None => found
                         .help(format!("a dimension that is known at run time is declared as `param {name}: length;`")),
@@ -361,10 +360,15 @@ impl<'m> Scope<'m> {
     }
 }
 
-/// What is written otherwise elsewhere: the unit of a moment, of an impulse or of `kg m²` as one word, an inch by its abbreviation.
+/// What is written otherwise elsewhere: the unit of a moment, of an impulse or of `kg m²` as one word, a power without its mark, an inch by its
+/// abbreviation.
 fn meant(suffix: &str) -> Option<String> {
     if suffix == "in" {
         return Some("inch".to_owned());
+    }
+    let power = suffix.strip_suffix(['2', '3']).filter(|base| unit(base).is_some());
+    if let Some(base) = power {
+        return Some(format!("{base}^{}", &suffix[base.len()..]));
     }
     let places = suffix.char_indices().map(|(place, _)| suffix.split_at(place));
     let is = |name: &str, dimension: Dimension| unit(name).is_some_and(|unit| unit.dimension == dimension);

@@ -6,7 +6,7 @@ use super::evaluate::Scope;
 use super::ids::{GROUND, LinkId, PointId};
 use super::names::{Names, Role, unread};
 use super::units::Kind;
-use super::{End, Joint, JointKind, Model, Pair};
+use super::{End, Joint, JointKind, Link, Model, Pair};
 use crate::diagnostics::{Diagnostic, Sink, closest, list};
 use crate::graph::NodeId;
 use crate::syntax::JOINTS;
@@ -24,7 +24,13 @@ pub(super) fn joints(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
         }
         let Item::Joint(given) = item else { continue };
         let scope = Scope { model, names };
-        let ends = [&given.from, &given.to].map(|e| sink.absorb(end(scope, e, Some(&given.name))).flatten());
+        let ends = match without_points(scope, given) {
+            None => [&given.from, &given.to].map(|e| sink.absorb(end(scope, e, Some(&given.name))).flatten()),
+            Some(error) => {
+                sink.report(error);
+                [None; 2]
+            }
+        };
         let kind = sink.absorb(kind(scope, given, ends));
         let kind = kind.unwrap_or_else(|| stand_in(model, &given.keyword.text));
         if let [Some(from), Some(to)] = ends
@@ -69,7 +75,12 @@ pub(super) fn end(scope: Scope<'_>, end: &ast::End, joint: Option<&Name>) -> Res
             let points: Vec<String> = points.iter().map(|point| format!("{}.{}", end.link, point.name)).collect();
             let points: Vec<&str> = points.iter().map(String::as_str).collect();
             let help = match points.as_slice() {
-                [] => format!("give the link one, and write it behind the link: `{}.P`", end.link),
+                [] => match scope.model.links.get(link.index()) {
+                    Some(body) if !body.unread => {
+                        format!("{}, and write `{}.P` here", body.with_point("one", "P"), end.link)
+                    }
+                    _ => format!("write it behind the link: `{}.P`", end.link),
+                },
                 [one] => format!("write `{one}`"),
                 several => format!("choose from {}", list(several)),
             };
@@ -79,17 +90,36 @@ pub(super) fn end(scope: Scope<'_>, end: &ast::End, joint: Option<&Name>) -> Res
     Ok(found.map(|point| End { link, point }))
 }
 
+/// A joint's name is no point of either link: that is one mistake.
+fn without_points(scope: Scope<'_>, given: &ast::Joint) -> Option<Diagnostic> {
+    let name = &given.name;
+    let body = |end: &ast::End| {
+        let link = scope.names.find(Role::Link, &end.link).ok().flatten()?;
+        let body = scope.model.links.get(link).filter(|body| !body.unread && end.point.is_none())?;
+        body.points.iter().all(|point| point.name.text != name.text).then_some(body)
+    };
+    let (from, to) = (body(&given.from)?, body(&given.to)?);
+    let has = |body: &Link, name: &Name| body.points.iter().any(|point| point.name.text == name.text);
+    let both = from.points.iter().find(|point| has(to, &point.name));
+    let [one, other] = [both.or(from.points.first())?, both.or(to.points.first())?];
+    let problem = format!("neither `{}` nor `{}` has a point `{name}` for the joint `{name}`", from.name, to.name);
+    Some(Diagnostic::new(name.place(), problem).help(format!(
+        "give both links that point, or say which other ones they are: `{}.{} -> {}.{}`",
+        from.name, one.name, to.name, other.name
+    )))
+}
+
 /// A joint's name is no point of its link.
 fn without_point(model: &Model, link: LinkId, end: &ast::End, joint: &Name) -> Diagnostic {
-    let points = model.links.get(link.index()).map_or(&[][..], |link| &link.points);
-    let names = points.iter().map(|point| point.name.text.as_str());
-    let other = closest(&joint.text, names.clone()).or_else(|| names.clone().next());
+    let body = model.link(link);
+    let names = body.points.iter().map(|point| point.name.text.as_str());
     let problem = format!("the link `{}` has no point `{joint}` for the joint `{joint}`", end.link);
-    Diagnostic::new(end.link.place(), problem).help(format!(
-        "give the link that point, or say which other one it is: `{}.{}`",
-        end.link,
-        other.unwrap_or("P")
-    ))
+    Diagnostic::new(end.link.place(), problem).help(
+        match closest(&joint.text, names.clone()).or_else(|| names.clone().next()) {
+            Some(other) => format!("give the link that point, or say which other one it is: `{}.{other}`", end.link),
+            None => body.with_point("that one", &joint.text),
+        },
+    )
 }
 
 fn kind(scope: Scope<'_>, given: &ast::Joint, ends: [Option<End>; 2]) -> Result<JointKind, Diagnostic> {

@@ -1,5 +1,7 @@
 //! Parameters, links, points and masses.
 
+use std::collections::BTreeSet;
+
 use super::evaluate::Scope;
 use super::ids::{GROUND, LinkId, PointId};
 use super::names::{Names, Role, unread};
@@ -107,17 +109,13 @@ fn points(model: &mut Model, link: LinkId, body: &ast::Link, names: &Names, sink
     for (index, place) in body.places.iter().enumerate() {
         match place {
             PointPlace::Frame(from, to, length) => {
-                if frame_given || !model.link(link).points.is_empty() {
-                    let (problem, help) = if frame_given {
-                        ("a link has one frame", format!("give `{to}` by its coordinates in the frame: `{to}: (x, y)`"))
-                    } else {
-                        (
-                            "the frame comes first in a link",
-                            format!("put `{from} -> {to}` in front of the other points"),
-                        )
-                    };
-                    sink.report(Diagnostic::new(from.place().to(to.place()), problem).help(help));
-                }
+                let refused = wrong_frame(model.link(link), frame_given, from, to);
+                // Of a frame that is refused, nothing is said of its points.
+                let slips = Sink::default();
+                let sink = refused.map_or(sink, |error| {
+                    sink.report(error);
+                    &slips
+                });
                 frame_given = true;
                 let length = sink.absorb(frame_length(model, names, link, (from, to), length));
                 let zero = model.graph.zero().id();
@@ -165,6 +163,31 @@ fn points(model: &mut Model, link: LinkId, body: &ast::Link, names: &Names, sink
             PointPlace::Unread(words) => unread_points(model, link, words.clone()),
         }
     }
+    // A point of which the name is another one's may have been meant as any.
+    let points = &model.link(link).points;
+    let names: BTreeSet<&str> = points.iter().map(|point| point.name.text.as_str()).collect();
+    if names.len() < points.len() {
+        model.links[link.index()].unread = true;
+    }
+}
+
+/// What is wrong with the frame `from -> to` behind the points that a link has so far.
+fn wrong_frame(body: &Link, frame_given: bool, from: &Name, to: &Name) -> Option<Diagnostic> {
+    let refusal =
+        |problem: String, help: String| Some(Diagnostic::new(from.place().to(to.place()), problem).help(help));
+    if frame_given {
+        let help = format!("give `{to}` by its coordinates in the frame: `{to}: (x, y)`");
+        return refusal("a link has one frame".to_owned(), help);
+    }
+    if from.text == to.text {
+        let problem = format!("the frame of `{}` goes from `{from}` to `{to}`", body.name);
+        return refusal(problem, "name two points: the frame's x axis goes from the first to the second".to_owned());
+    }
+    if !body.points.is_empty() {
+        let help = format!("put `{from} -> {to}` in front of the other points");
+        return refusal("the frame comes first in a link".to_owned(), help);
+    }
+    None
 }
 
 /// The first end of the distances that is none of the known points, but declared at one of these places; and that place.

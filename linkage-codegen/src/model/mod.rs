@@ -2,6 +2,7 @@
 //! generated functions, and every item is sound by itself; what only the whole linkage can tell comes later.
 
 mod evaluate;
+mod generated;
 pub mod ids;
 pub(crate) mod inverses;
 mod joints;
@@ -12,9 +13,8 @@ mod names;
 mod options;
 mod scenes;
 mod turns;
-pub(crate) use scenes::OWN_TYPES;
 pub use scenes::type_name;
-pub(crate) use values::{OWN_PATTERNS, PLACE, SWEPT, arm_name, reciprocal_name};
+pub(crate) use values::{OWN_CONSTANTS, OWN_PATTERNS, PLACE, SWEPT, arm_name, reciprocal_name};
 mod sweeps;
 pub mod units;
 mod values;
@@ -119,6 +119,25 @@ pub struct Link {
     pub mass: Option<Mass>,
     /// Whether some of its points could not be read. Never in a sound declaration.
     pub unread: bool,
+}
+
+impl Link {
+    /// That it has no point of this name, where it may be asked for these other things.
+    fn without_point<const N: usize>(&self, point: &Name, others: [&'static str; N]) -> Diagnostic {
+        let found = Diagnostic::new(point.place(), format!("the link `{}` has no point `{point}`", self.name));
+        match self.points.as_slice() {
+            [] => found.help(self.with_point("that one", &point.text)),
+            points => found.suggest(&point.text, points.iter().map(|p| p.name.text.as_str()).chain(others)),
+        }
+    }
+
+    /// How a link that has no point gets one.
+    fn with_point(&self, which: &str, point: &str) -> String {
+        if self.name.text == "ground" {
+            return format!("the ground has no point yet: give it {which}, as in `ground {{ {point}: (0, 0) }}`");
+        }
+        format!("`{0}` has no point yet: give it {which}, as in `link {0} {{ {point} }}`", self.name)
+    }
 }
 
 /// A point of a link.
@@ -895,6 +914,21 @@ impl Model {
     pub fn local(&self, end: End) -> Vector<'_> {
         let point = self.link(end.link).points.get(end.point.index());
         point.map_or_else(|| self.graph.zero_vector(), |point| point.at.vector(&self.graph))
+    }
+
+    /// Whether what a velocity is asked of never moves: a point of the ground, or one that a pin or a weld holds to the ground.
+    fn is_fixed(&self, spot: Spot) -> bool {
+        let to_ground = |joint: &&Joint| {
+            matches!(joint.kind, JointKind::Revolute | JointKind::Weld { .. }) && joint.end_on(GROUND).is_some()
+        };
+        match spot {
+            Spot::Point(end) => {
+                end.link == GROUND || self.joints.iter().filter(to_ground).any(|joint| joint.ends().contains(&end))
+            }
+            Spot::Joint(id) => {
+                self.joints.get(id.index()).is_some_and(|joint| joint.place().link == GROUND || to_ground(&joint))
+            }
+        }
     }
 
     /// Name of a point, as `crank.A`.

@@ -9,6 +9,7 @@ use super::units::Kind;
 use super::{Closure, Drive, Joint, JointKind, Model, Side, Start, Unknown, UnknownKind};
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::graph::{Expr, NodeId, Order, Symbol};
+use crate::syntax::SIDES;
 use crate::syntax::ast::{self, Ast, Effort, Item, Name, StartFrom};
 
 /// Drives: each at a joint of its own.
@@ -301,9 +302,13 @@ fn closure(scope: Scope<'_>, given: &ast::Assemble) -> Result<Option<Closure>, D
         // As the joints say: of a line, or along a slide.
         "either" => (Side::Either, given.joints.len()),
         other => {
-            let problem = format!("there is no side `{other}`");
-            return Err(Diagnostic::new(given.side.place(), problem)
-                .suggest(other, ["left", "right", "ahead", "behind", "either"]));
+            let found = Diagnostic::new(given.side.place(), format!("there is no side `{other}`"));
+            let is_swapped = SIDES.contains(&given.joint.text.as_str());
+            return Err(if is_swapped {
+                found.help(format!("the joint comes first: `assemble {other}: {}(…);`", given.joint))
+            } else {
+                found.suggest(other, SIDES)
+            });
         }
     };
     if given.joints.len() != wanted {

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 use crate::model::units::unit_names;
-use crate::syntax::JOINTS;
 use crate::syntax::ast::{self, Ast, Broken, Item, Name};
+use crate::syntax::{FUNCTIONS, JOINTS};
 
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,7 +109,8 @@ pub(super) fn unread(item: &Item, role: Role) -> Option<(&Broken, &Name)> {
 pub(super) fn distinct(ast: &Ast, sink: &Sink) -> Ast {
     let mut seen: BTreeSet<(usize, String)> = BTreeSet::new();
     let mut items: Vec<Item> = Vec::new();
-    for item in &ast.items {
+    let swapped = with_drives_in_order(ast, sink);
+    for item in &swapped {
         if let Some((role, Some(name))) = declared(item) {
             let first = seen.insert((role as usize, name.text.clone()));
             if !first {
@@ -138,6 +139,24 @@ pub(super) fn distinct(ast: &Ast, sink: &Sink) -> Ast {
     Ast { items, ..ast.clone() }
 }
 
+/// The items with `drive JOINT: NAME;` the right way round, which is reported.
+fn with_drives_in_order(ast: &Ast, sink: &Sink) -> Vec<Item> {
+    let is_joint = |name: &Name| {
+        let joints = ast.items.iter().filter_map(declared).filter(|(role, _)| *role == Role::Joint);
+        joints.filter_map(|(_, own)| own).any(|own| own.text == name.text)
+    };
+    let in_order = |item: &Item| match item {
+        Item::Drive(drive) if is_joint(&drive.name) && !is_joint(&drive.joint) => {
+            let ast::Drive { name: joint, joint: name, .. } = drive.clone();
+            let problem = format!("`{joint}` is a joint, and the name of the drive comes first");
+            sink.report(Diagnostic::new(joint.place(), problem).help(format!("write `drive {name}: {joint};`")));
+            Item::Drive(ast::Drive { name, joint, ..drive.clone() })
+        }
+        other => other.clone(),
+    };
+    ast.items.iter().map(in_order).collect()
+}
+
 fn taken(name: &Name, by: Entry) -> Diagnostic {
     let problem = format!("the name `{name}` is taken: it is {} already", by.role.describe());
     Diagnostic::new(name.place(), problem)
@@ -154,9 +173,6 @@ fn meaning_in_values(name: &str) -> Option<&'static str> {
         _ => None,
     }
 }
-
-/// Names of functions in expressions.
-pub(super) const FUNCTIONS: [&str; 8] = ["sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2"];
 
 impl Names {
     /// Every name with its role and its place in the list of that role. The ground is the first link.
@@ -192,6 +208,8 @@ impl Names {
             entry.sound = false;
         }
         match self.entries.get(&name.text) {
+            // What could not be read is an error already.
+            Some(_) if name.text == "ground" && !entry.sound => {}
             Some(_) if name.text == "ground" => sink.report(
                 Diagnostic::new(name.place(), "`ground` is the fixed link, and no name for another item")
                     .help("its points are declared by `ground { A0: (0, 0) }`"),
@@ -214,8 +232,12 @@ impl Names {
             Some(entry) if entry.role == role => Ok(Some(entry.index)),
             _ if self.may_mean(&[role], &name.text) => Ok(None),
             Some(entry) => Err(entry.instead_of(role, name).suggest(&name.text, self.of(role))),
-            None => Err(Diagnostic::new(name.place(), format!("there is no {} `{name}`", role.noun()))
-                .suggest(&name.text, self.of(role))),
+            None => {
+                let found = Diagnostic::new(name.place(), format!("there is no {} `{name}`", role.noun()));
+                let found = found.suggest(&name.text, self.of(role));
+                // One that is like no other one is not misspelt, but missing.
+                Err(if closest(&name.text, self.of(role)).is_none() { found.once() } else { found })
+            }
         }
     }
 

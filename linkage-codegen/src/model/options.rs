@@ -23,17 +23,21 @@ pub(super) fn options(ast: &Ast, sink: &Sink) -> Options {
         Options { units: Units::default(), scalar: Scalar::F64, runtime: None, fused: false, emit_source: false };
     let mut chosen = BTreeSet::new();
     let mut once = |what: &'static str, place: Place| {
-        if !chosen.insert(what) {
+        let first = chosen.insert(what);
+        if !first {
             let problem = format!("{what} is chosen already");
             sink.report(Diagnostic::new(place, problem).help("leave one of the two out"));
         }
+        first
     };
     for item in &ast.items {
         match item {
             Item::Units(names) => {
                 for name in names {
-                    if let Some(what) = choose_unit(&mut options.units, name, sink) {
-                        once(what, name.place());
+                    let what = choose_unit(&mut options.units, name, sink);
+                    // Units that are chosen anew are one mistake.
+                    if what.is_some_and(|what| !once(what, name.place())) {
+                        break;
                     }
                 }
             }

@@ -1,13 +1,11 @@
 //! Scenes, and the names that they bring into the generated module.
 
-use std::collections::BTreeMap;
-
 use super::evaluate::Scope;
 use super::ids::{DriveId, GROUND, JointId, LinkId, LoadId, ParamId, PointId, UnknownId};
 use super::joints::end;
 use super::names::{Names, Role, unread};
-use super::{Along, By, Derivative, End, Inverse, LoadKind, Method, Model, Part, Scene, Spot, Variable, Wanted};
-use super::{inverses, sweeps, values};
+use super::{Along, By, Derivative, End, LoadKind, Method, Model, Part, Scene, Spot, Variable, Wanted};
+use super::{generated, inverses, sweeps};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest, list};
 use crate::graph::Order;
 use crate::syntax::METHODS;
@@ -49,7 +47,7 @@ pub(super) fn scenes(model: &mut Model, ast: &Ast, names: &Names, sink: &Sink) {
     derivatives(model, ast, names, sink);
     sweeps::sweeps(model, ast, sink);
     if sink.is_clean() {
-        check_generated_names(model, sink);
+        generated::check(model, ast, sink);
     }
 }
 
@@ -309,6 +307,10 @@ fn results(
                 sink.report(Diagnostic::new(place, "this result is listed twice").help("leave one of them out"));
             }
             Ok(Some(wanted)) => {
+                // Where a joint is could be another mistake.
+                if sink.is_clean() {
+                    without_path(model, item, wanted).into_iter().for_each(|error| sink.report(error));
+                }
                 let name = model.result_name(wanted);
                 if name.is_some() && results.iter().any(|other| model.result_name(*other) == name) {
                     let problem = format!("two results would be called `{}`", name.unwrap_or_default());
@@ -389,6 +391,9 @@ fn likely(model: &Model, names: &Names, item: &ResultItem) -> (String, Option<Wa
         _ => {}
     }
     let ast::End { link, point } = end_of(item);
+    if let Some(joint) = names.entry(&link.text).filter(|entry| entry.role == Role::Joint) {
+        return (link.text, Some(Wanted::Joint(JointId::new(joint.index))));
+    }
     if let Some(point) = point {
         let id = LinkId::new(names.near(Role::Link, &link.text).unwrap_or(0));
         let at = Wanted::Point(End { link: id, point: PointId::FIRST });
@@ -443,6 +448,10 @@ fn result(
         _ if method == Method::Motion => part(item).map(Some),
         ResultItem::Point(link, point) => {
             let place = link.place().to(point.place());
+            if let Some(joint) = names.entry(&link.text).filter(|entry| entry.role == Role::Joint) {
+                let help = format!("ask for the whole result, `{link}`, and read its `.{point}` in the code");
+                return Err(Diagnostic::new(place, joint.instead_of(Role::Link, link).message()).help(help));
+            }
             let Some(id) = names.find(Role::Link, link)?.map(LinkId::new) else { return Ok(None) };
             if method.has_loads() {
                 let what = if point.text == "angle" { "the angle of a link" } else { "the place of a point" };
@@ -451,14 +460,19 @@ fn result(
             if point.text == "angle" {
                 return Ok(Some(Wanted::Angle(id)));
             }
-            Ok(point_of(model, id, link, point)?.map(Wanted::Point))
+            Ok(point_of(model, id, point)?.map(Wanted::Point))
         }
         ResultItem::Name(name) => named_result(model, given, method, name, names),
+        ResultItem::Along(of, along) if !method.has_loads() && of.point.as_ref().is_some_and(|p| p.text == "angle") => {
+            let whole = of.written();
+            let problem = format!("`{whole}` turns, and has no part along `{along}`");
+            Err(Diagnostic::new(of.place().to(along.place()), problem).help(format!("write `{whole}`")))
+        }
         ResultItem::Along(of, link) if matches!(method, Method::Velocity | Method::Acceleration) => {
             let spot = match &of.point {
                 Some(point) => {
                     let Some(id) = names.find(Role::Link, &of.link)?.map(LinkId::new) else { return Ok(None) };
-                    point_of(model, id, &of.link, point)?.map(Spot::Point)
+                    point_of(model, id, point)?.map(Spot::Point)
                 }
                 None => names.find(Role::Joint, &of.link)?.map(|joint| Spot::Joint(JointId::new(joint))),
             };
@@ -484,13 +498,15 @@ fn result(
         }
         ResultItem::OfPoint(what, point) => shaking(model, given, method, (what, point), names),
         ResultItem::OfLink(what, link) => of_link(model, given, method, (what, link), names),
-        ResultItem::Along(of, link) if method == Method::Coefficients => {
-            let (place, shown) = (of.place().to(link.place()), format!("{} along {link}", of.written()));
-            Err(cannot(given, place, &shown, "a part along a link").help("ask for the whole vector"))
+        ResultItem::Along(of, link) if matches!(method, Method::Position | Method::Coefficients) => {
+            let (place, whole) = (of.place().to(link.place()), of.written());
+            Err(cannot(given, place, &format!("{whole} along {link}"), "a part of a vector")
+                .help(format!("ask for the whole vector: `{whole}`")))
         }
         ResultItem::Along(joint, link) => {
             let link_id = names.find(Role::Link, link)?.map(LinkId::new);
-            let joint_id = reaction_of(given, method, (joint, "along"), names, joint.place().to(link.place()))?;
+            let joint_id =
+                reaction_of(given, method, (joint, &format!("along {link}")), names, joint.place().to(link.place()))?;
             Ok(joint_id.zip(link_id).map(|(joint, link)| Wanted::Along(joint, link)))
         }
         ResultItem::About(joint, point) => {
@@ -505,7 +521,14 @@ fn result(
                     }
                 };
             }
-            let Some(id) = reaction_of(given, method, (joint, "about"), names, joint.place().to(point.place()))? else {
+            let Some(id) = reaction_of(
+                given,
+                method,
+                (joint, &format!("about {}", point.written())),
+                names,
+                joint.place().to(point.place()),
+            )?
+            else {
                 return Ok(None);
             };
             if let Some(of) = model.joints.get(id.index()).filter(|of| of.kind.turn().is_none()) {
@@ -518,17 +541,26 @@ fn result(
     }
 }
 
+/// That what never moves has no path.
+fn without_path(model: &Model, item: &ResultItem, wanted: Wanted) -> Option<Diagnostic> {
+    let Wanted::Resolved(spot, Along::Path) = wanted else { return None };
+    let why = match spot {
+        Spot::Point(End { link: GROUND, .. }) => "it is a point of the ground",
+        _ if model.is_fixed(spot) => "a joint holds it to the ground",
+        _ => return None,
+    };
+    let of = end_of(item);
+    let problem = format!("`{}` never moves, and has no path", of.written());
+    Some(Diagnostic::new(of.place(), problem).note(why).help("ask for a point that moves, or leave it out"))
+}
+
 /// A point of a link by its name.
-fn point_of(model: &Model, id: LinkId, link: &Name, point: &Name) -> Result<Option<End>, Diagnostic> {
+fn point_of(model: &Model, id: LinkId, point: &Name) -> Result<Option<End>, Diagnostic> {
     let Some(body) = model.links.get(id.index()) else { return Ok(None) };
     match body.points.iter().position(|p| p.name.text == point.text) {
         Some(index) => Ok(Some(End { link: id, point: PointId::new(index) })),
         None if body.unread => Ok(None),
-        None => {
-            let known = body.points.iter().map(|p| p.name.text.as_str()).chain(["angle"]);
-            let problem = format!("the link `{link}` has no point `{point}`");
-            Err(Diagnostic::new(point.place(), problem).suggest(&point.text, known))
-        }
+        None => Err(body.without_point(point, ["angle"])),
     }
 }
 
@@ -651,20 +683,21 @@ fn advantage(
 fn reaction_of(
     given: &ast::Scene,
     method: Method,
-    (end, word): (&ast::End, &str),
+    (end, behind): (&ast::End, &str),
     names: &Names,
     whole: Place,
 ) -> Result<Option<JointId>, Diagnostic> {
     let joint = &end.link;
+    if !matches!(method, Method::Equilibrium | Method::Superposition) {
+        let shown = format!("{} {behind}", end.written());
+        return Err(cannot(given, whole, &shown, "the reaction of a joint").help("`equilibrium` gives it"));
+    }
     if let Some(point) = &end.point {
+        let word = behind.split(' ').next().unwrap_or_default();
         let problem = format!("before `{word}` stands a joint, and `{joint}.{point}` is a point");
         return Err(Diagnostic::new(end.place(), problem).help("write the name of the joint alone"));
     }
-    let found = names.find(Role::Joint, joint)?.map(JointId::new);
-    if matches!(method, Method::Equilibrium | Method::Superposition) {
-        return Ok(found);
-    }
-    Err(cannot(given, whole, &joint.text, "the reaction of a joint").help("`equilibrium` gives it"))
+    Ok(names.find(Role::Joint, joint)?.map(JointId::new))
 }
 
 fn word(method: Method) -> &'static str {
@@ -751,6 +784,8 @@ fn named_result(
             Err(Diagnostic::new(name.place(), format!("of the link `{name}`, its angle or a point?"))
                 .help(format!("write `{name}.angle`, or a point of it, such as `{name}.{point}`")))
         }
+        // The effort at a drive whose name could not be read.
+        None if name.text.starts_with("effort_") && names.may_be(Role::Drive) => Ok(None),
         None if name.text == "power" => power(model, given, method, (name.place(), None), names),
         _ if names.may_mean(&[Role::Joint, Role::Load, Role::Unknown], &name.text) => Ok(None),
         _ => {
@@ -786,182 +821,4 @@ pub fn type_name(name: &str) -> String {
         letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
     });
     core::iter::once(name[..name.len() - inner.len()].to_owned()).chain(capitals).collect()
-}
-
-/// Types of the generated module and names that it takes from elsewhere.
-pub(crate) const OWN_TYPES: [&str; 15] = [
-    "Pose",
-    "Motion",
-    "Loads",
-    "Params",
-    "Linkage",
-    "Limits",
-    "Error",
-    "Result",
-    "Vector2",
-    "ResolvedForce",
-    "SliderReaction",
-    "WeldReaction",
-    "SlotReaction",
-    "GearReaction",
-    "WorkTerm",
-];
-/// The same, where there are parameters, where there is something to verify, where there are resultants, where there are equations of motion
-/// of several drives, and where closures are chosen at run time.
-const FURTHER_TYPES: [&str; 8] =
-    ["Default", "Verification", "Wrench", "SMatrix", "SVector", "Closures", "Side", "Along"];
-
-/// No two things of the generated module may have one name.
-fn check_generated_names(model: &Model, sink: &Sink) {
-    values::check(model, sink);
-    let mut methods: BTreeMap<String, String> = BTreeMap::new();
-    methods.insert("at".into(), "makes a pose".into());
-    if !model.starts.is_empty() {
-        methods.insert("moved_to".into(), "makes a pose from another one".into());
-    }
-    let clash =
-        |name: &Name, problem: String| sink.report(Diagnostic::new(name.place(), problem).help("choose another name"));
-    let method = |name: &Name, made: &str, other: &str| {
-        clash(name, format!("a pose would have two methods `{made}`: the other one {other}"));
-    };
-    for drive in &model.drives {
-        if let Some(other) = methods.get(&drive.name.text).filter(|_| ["at", "moved_to"].contains(&&*drive.name.text)) {
-            method(&drive.name, &drive.name.text, other);
-        }
-        methods.insert(drive.name.text.clone(), format!("gives the drive `{}`", drive.name));
-    }
-    for joint in &model.joints {
-        let asked = joint.asked_names();
-        for made in asked.into_iter().chain([joint.name.text.clone()]) {
-            if let Some(other) = methods.insert(made.clone(), format!("belongs to the joint `{}`", joint.name)) {
-                method(&joint.name, &made, &other);
-            }
-        }
-    }
-    for link in &model.links {
-        let points = link.points.iter().map(|p| (p.name.text.as_str(), &p.name));
-        for (point, name) in points.chain([("direction", &link.name)]) {
-            let made = format!("{}_{point}", link.name);
-            if let Some(other) = methods.insert(made.clone(), format!("gives `{}.{point}`", link.name)) {
-                method(name, &made, &other);
-            }
-        }
-    }
-    let verifies = model.scenes.iter().any(|scene| scene.method == Method::Verify);
-    let (wrenches, matrices) = (model.has_wrenches(), model.has_matrices());
-    let chooses = model.given_closures().next().is_some();
-    let further = [!model.params.is_empty(), verifies, wrenches, matrices, matrices, chooses, chooses, chooses];
-    let further = FURTHER_TYPES.iter().zip(further).filter(|(_, there)| *there).map(|(name, _)| name);
-    let mut types: BTreeMap<String, String> = OWN_TYPES
-        .iter()
-        .chain(further)
-        .map(|name| ((*name).to_owned(), "the module has that already".to_owned()))
-        .collect();
-    for load in model.loads.iter().filter(|load| load.kind.is_spring() && load.kind.is_given_at_run_time(model)) {
-        let made = load.type_name();
-        if let Some(other) = types.insert(made.clone(), format!("the load `{}` has that", load.name)) {
-            clash(&load.name, format!("what is given of `{}` would be the type `{made}`, and {other}", load.name));
-        }
-    }
-    for scene in &model.scenes {
-        let own = format!("belongs to the scene `{}`", scene.name);
-        let taken = [scene.name.text.clone(), format!("{}_at", scene.name)]
-            .into_iter()
-            .find_map(|made| methods.insert(made.clone(), own.clone()).map(|other| (made, other)));
-        if let Some((made, other)) = taken {
-            method(&scene.name, &made, &other);
-            continue;
-        }
-        for (made, of) in types_of(model, scene) {
-            let (what, own) = match of {
-                None => ("the results".to_owned(), format!("the scene `{}` has that", scene.name)),
-                Some(of) => {
-                    (format!("`{of}` among the results"), format!("`{of}` in the scene `{}` has that", scene.name))
-                }
-            };
-            if let Some(other) = types.insert(made.clone(), own) {
-                clash(&scene.name, format!("{what} of `{}` would be the type `{made}`, and {other}", scene.name));
-                break;
-            }
-        }
-    }
-    for inverse in &model.inverses {
-        let (own, made) = (format!("belongs to the scene `{}`", inverse.name), format!("{}_at", inverse.name));
-        if let Some(other) = methods.insert(made.clone(), own.clone()) {
-            clash(&inverse.name, format!("there would be two functions `{made}`: the other one {other}"));
-            continue;
-        }
-        if let Some((made, other)) =
-            inverse.types().into_iter().find_map(|made| Some((made.clone(), types.insert(made, own.clone())?)))
-        {
-            clash(&inverse.name, format!("the scene `{}` would have the type `{made}`, and {other}", inverse.name));
-        }
-    }
-    for pattern in values::OWN_PATTERNS {
-        methods.entry(pattern.into()).or_insert_with(|| "is Rust's own".to_owned());
-    }
-    for sweep in model.sweeps.iter().cloned().chain(model.inverses.iter().flat_map(Inverse::sweeps)) {
-        let own = format!("belongs to the sweep `{}`", sweep.name);
-        if let Some(other) = methods.insert(sweep.name.text.clone(), own.clone()) {
-            let made = &sweep.name;
-            clash(made, format!("there would be two functions `{made}`: the other one {other}"));
-            continue;
-        }
-        if let Some((made, other)) =
-            sweep.types().into_iter().find_map(|made| Some((made.clone(), types.insert(made, own.clone())?)))
-        {
-            clash(&sweep.name, format!("the sweep `{}` would have the type `{made}`, and {other}", sweep.name));
-        }
-    }
-}
-
-/// The types that a scene brings, each with what of its results has it; the first is that of all.
-fn types_of(model: &Model, scene: &Scene) -> Vec<(String, Option<String>)> {
-    types_named(model, scene, &type_name(&scene.name.text), None)
-}
-
-fn types_named(model: &Model, scene: &Scene, base: &str, path: Option<&str>) -> Vec<(String, Option<String>)> {
-    let own = (base.to_owned(), path.map(str::to_owned));
-    let within = |name: &str| path.map_or_else(|| name.to_owned(), |path| format!("{path}.{name}"));
-    if let Some(derivative) = &scene.derivative {
-        // A record for each variable, and in it for each number of a load, of the results of the other scene.
-        let records = derivative.by.iter().flat_map(|variable| {
-            let (name, of) = (variable.name(model), &model.scenes[derivative.of]);
-            let base = format!("{base}{}", type_name(&name));
-            let numbers: Vec<&str> = match variable.by {
-                By::Load(load) => model.load(load).kind.given(model).filter(|value| !value.is_empty()).collect(),
-                _ => Vec::new(),
-            };
-            if numbers.is_empty() {
-                return types_named(model, of, &base, Some(&name));
-            }
-            let inner = numbers.iter().flat_map(|number| {
-                let path = format!("{name}.{number}");
-                types_named(model, of, &format!("{base}{}", type_name(number)), Some(&path))
-            });
-            let inner: Vec<_> = inner.collect();
-            [vec![(base, Some(name))], inner].concat()
-        });
-        return core::iter::once(own).chain(records).collect();
-    }
-    let per_link = |load: &LoadId| model.load(*load).kind.is_per_link();
-    let records = scene.loads.iter().filter(|load| match scene.method {
-        Method::VirtualWork => per_link(load) || model.unknowns.len() > 1,
-        Method::Superposition => per_link(load),
-        _ => false,
-    });
-    let records = records.map(|load| model.load(*load).name.text.clone());
-    let resolved = scene.results.iter().filter_map(|wanted| match wanted {
-        Wanted::Joint(_) | Wanted::Point(_) | Wanted::Angle(_) if scene.method == Method::Coefficients => {
-            model.result_name(*wanted)
-        }
-        Wanted::Advantage(_) if model.unknowns.len() > 1 => model.result_name(*wanted),
-        Wanted::Resolved(..) | Wanted::Inertia(_) | Wanted::Offset(_) => model.result_name(*wanted),
-        _ => None,
-    });
-    let parts = (scene.method == Method::Superposition).then(|| "contribution".to_owned());
-    let bounds = scene.results.contains(&Wanted::ErrorBound).then(|| ERROR_BOUND.to_owned());
-    let named = parts.into_iter().chain(bounds).chain(records).chain(resolved);
-    let records = named.map(|name| (format!("{base}{}", type_name(&name)), Some(within(&name))));
-    core::iter::once(own).chain(records).collect()
 }

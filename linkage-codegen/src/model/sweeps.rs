@@ -1,6 +1,6 @@
 //! Sweeps: scenes that are solved at many positions.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Drive, LoadKind, Method, Model, Scene, type_name};
 use crate::diagnostics::{Diagnostic, Sink};
@@ -45,9 +45,7 @@ pub(super) fn sweeps(model: &mut Model, ast: &Ast, sink: &Sink) {
             Err(error) => sink.report(error),
         }
     }
-    for sweep in &model.sweeps {
-        check_inputs(model, sweep, sink);
-    }
+    check_inputs(model, sink);
 }
 
 /// What a sweep goes through, by its place in its list.
@@ -95,16 +93,26 @@ fn scene_of(model: &Model, ast: &Ast, given: &ast::Scene) -> Result<Option<Swept
     }
 }
 
-/// What is given at each position stands in one struct: drives, their motion, and loads.
-fn check_inputs(model: &Model, sweep: &Sweep, sink: &Sink) {
-    let scene = &model.scenes[sweep.scene];
-    let mut names: BTreeSet<String> = model.drives.iter().map(|drive| drive.name.text.clone()).collect();
-    let motion = model.swept_motion(scene).into_iter().map(|(drive, order)| drive.motion_name(order));
-    names.extend(motion);
-    for load in model.swept_loads(scene) {
-        let name = &model.load(load).name;
-        if !names.insert(name.text.clone()) {
-            let problem = format!("the sweep `{}` would be given two things `{name}`", sweep.name);
+/// What is given at each position stands in one struct: drives, their motion, and loads. A load that is called like one of the others is
+/// refused once, however many sweeps have both.
+fn check_inputs(model: &Model, sink: &Sink) {
+    let mut refused: BTreeSet<LoadId> = BTreeSet::new();
+    for sweep in &model.sweeps {
+        let scene = &model.scenes[sweep.scene];
+        let motion = model.swept_motion(scene);
+        let motion: BTreeMap<_, _> =
+            motion.into_iter().map(|(drive, order)| (drive.motion_name(order), (drive, order))).collect();
+        for load in model.swept_loads(scene) {
+            let name = &model.load(load).name;
+            let Some((drive, order)) = motion.get(&name.text).filter(|_| refused.insert(load)) else { continue };
+            let what = match order {
+                Order::Rate => "rate",
+                Order::Acceleration => "acceleration",
+            };
+            let problem = format!(
+                "the sweep `{}` would have two inputs `{name}`: the other one is the {what} of the drive `{}`",
+                sweep.name, drive.name
+            );
             sink.report(Diagnostic::new(name.place(), problem).help("choose another name"));
         }
     }

@@ -9,6 +9,9 @@ use crate::syntax::ast::Name;
 /// Patterns that Rust knows already: no value can be bound by such a name.
 pub(crate) const OWN_PATTERNS: [&str; 4] = ["Ok", "Err", "Some", "None"];
 
+/// Constants of the generated module.
+pub(crate) const OWN_CONSTANTS: [&str; 4] = ["EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"];
+
 /// Names by which a sweep computes its positions.
 pub(crate) const SWEPT: [&str; 4] = ["lane", "lanes", "block", "failed"];
 
@@ -45,7 +48,7 @@ pub(super) fn check(model: &Model, sink: &Sink) {
         let joint = &model.joint(closure.joint).name;
         values.insert(format!("side_{joint}"), format!("is the side of `{joint}`"));
     }
-    for constant in ["EQUATIONS", "LIMITS", "OPERATIONS", "SOURCE"] {
+    for constant in OWN_CONSTANTS {
         values.insert(constant.into(), "is a constant of the module".into());
     }
     for pattern in OWN_PATTERNS {

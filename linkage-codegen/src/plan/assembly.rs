@@ -230,6 +230,24 @@ pub struct Assembly<'m> {
     /// The links that are placed by iteration, from a start.
     pub started: BTreeSet<LinkId>,
     used: BTreeSet<ClosureId>,
+    /// Groups of which is not said how they close.
+    unsaid: Vec<Unsaid>,
+}
+
+/// A group that closes in two ways, and no word which one is meant.
+#[derive(Clone, Debug)]
+struct Unsaid {
+    inner: JointId,
+    outer: Vec<JointId>,
+    /// What it is, in words, and what to write.
+    problem: String,
+    choice: String,
+}
+
+impl Unsaid {
+    fn error(&self, model: &Model) -> Diagnostic {
+        Diagnostic::new(model.joint(self.inner).name.place(), self.problem.clone()).help(&self.choice)
+    }
 }
 
 impl<'m> Assembly<'m> {
@@ -245,6 +263,7 @@ impl<'m> Assembly<'m> {
             topology,
             started: BTreeSet::new(),
             used: BTreeSet::new(),
+            unsaid: Vec::new(),
         }
     }
 
@@ -323,13 +342,54 @@ impl<'m> Assembly<'m> {
     }
 
     /// A group that closes in two ways, and no word which one is meant.
-    #[must_use]
-    pub fn missing_closure(&self, group: &Group, inner: JointId, sides: [Side; 2], of: &str) -> Diagnostic {
+    pub fn missing_closure(&mut self, group: &Group, inner: JointId, sides: [Side; 2], of: &str) -> Diagnostic {
         let model = self.model();
         let joint = &model.joint(inner).name;
         let [one, other] = sides.map(|side| format!("assemble {joint}: {}({of});", side.word()));
         let links: Vec<&str> = group.links.iter().map(|link| model.link(*link).name.text.as_str()).collect();
-        Diagnostic::new(joint.place(), format!("{} can be assembled at `{joint}` in two ways", list(&links)))
-            .help(format!("choose one of\n{one}\n{other}"))
+        let problem = format!("{} can be assembled at `{joint}` in two ways", list(&links));
+        let choice = format!("choose one of\n{one}\n{other}");
+        let unsaid = Unsaid { inner, outer: group.outer.clone(), problem, choice };
+        let error = unsaid.error(model);
+        self.unsaid.push(unsaid);
+        error
+    }
+
+    /// Whether nothing but its closure is missing of a group: it is told with the closures that are not used, as one of them may be meant.
+    #[must_use]
+    pub fn lacks_closure(&self, group: &Group) -> bool {
+        self.unsaid.iter().any(|unsaid| group.inner.contains(&unsaid.inner))
+    }
+
+    /// What is wrong with the closures: those that no group asked for, and groups that asked for one in vain. Of a closure at the wrong joint
+    /// of a group there is one error.
+    pub fn wrong_closures(&mut self, unused: &[&Closure]) -> Vec<Diagnostic> {
+        let model = self.model();
+        let mut found = Vec::new();
+        for closure in unused {
+            let problem = format!("there is nothing to choose at `{}`", model.joint(closure.joint).name);
+            let error = Diagnostic::new(closure.place, problem);
+            found.push(match self.meant_by(closure) {
+                Some(group) => error
+                    .note(format!("a side is chosen at the inner joint of a dyad: {}", group.problem))
+                    .help(group.choice),
+                None => error
+                    .note("a side is chosen at the inner joint of a dyad: at the joint between its two links")
+                    .help("leave it out"),
+            });
+        }
+        found.extend(self.unsaid.iter().map(|group| group.error(model)));
+        found
+    }
+
+    /// Takes the group for which a closure at another joint was probably meant: the one with most of its joints.
+    fn meant_by(&mut self, closure: &Closure) -> Option<Unsaid> {
+        let named: Vec<JointId> = closure.of.iter().copied().chain([closure.joint]).collect();
+        let shared =
+            |group: &Unsaid| named.iter().filter(|joint| group.inner == **joint || group.outer.contains(joint)).count();
+        let counted = self.unsaid.iter().map(shared).enumerate().filter(|(_, shared)| *shared > 0);
+        // Of several the first.
+        let (index, _) = counted.rev().max_by_key(|(_, shared)| *shared)?;
+        Some(self.unsaid.remove(index))
     }
 }

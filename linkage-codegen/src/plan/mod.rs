@@ -149,21 +149,17 @@ impl Plan {
         for (index, (group, rule)) in topology.motion.iter().zip(&motion_rules).enumerate() {
             model.graph.begin_section(heading(model, index, group, rule.class(), "position"));
             if let Err(error) = rule.place(&mut assembly, group) {
-                sink.report(error);
+                if !assembly.lacks_closure(group) {
+                    sink.report(error);
+                }
                 // What is chosen at a group that has an error is no second one.
                 assembly.pass_over(group);
             }
         }
         // Where the linkage is driven otherwise than it is declared, what is not used is the declaration's.
         let idle = |closure: &&Closure| model.exchanged.is_none() && !elsewhere.contains(&closure.joint);
-        for closure in assembly.unused_closures().filter(idle) {
-            let joint = &model.joint(closure.joint).name;
-            sink.report(
-                Diagnostic::new(closure.place, format!("there is nothing to choose at `{joint}`"))
-                    .note("a side is chosen at the inner joint of a dyad: at the joint between its two links")
-                    .help("leave it out"),
-            );
-        }
+        let unused: Vec<&Closure> = assembly.unused_closures().filter(idle).collect();
+        assembly.wrong_closures(&unused).into_iter().for_each(|error| sink.report(error));
         check_chosen_once(model, topology, sink);
         check_starts_used(model, &assembly, sink);
         if !sink.is_clean() {

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
-use syn::token::{Bracket, Paren};
+use syn::token::{Brace, Bracket, Paren};
 use syn::{Error, Lit, Result, Token};
 
 use super::ast::Name;
@@ -32,7 +32,12 @@ pub(super) fn header(input: ParseStream<'_>, sink: &Sink) -> Option<(TokenStream
     if input.peek(Token![;]) {
         take(input);
     } else {
-        sink.report(Diagnostic::new(name.place(), format!("expected `;` behind `{name}`")).help(EXAMPLE));
+        let found = Diagnostic::new(name.place(), format!("expected `;` behind `{name}`"));
+        sink.report(if input.peek(Brace) {
+            found.help(format!("the items stand without braces behind `mod {name};`"))
+        } else {
+            found.help(EXAMPLE)
+        });
     }
     Some((attributes, visibility, name))
 }

@@ -2,6 +2,7 @@
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
+use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 use syn::parse::discouraged::Speculative;
 use syn::token::{Brace, Paren};
@@ -12,14 +13,17 @@ use super::ast::{
     Assemble, Distances, Drive, DriveMotion, Effort, End, Gear, Item, Joint, Link, Mass, Name, Param, PointPlace,
     PointRef, Smooth, Start, StartFrom, Unknown, Value, words,
 };
-use super::quantity::{at_pair, direction, magnitude, value, vector};
+use super::quantity::{direction, magnitude, value, vector};
 use super::tokens::{at_word, between, comma_list, eat_word, expect_word, name, peek_word, place_of, take};
-use super::{ITEMS, OTHER_WORDS, header, loads, scenes};
+use super::{FUNCTIONS, ITEMS, OTHER_WORDS, header, loads, scenes};
 use crate::diagnostics::{Diagnostic, Place, Sink, closest};
 
 /// Reads an item. A word that was meant to be another one is a slip, and reading goes on as if it were that.
 pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     let begin = input.fork();
+    if input.peek(Token![;]) || input.peek(Token![,]) {
+        return Err(input.error("nothing stands between items but their own `;`\nhelp: leave this one out"));
+    }
     if peek_word(input).is_none() {
         return Err(input.error("expected an item, such as `link`, `revolute` or `load`"));
     }
@@ -36,9 +40,7 @@ pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         let behind_name = input.fork();
         let _ = name(&behind_name);
         let has_braces = input.peek(Brace) || behind_name.peek(Brace);
-        let other_word = OTHER_WORDS.iter().find(|(word, ..)| *word == keyword.text);
-        let by_other_word = other_word.map(|(_, braced, other)| if has_braces { *braced } else { *other });
-        let Some(meant) = by_other_word.or_else(|| closest(&keyword.text, ITEMS)) else {
+        let Some(meant) = meant(&keyword.text, has_braces) else {
             return Err(Error::new(
                 begin.span(),
                 format!("{problem}\nhelp: an item begins with one of {}", ITEMS.join(", ")),
@@ -57,6 +59,11 @@ pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         "ground" => link(input, &keyword, None, slips),
         "link" => {
             let name = name(input)?;
+            if name.text == "ground" {
+                let problem = "`ground` is the fixed link, and stands by itself";
+                slips.report(Diagnostic::new(name.place(), problem).help("write `ground { … }`"));
+                return link(input, &keyword, None, slips);
+            }
             link(input, &keyword, Some(name), slips)
         }
         "mass" => mass(input),
@@ -68,6 +75,13 @@ pub(super) fn item(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
         "load" => loads::load(input, slips),
         _ => scenes::scene(input, slips),
     }
+}
+
+/// The word of an item that was probably meant by another one.
+pub(super) fn meant(word: &str, has_braces: bool) -> Option<&'static str> {
+    let other_word = OTHER_WORDS.iter().find(|(other, ..)| *other == word);
+    let by_other_word = other_word.map(|(_, braced, other)| if has_braces { *braced } else { *other });
+    by_other_word.or_else(|| closest(word, ITEMS))
 }
 
 /// Takes what is left of an item whose inside is not read.
@@ -150,7 +164,7 @@ fn point_place_or_none(content: ParseStream<'_>, slips: &Sink) -> PointPlace {
             let help = "a point is written `A -> B: 100mm`, `C: (50mm, 20mm)` or `C: left(A -> B, 70mm, 80mm)`";
             slips.report(if helped { error } else { error.help(help) });
             let begin = content.fork();
-            while !content.is_empty() && !content.peek(Token![,]) {
+            while !content.is_empty() && !before_point(content) {
                 take(content);
             }
             PointPlace::Unread(words(between(&begin, content).into_iter().collect()))
@@ -158,7 +172,23 @@ fn point_place_or_none(content: ParseStream<'_>, slips: &Sink) -> PointPlace {
     }
 }
 
+/// Whether the comma in front of the next point comes next: a point begins with its name.
+fn before_point(content: ParseStream<'_>) -> bool {
+    content.peek(Token![,]) && content.peek2(syn::Ident::peek_any)
+}
+
 fn point_place(input: ParseStream<'_>) -> Result<PointPlace> {
+    // `A - B: 100mm`
+    if input.peek2(Token![-]) && input.peek3(syn::Ident::peek_any) {
+        let ahead = input.fork();
+        take(&ahead);
+        let hyphen = ahead.fork();
+        take(&ahead);
+        take(&ahead);
+        if ahead.peek(Token![:]) {
+            return Err(hyphen.error("expected `->`, found `-`"));
+        }
+    }
     let point = name(input)?;
     if input.peek(Token![->]) {
         input.parse::<Token![->]>()?;
@@ -175,7 +205,7 @@ fn point_place(input: ParseStream<'_>) -> Result<PointPlace> {
     input.parse::<Token![:]>()?;
     let by_distances = (at_word(input, "left") || at_word(input, "right")) && input.peek2(Paren);
     if !by_distances {
-        return Ok(PointPlace::At(point, vector(input)?));
+        return place_by_coordinates(input, point);
     }
     let side = name(input)?;
     let content;
@@ -193,6 +223,26 @@ fn point_place(input: ParseStream<'_>) -> Result<PointPlace> {
     Ok(PointPlace::Distances(point, Box::new(distances)))
 }
 
+/// `(x, y)` or `size @ angle`
+fn place_by_coordinates(input: ParseStream<'_>, point: Name) -> Result<PointPlace> {
+    if let Some(word) = peek_word(input).filter(|word| input.peek2(Paren) && !FUNCTIONS.contains(&word.as_str())) {
+        let help = "a point lies on the `left` or the `right` of a line, as in `left(A -> B, 70mm, 80mm)`";
+        return Err(input.error(format!("there is no side `{word}`\nhelp: {help}")));
+    }
+    match magnitude(input)? {
+        Magnitude::Vector(vector) => Ok(PointPlace::At(point, vector)),
+        // The other coordinate, without a name.
+        Magnitude::Scalar(x) if input.peek(Token![,]) && !input.peek2(syn::Ident::peek_any) => {
+            let help = format!("as in `{point}: (50mm, 20mm)`");
+            Err(Error::new(x.place.start(), format!("the coordinates of a point stand in parentheses\nhelp: {help}")))
+        }
+        Magnitude::Scalar(length) => Err(Error::new(
+            length.place.start(),
+            "expected a vector\nhelp: Cartesian `(x, y)` or polar `size @ angle`; a length alone is that between two points, as in `A -> B: 80mm`",
+        )),
+    }
+}
+
 fn optional_comma(input: ParseStream<'_>) -> Result<()> {
     if input.peek(Token![,]) {
         input.parse::<Token![,]>()?;
@@ -204,7 +254,8 @@ fn mass(input: ParseStream<'_>) -> Result<Item> {
     let link = colon_name(input)?;
     let mass = value(input)?;
     expect_word(input, "at")?;
-    let named = !at_pair(input) && (input.peek2(Token![,]) || input.peek2(Token![;]));
+    let named =
+        !input.peek(Paren) && (input.peek2(Token![,]) || input.peek2(Token![;]) || input.peek2(syn::Ident::peek_any));
     let at = if named { PointRef::Named(name(input)?) } else { PointRef::At(vector(input)?) };
     let mut inertia = None;
     if input.peek(Token![,]) {
@@ -303,6 +354,10 @@ fn drive(input: ParseStream<'_>) -> Result<Item> {
         None
     };
     let mut motion = DriveMotion::default();
+    if input.peek(Token![,]) {
+        let help = format!("as in `drive {name_}: {joint} {{ rate: 3000rpm, acceleration: 0 }};`");
+        return Err(input.error(format!("the motion of a drive stands in braces\nhelp: {help}")));
+    }
     if input.peek(Brace) {
         let content;
         let _ = syn::braced!(content in input);
@@ -337,11 +392,23 @@ fn put_motion(motion: &mut DriveMotion, name: &Name, value: Value) -> Result<()>
     Ok(())
 }
 
+/// The sides of an `assemble`.
+pub(crate) const SIDES: [&str; 5] = ["left", "right", "ahead", "behind", "either"];
+
+/// That there is no such side.
+fn no_side(side: &Name) -> Option<String> {
+    let error = || Diagnostic::new(side.place(), format!("there is no side `{side}`")).suggest(&side.text, SIDES);
+    (!SIDES.contains(&side.text.as_str())).then(|| error().message().to_owned())
+}
+
 fn assemble(input: ParseStream<'_>, keyword: &Name) -> Result<Item> {
     let joint = colon_name(input)?;
     let side = name(input)?;
     let content;
     if !input.peek(Paren) {
+        if let Some(problem) = no_side(&side) {
+            return Err(Error::new(side.span, problem));
+        }
         return Err(
             input.error("expected `(`\nhelp: the joints stand in parentheses, as in `left(A -> B0)` or `ahead(A)`")
         );
@@ -353,6 +420,13 @@ fn assemble(input: ParseStream<'_>, keyword: &Name) -> Result<Item> {
     if content.peek(Token![->]) {
         content.parse::<Token![->]>()?;
         joints.push(name(&content)?);
+    } else if content.peek(Token![,]) && content.peek2(syn::Ident) {
+        take(&content);
+        let help = format!("write `{side}({} -> {})`", joints[0], name(&content)?);
+        return Err(Error::new(
+            joints[0].span,
+            format!("an arrow stands between the two joints of a line\nhelp: {help}"),
+        ));
     }
     optional_comma(&content)?;
     let begin = input.fork();
@@ -399,7 +473,9 @@ fn unknown(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     if !EFFORTS.contains(&word.text.as_str()) {
         let problem = format!("there is no kind of unknown `{word}`");
         let help = "an unknown is a `torque`, a `force`, a `thrust` or the `effort` at a drive";
-        let Some(meant) = closest(&word.text, EFFORTS) else {
+        // That is the word of loads.
+        let meant = if word.text == "moment" { Some("torque") } else { closest(&word.text, EFFORTS) };
+        let Some(meant) = meant else {
             return Err(Error::new(word.span, format!("{problem}\nhelp: {help}")));
         };
         slips.report(Diagnostic::new(word.place(), problem).help(format!("did you mean `{meant}`?")));

@@ -8,7 +8,7 @@ use syn::{Error, Result, Token};
 use super::ast::{End, Item, Load, LoadKind, Name, SpringField, words};
 use super::items::end;
 use super::quantity::{magnitude, value};
-use super::tokens::{comma_list, eat_word, name, peek_word, take};
+use super::tokens::{at_word, comma_list, eat_word, name, peek_word, take};
 use crate::diagnostics::{Diagnostic, Sink, closest};
 
 /// The kinds, with a load of each.
@@ -34,7 +34,9 @@ pub(super) fn load(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     if example(&word.text).is_none() {
         let problem = format!("there is no kind of load `{word}`");
         let kinds = KINDS.map(|(kind, _)| kind);
-        let Some(meant) = closest(&word.text, kinds) else {
+        // That is the word of unknowns.
+        let meant = if word.text == "torque" { Some("moment") } else { closest(&word.text, kinds) };
+        let Some(meant) = meant else {
             return Err(Error::new(word.span, format!("{problem}\nhelp: a load is one of {}", kinds.join(", "))));
         };
         slips.report(Diagnostic::new(word.place(), problem).help(format!("did you mean `{meant}`?")));
@@ -74,7 +76,15 @@ pub(super) fn load(input: ParseStream<'_>, slips: &Sink) -> Result<Item> {
     };
     let magnitude = if input.peek(Token![=]) {
         input.parse::<Token![=]>()?;
-        Some(magnitude(input)?)
+        let size = magnitude(input)?;
+        if word.text == "force" && at_word(input, "in") {
+            let help = format!("as in `load {name_}: force(coupler.C) in coupler = (0, -3kN);`");
+            return Err(input.error(format!("the frame of a force stands in front of its size\nhelp: {help}")));
+        }
+        if input.peek(Token![,]) {
+            return Err(input.error("the components of a vector stand in parentheses\nhelp: write `= (x, y)`"));
+        }
+        Some(size)
     } else {
         None
     };
@@ -91,12 +101,26 @@ pub(crate) fn is_given_at_run_time(kind: &str, written: &[TokenTree], value: &st
             }
             _ => false,
         }),
-        _ => !written.iter().any(|token| matches!(token, TokenTree::Punct(p) if p.as_char() == '=')),
+        // A number that stands somewhere else is meant for its value, too.
+        _ => {
+            !written.iter().any(|token| matches!(token, TokenTree::Punct(p) if p.as_char() == '=') || has_number(token))
+        }
+    }
+}
+
+fn has_number(token: &TokenTree) -> bool {
+    match token {
+        TokenTree::Group(group) => group.stream().into_iter().any(|token| has_number(&token)),
+        other => matches!(other, TokenTree::Literal(_)),
     }
 }
 
 fn moment(input: ParseStream<'_>) -> Result<LoadKind> {
     let first = name(input)?;
+    if input.peek(Token![.]) {
+        let help = format!("leave the point out: `moment({first})`");
+        return Err(input.error(format!("a moment acts on a whole link, and not at a point\nhelp: {help}")));
+    }
     if !input.peek(Token![->]) {
         return Ok(LoadKind::Moment { from: None, on: first });
     }

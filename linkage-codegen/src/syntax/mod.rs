@@ -4,6 +4,7 @@
 
 pub mod ast;
 mod header;
+mod hyphens;
 mod items;
 mod loads;
 mod quantity;
@@ -15,7 +16,9 @@ use proc_macro2::{TokenStream, TokenTree};
 use syn::Token;
 use syn::parse::discouraged::Speculative;
 use syn::parse::{ParseStream, Parser};
+use syn::token::Brace;
 
+pub(crate) use items::SIDES;
 pub(crate) use loads::is_given_at_run_time;
 pub(crate) use scenes::METHODS;
 
@@ -32,6 +35,9 @@ const LENGTH: usize = 4096;
 
 /// The words of joints.
 pub(crate) const JOINTS: [&str; 5] = ["revolute", "prismatic", "slot", "weld", "gear"];
+
+/// Names of functions in expressions.
+pub(crate) const FUNCTIONS: [&str; 8] = ["sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2"];
 
 /// The words that begin an item.
 pub const ITEMS: [&str; 20] = [
@@ -58,7 +64,9 @@ pub const ITEMS: [&str; 20] = [
 ];
 
 /// Other words for items, of the field and of other programs: in front of braces, and otherwise.
-const OTHER_WORDS: [(&str, &str, &str); 15] = [
+const OTHER_WORDS: [(&str, &str, &str); 17] = [
+    ("let", "param", "param"),
+    ("const", "param", "param"),
     ("pin", "link", "revolute"),
     ("hinge", "link", "revolute"),
     ("pivot", "link", "revolute"),
@@ -83,7 +91,7 @@ pub fn parse(input: TokenStream, sink: &Sink) -> Option<Ast> {
         return None;
     }
     let read = |stream: ParseStream<'_>| Ok(declaration(stream, sink));
-    match read.parse2(input) {
+    match read.parse2(hyphens::joined(input, sink)) {
         Ok(ast) => ast,
         Err(error) => {
             sink.report(error);
@@ -121,6 +129,22 @@ fn declaration(input: ParseStream<'_>, sink: &Sink) -> Option<Ast> {
         return None;
     };
     let mut items = Vec::new();
+    if input.peek(Brace) {
+        drop(items_in_braces(input, &mut items, sink));
+    }
+    all_items(input, &mut items, sink);
+    Some(Ast { attributes, visibility, name, items })
+}
+
+/// As a module of Rust has them. That is reported with the header.
+fn items_in_braces(input: ParseStream<'_>, items: &mut Vec<Item>, sink: &Sink) -> syn::Result<()> {
+    let content;
+    let _ = syn::braced!(content in input);
+    all_items(&content, items, sink);
+    Ok(())
+}
+
+fn all_items(input: ParseStream<'_>, items: &mut Vec<Item>, sink: &Sink) {
     while !input.is_empty() {
         if let Some(place) = attributes_of_item(input) {
             sink.report(Diagnostic::new(place, NO_ATTRIBUTES));
@@ -128,7 +152,6 @@ fn declaration(input: ParseStream<'_>, sink: &Sink) -> Option<Ast> {
         }
         items.push(item(input, sink));
     }
-    Some(Ast { attributes, visibility, name, items })
 }
 
 /// Passes over `#[…]`; documentation comments are such attributes.

@@ -1,12 +1,12 @@
 //! Scalars, vectors and directions: `80mm`, `2*l2 + 5mm`, `100N @ 200deg`, `(0, -3kN)`, `A -> B of rod`.
 
-use proc_macro2::TokenTree;
-use syn::parse::ParseStream;
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use syn::parse::{ParseStream, Parser};
 use syn::token::Paren;
 use syn::{Error, Lit, Result, Token};
 
 use super::ast::{Direction, DirectionKind, Magnitude, Value, ValueKind, VectorKind, VectorValue};
-use super::tokens::{NO_ATTRIBUTES, eat_word, name, peek_word};
+use super::tokens::{NO_ATTRIBUTES, eat_word, name, peek_word, word};
 use crate::diagnostics::Place;
 
 /// Operations within operations, those in a row included.
@@ -66,7 +66,7 @@ fn joined(join: fn(Box<Value>, Box<Value>) -> ValueKind, left: Value, right: Val
 
 fn factor(input: ParseStream<'_>) -> Result<Value> {
     let mut signs = Vec::new();
-    while input.peek(Token![-]) && !input.peek(Token![->]) {
+    while captured(input).is_none() && input.peek(Token![-]) && !input.peek(Token![->]) {
         let minus: Token![-] = input.parse()?;
         signs.push(minus.spans[0]);
     }
@@ -78,7 +78,7 @@ fn factor(input: ParseStream<'_>) -> Result<Value> {
 
 /// `atom (^ INTEGER)?`; behind a literal it is a power of its unit.
 fn power(input: ParseStream<'_>) -> Result<Value> {
-    let is_literal = input.peek(Lit);
+    let is_literal = captured(input).is_none() && input.peek(Lit);
     let base = atom(input)?;
     if !input.peek(Token![^]) {
         return Ok(base);
@@ -102,6 +102,10 @@ fn power(input: ParseStream<'_>) -> Result<Value> {
 }
 
 fn atom(input: ParseStream<'_>) -> Result<Value> {
+    if let Some(inner) = captured(input) {
+        input.parse::<TokenTree>()?;
+        return value.parse2(inner);
+    }
     if input.peek(Paren) {
         let content;
         let parens = syn::parenthesized!(content in input);
@@ -119,7 +123,7 @@ fn atom(input: ParseStream<'_>) -> Result<Value> {
         return Err(input.error("a number begins with a digit, as in `0.5mm`"));
     }
     if peek_word(input).is_some() {
-        let word = name(input)?;
+        let word = word(input)?;
         if input.peek(Paren) {
             let content;
             let parens = syn::parenthesized!(content in input);
@@ -134,6 +138,17 @@ fn atom(input: ParseStream<'_>) -> Result<Value> {
         return Err(input.error(NO_ATTRIBUTES));
     }
     Err(input.error("expected a value, such as `80mm`"))
+}
+
+/// What stands in the invisible brackets that come next, if there is more than one token in them: an expression that a macro by example has
+/// captured, as `$length:expr`, and that counts as one.
+fn captured(input: ParseStream<'_>) -> Option<TokenStream> {
+    match input.fork().parse::<TokenTree>() {
+        Ok(TokenTree::Group(group)) if group.delimiter() == Delimiter::None => {
+            Some(group.stream()).filter(|inner| inner.clone().into_iter().nth(1).is_some())
+        }
+        _ => None,
+    }
 }
 
 /// Words that may follow a value.
@@ -177,13 +192,18 @@ impl SourceText for Lit {
 }
 
 /// Whether the next token is `( …, … )`.
-pub(super) fn at_pair(input: ParseStream<'_>) -> bool {
-    let ahead = input.fork();
-    match ahead.parse::<TokenTree>() {
-        Ok(TokenTree::Group(group)) if group.delimiter() == proc_macro2::Delimiter::Parenthesis => {
-            group.stream().into_iter().any(|token| matches!(&token, TokenTree::Punct(p) if p.as_char() == ','))
-        }
-        _ => false,
+fn at_pair(input: ParseStream<'_>) -> bool {
+    is_pair(input.fork().parse::<TokenTree>().ok())
+}
+
+fn is_pair(token: Option<TokenTree>) -> bool {
+    let Some(TokenTree::Group(group)) = token else { return false };
+    let mut inner = group.stream().into_iter();
+    match group.delimiter() {
+        Delimiter::Parenthesis => inner.any(|token| matches!(&token, TokenTree::Punct(p) if p.as_char() == ',')),
+        // A pair that a macro by example has captured.
+        Delimiter::None => is_pair(inner.next()) && inner.next().is_none(),
+        Delimiter::Brace | Delimiter::Bracket => false,
     }
 }
 
@@ -231,6 +251,11 @@ pub(super) fn vector(input: ParseStream<'_>) -> Result<VectorValue> {
 
 /// `(value | vector | P -> Q) (of LINK)?`
 pub(super) fn direction(input: ParseStream<'_>) -> Result<Direction> {
+    if peek_word(input).is_some() && input.peek2(Token![.]) {
+        let link = name(input)?;
+        let help = format!("write both points alone, and the link behind them: `P -> Q of {link}`");
+        return Err(Error::new(link.span, format!("a line goes through two points of one link\nhelp: {help}")));
+    }
     let (kind, mut place) = if peek_word(input).is_some() && input.peek2(Token![->]) {
         let from = name(input)?;
         input.parse::<Token![->]>()?;
@@ -250,6 +275,9 @@ pub(super) fn direction(input: ParseStream<'_>) -> Result<Direction> {
         }
     };
     let of = if eat_word(input, "of") { Some(name(input)?) } else { None };
+    if let Some(link) = of.as_ref().filter(|_| input.peek(Token![.])) {
+        return Err(input.error(format!("behind `of` stands a link, and no point of it\nhelp: write `of {link}`")));
+    }
     if let Some(of) = &of {
         place = place.to(of.place());
     }

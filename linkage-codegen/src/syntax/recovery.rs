@@ -1,15 +1,16 @@
 //! What happens to an item that cannot be read: its error with an example, its name, and where the next item begins.
 
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use syn::parse::ParseStream;
 use syn::token::Brace;
 use syn::{Error, Token};
 
 use super::ITEMS;
 use super::ast::{Broken, Item, Name};
+use super::items::meant;
 use super::loads;
 use super::tokens::{name, peek_word, place_of, take};
-use crate::diagnostics::{Diagnostic, closest};
+use crate::diagnostics::Diagnostic;
 
 /// An item of each kind.
 fn example(keyword: &str) -> Option<&'static str> {
@@ -61,12 +62,22 @@ pub(super) fn unread(error: Error, keyword: Option<&Name>, passed: &[TokenTree],
 
 /// What is known of an item: keyword, name, and the rest.
 pub(super) fn broken(keyword: Option<Name>, passed: Vec<TokenTree>) -> Item {
+    let has_braces = matches!(passed.last(), Some(TokenTree::Group(last)) if last.delimiter() == Delimiter::Brace);
     let mut rest = passed.into_iter().peekable();
+    let written = keyword.clone();
     let keyword = keyword.map(|word| {
         rest.next();
-        let meant = if ITEMS.contains(&word.text.as_str()) { None } else { closest(&word.text, ITEMS) };
-        meant.map_or(word.clone(), |meant| Name { text: meant.to_owned(), span: word.span })
+        let own = ITEMS.into_iter().find(|item| *item == word.text);
+        // A load by the word of its kind alone.
+        let load = loads::example(&word.text).map(|_| "load");
+        match own.or(load).or_else(|| meant(&word.text, has_braces)) {
+            Some(meant) => Name { text: meant.to_owned(), span: word.span },
+            None => word.clone(),
+        }
     });
+    let kind = keyword.as_ref().zip(written).filter(|(keyword, _)| keyword.text == "load");
+    let kind = kind.filter(|(_, word)| loads::example(&word.text).is_some());
+    let kind = kind.map(|(_, word)| TokenTree::from(Ident::new(&word.text, word.span)));
     let named = keyword.as_ref().is_some_and(|word| !matches!(word.text.as_str(), "ground" | "units" | "crate"));
     let name = match rest.peek() {
         Some(TokenTree::Ident(ident)) if named => Some(Name::of(ident)),
@@ -75,7 +86,10 @@ pub(super) fn broken(keyword: Option<Name>, passed: Vec<TokenTree>) -> Item {
     if name.is_some() {
         rest.next();
     }
-    Item::Broken(Broken { keyword, name, rest: rest.collect::<TokenStream>() })
+    // In front of an arrow or a point stands a link.
+    let is_end = matches!(rest.peek(), Some(TokenTree::Punct(next)) if matches!(next.as_char(), '-' | '.'));
+    let name = name.filter(|_| !is_end);
+    Item::Broken(Broken { keyword, name, rest: kind.into_iter().chain(rest).collect::<TokenStream>() })
 }
 
 /// Goes on behind the item that begins here: behind its `;` or its braces, or before the next item.

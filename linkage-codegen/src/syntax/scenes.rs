@@ -153,8 +153,19 @@ fn result(input: ParseStream<'_>) -> Result<ResultItem> {
             Ok(ResultItem::OfPoint(item.link, of))
         };
     }
+    if input.peek(Token![.]) {
+        let (whole, part) = (item.written(), input.fork());
+        take(&part);
+        let problem = format!("a result is given as a whole\nhelp: write `{whole}`, and read its parts in the code");
+        return Err(part.error(problem));
+    }
     if eat_word(input, "along") {
-        return Ok(ResultItem::Along(item, name(input)?));
+        let link = name(input)?;
+        if input.peek(Token![.]) {
+            let problem = format!("behind `along` stands a link, and no point of it\nhelp: write `along {link}`");
+            return Err(input.error(problem));
+        }
+        return Ok(ResultItem::Along(item, link));
     }
     if eat_word(input, "about") {
         return Ok(ResultItem::About(item, end(input)?));

@@ -1,11 +1,12 @@
 //! Words, names and punctuation.
 
-use proc_macro2::{Ident, TokenTree};
+use proc_macro2::{Ident, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 use syn::{Error, Result};
 
 use super::ast::Name;
+use super::hyphens;
 use crate::diagnostics::Place;
 
 /// Why an attribute is refused anywhere but above the module.
@@ -14,6 +15,20 @@ help: document the module above `mod`, and write plain comments `// …` beside 
 
 /// A name. Rust's keywords serve; the few that cannot be written as raw identifiers are refused where they are declared.
 pub(super) fn name(input: ParseStream<'_>) -> Result<Name> {
+    let begin = input.fork();
+    let name = word(input)?;
+    if !input.peek(syn::Token![-]) || input.peek(syn::Token![->]) {
+        return Ok(name);
+    }
+    let ahead: Vec<TokenTree> = begin.parse::<TokenStream>()?.into_iter().collect();
+    match hyphens::hyphenated(&ahead) {
+        Some((written, _)) => Err(Error::new(name.span, hyphens::problem(&written))),
+        None => Ok(name),
+    }
+}
+
+/// A word, whatever follows: in values that may be a minus.
+pub(super) fn word(input: ParseStream<'_>) -> Result<Name> {
     let begin = input.fork();
     let Ok(ident) = input.call(Ident::parse_any) else {
         return Err(match begin.parse::<TokenTree>() {

@@ -46,7 +46,7 @@ fn every_item_has_an_example() {
 /// What is said to slips that are near something else.
 #[test]
 fn slips_are_told_what_is_meant() {
-    for (slip, expected) in [
+    one_error_each(&[
         ("unknown T: torque(ground.O -> crank.O);", "write `torque(ground -> crank)`"),
         ("unknown T: torque(ground, crank);", "write `torque(ground -> crank)`"),
         ("emit source; emit source;", "`emit source` is chosen already"),
@@ -106,7 +106,77 @@ fn slips_are_told_what_is_meant() {
             "there is no advantage over `G`: `v_along_G` is zero",
         ),
         ("load f: force(crank.A); scene d: derivative(held) by (f, F);", "`F` among the results of `d`"),
-    ] {
+    ]);
+}
+
+/// What one does who writes the first declaration: a mistake is one error, where it was made.
+#[test]
+fn first_slips_are_one_error_each() {
+    one_error_each(&[
+        ("link four-bar { A } mass four-bar: 1kg at A;", "write `four_bar`"),
+        ("param l-2: length = 1m; mass crank: 1kg at (l-2-5mm, 0);", "write `l_2`"),
+        ("load G: force(crank.A-1);", "`A-1` is no name: names have no hyphens"),
+        ("link rod { A-1, B: (1m, 0) }", "write `A_1`"),
+        ("link rod { A -> A: 1m } weld B: crank.A -> rod;", "the frame of `rod` goes from `A` to `A`"),
+        ("link rod { A: (0, 0), A -> B: 1m }", "put `A -> B` in front of the other points"),
+        ("link rod { A -> B: 1m, A -> C: 2m }", "a link has one frame"),
+        ("link rod { A, A: (1m, 0) } weld B: crank.A -> rod.B;", "the link `rod` has a point `A` already"),
+        ("scene p: position -> (O along crank);", "ask for the whole vector: `O`"),
+        ("scene p: position -> (crank.A along crank);", "`position` cannot give `crank.A along crank`"),
+        ("scene p: position -> (crank.A along path);", "`position` cannot give `crank.A along path`"),
+        ("scene p: position -> (crank.angle along crank);", "`crank.angle` turns, and has no part along `crank`"),
+        ("scene p: velocity -> (crank.angle along crank);", "write `crank.angle`"),
+        ("scene p: virtual_work -> (crank.A along crank);", "`virtual_work` cannot give `crank.A along crank`"),
+        ("scene p: virtual_work -> (O about crank.A);", "`virtual_work` cannot give `O about crank.A`"),
+        ("scene p: acceleration -> (O along path);", "`O` never moves, and has no path"),
+        ("scene p: acceleration -> (crank.A, crank.O along path);", "a joint holds it to the ground"),
+        ("scene p: acceleration -> (ground.O along path);", "it is a point of the ground"),
+        ("link ring { } weld R: crank.A -> ring;", "give it that one, as in `link ring { R }`"),
+        ("link ring { } weld R: crank.A -> ring.A;", "give it that one, as in `link ring { A }`"),
+        ("link ring { } mass ring: 1kg at A;", "give it that one, as in `link ring { A }`"),
+        ("link ring { } load G: force(ring);", "as in `link ring { P }`, and write `ring.P` here"),
+        ("link ring { } scene p: position -> (ring.A);", "give it that one, as in `link ring { A }`"),
+        ("assemble O: left(O, A);", "write `left(O -> A)`"),
+        ("link rod { A - B: 1m }", "expected `->`, found `-`"),
+        ("link rod { A: 1m, 2m, B: (1m, 0) }", "the coordinates of a point stand in parentheses"),
+        ("link rod { A: above(A -> B, 1m, 1m) }", "there is no side `above`"),
+        ("link rod { A: 1m }", "as in `A -> B: 80mm`"),
+        ("revolute ground -> crank: R; unknown T: thrust(ground.O, crank.A);", "expected `:`"),
+        ("weld joint: ground -> crank;", "neither `ground` nor `crank` has a point `joint`"),
+        ("load G: moment(rod); load H: moment(rod);", "there is no link `rod`"),
+        ("mass crank: 1kg at (1m);", "expected a vector"),
+        ("unknown T: moment(ground -> crank);", "did you mean `torque`?"),
+        ("load G: torque(crank);", "did you mean `moment`?"),
+        ("load G: moment(crank.A) = 1N*m;", "leave the point out: `moment(crank)`"),
+        ("load G: force(crank.A) = 1N, 2N;", "write `= (x, y)`"),
+        ("load G: force(crank.A) = (1N, 2N) in crank;", "the frame of a force stands in front of its size"),
+        ("force G: crank.A = (1N, 0N); scene g: virtual_work(G);", "it is a load"),
+        ("let r = 1m; link rod { A -> B: r }", "did you mean `param`?"),
+        ("drive p: O, rate 1rpm;", "the motion of a drive stands in braces"),
+        ("assemble left: O(A -> B);", "the joint comes first: `assemble O: left(…);`"),
+        ("assemble O: open;", "there is no side `open`"),
+        ("scene g: equilibrium -> (O.x);", "ask for the whole result, `O`, and read its `.x` in the code"),
+        ("scene g: position -> (crank.A.x);", "write `crank.A`, and read its parts in the code"),
+        ("scene g: equilibrium -> (O along crank.A);", "write `along crank`"),
+        ("units { mm, N } units { mm, N }", "the unit of length is chosen already"),
+        ("mass crank: 1kg at A inertia 1kg*m^2;", "expected `;`, found `inertia`"),
+        ("scalar f64;;", "leave this one out"),
+        ("link rod { A }, weld A: crank -> rod;", "leave this one out"),
+        ("revolute W: ground.O -> crank.A; drive W: p;", "write `drive p: W;`"),
+        ("load G: gravity = 9.81m/s2 @ -90deg; mass crank: 1kg at A;", "did you mean `s^2`?"),
+        ("mass crank: 1kg at A, inertia 5kg*mm2;", "did you mean `mm^2`?"),
+        (
+            "weld P: ground.O -> crank.A; prismatic R: ground.O -> crank.A along crank.O -> crank.A;",
+            "`P -> Q of crank`",
+        ),
+        ("prismatic R: ground.O -> crank.A along 0deg of crank.A;", "write `of crank`"),
+        ("drive: O; scene g: equilibrium -> (effort_p);", "expected a name, found `:`"),
+    ]);
+}
+
+/// Each of these items is refused beside a sound crank, by one error that says this.
+fn one_error_each(slips: &[(&str, &str)]) {
+    for (slip, expected) in slips {
         let text = format!(
             "mod slips; ground {{ O: (0, 0) }} link crank {{ O -> A: 1m }} revolute O: ground -> crank; drive q: O;
              load F: force(crank.A); scene held: equilibrium; {slip}"

@@ -110,21 +110,29 @@ fn variables(linkage: &Linkage) -> Vec<Variable> {
 
 /// The declaration with these scenes. Over a load that never moves with the unknown there is no advantage, and what rests has no path.
 fn with_further_scenes(text: &str, plain: &Linkage) -> (String, Linkage) {
-    let further = format!("{text}{}", further_scenes(plain, &[]));
-    let Err(refusal) = linkage_codegen::analyse(further.parse().expect("tokens")) else {
-        return (further.clone(), compile(&further));
-    };
     let between = |error: &Diagnostic, before: &str, behind: &str| {
         Some(error.message().split_once(before)?.1.split_once(behind)?.0.to_owned())
     };
-    let ways =
-        [("no advantage over `", "`"), ("the velocity of ", " vanishes"), ("the centre of mass of ", " vanishes")];
-    let vain = ways
-        .into_iter()
-        .flat_map(|(before, behind)| refusal.errors.iter().filter_map(move |error| between(error, before, behind)));
-    let vain: Vec<String> = vain.collect();
-    let further = format!("{text}{}", further_scenes(plain, &vain));
-    (further.clone(), compile(&further))
+    let ways = [
+        ("no advantage over `", "`"),
+        ("the velocity of ", " vanishes"),
+        ("the centre of mass of ", " vanishes"),
+        ("`", "` never moves"),
+    ];
+    let mut vain: Vec<String> = Vec::new();
+    loop {
+        let further = format!("{text}{}", further_scenes(plain, &vain));
+        let Err(refusal) = linkage_codegen::analyse(further.parse().expect("tokens")) else {
+            return (further.clone(), compile(&further));
+        };
+        let errors = || refusal.errors.iter();
+        let found = ways
+            .into_iter()
+            .flat_map(|(before, behind)| errors().filter_map(move |error| between(error, before, behind)));
+        let before = vain.len();
+        vain.extend(found);
+        assert!(vain.len() > before, "{:?}\n{further}", refusal.errors);
+    }
 }
 
 /// How the results of a scene change with a symbol.
