@@ -5,9 +5,8 @@ use syn::ext::IdentExt;
 
 use crate::diagnostics::{Diagnostic, Place, Sink};
 
-/// Names with hyphens that are declared somewhere: before a `:`, or behind `mod` and `link`; in braces before a place, as `A - B: 80mm` is a slip of
-/// the arrow. Each is reported once, where it is declared; wherever
-/// else it stands it is read as the same name with underscores.
+/// Names with hyphens that are declared somewhere: before a `:`, or behind `mod` and `link`; in braces before a place, as `A - B: 80mm` is a slip
+/// of the arrow. Each is reported once, where it is declared; wherever else it stands it is read as the same name with underscores.
 pub(super) fn joined(input: TokenStream, sink: &Sink) -> TokenStream {
     let mut declared = Vec::new();
     declarations(&input, false, &mut declared);
