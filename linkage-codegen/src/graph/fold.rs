@@ -339,6 +339,9 @@ impl Graph {
     /// Whether the value is positive or negative by its form: a root on either side, or what was checked to be apart from zero.
     fn is_other_than_zero(&self, a: Expr<'_>) -> bool {
         let of = |id| self.is_other_than_zero(self.expr(id));
+        if self.arena.borrow().positive.contains(&a.id()) {
+            return true;
+        }
         match a.op() {
             Op::Symbol(Symbol::Side(_)) => true,
             Op::Checked { value, guard } => {

@@ -6,6 +6,7 @@
 use core::ops::Neg;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
+use crate::graph::number::Number;
 use crate::graph::{Expr, Graph, Symbol, Vector};
 use crate::model::ids::{GROUND, JointId, LinkId, PointId};
 use crate::model::{End, Gear, Joint, JointKind, Model, PLACE, Wanted};
@@ -143,6 +144,28 @@ impl<'m> Way<'m> {
     #[must_use]
     pub fn length(&self) -> Expr<'m> {
         self.segments.iter().fold(self.graph.zero(), |sum, s| sum + s.size())
+    }
+
+    /// The least and the largest distance that its parts can make up, whatever their directions are; nothing if a length is not constant.
+    #[must_use]
+    pub fn reach(&self) -> (Option<Expr<'m>>, Option<Expr<'m>>) {
+        let sizes: Option<Vec<Number>> = self.segments.iter().map(|segment| segment.size().value()).collect();
+        let Some(sizes) = sizes else { return (None, None) };
+        let sum = sizes.iter().fold(Number::zero(), |sum, size| sum.add(size));
+        let longest = sizes
+            .iter()
+            .fold(Number::zero(), |longest, size| if size.compare(&longest).is_gt() { size.clone() } else { longest });
+        let least = longest.mul(&Number::integer(2)).sub(&sum);
+        let least = if least.signum() < 0 { Number::zero() } else { least };
+        (Some(self.graph.constant(&least)), Some(self.graph.constant(&sum)))
+    }
+
+    /// Whether its ends are known to be farther apart than this, by more than rounding makes of the difference where numbers of a further size
+    /// are added up.
+    #[must_use]
+    pub fn exceeds(&self, distance: Expr<'m>, further: Expr<'m>) -> bool {
+        let (least, _) = self.reach();
+        least.is_some_and(|least| (least - distance).exceeds_rounding_of(distance + further))
     }
 }
 

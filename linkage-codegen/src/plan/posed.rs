@@ -2,7 +2,7 @@
 
 use super::placement::Placement;
 use super::velocities::Motion;
-use crate::equations::loads::Posture;
+use crate::equations::loads::{Posture, Span};
 use crate::graph::{Expr, Order, Vector};
 use crate::model::ids::{GROUND, LinkId};
 use crate::model::{End, Model};
@@ -31,9 +31,10 @@ impl<'m> Posture<'m> for Posed<'m, '_> {
         self.placement.model
     }
 
-    fn span(&self, [from, to]: [End; 2]) -> (Vector<'m>, Option<Expr<'m>>) {
+    fn span(&self, [from, to]: [End; 2]) -> Span<'m> {
         let way = self.placement.way(from, to);
-        (way.vector(), Some(way.length()))
+        let length = way.length();
+        Span { vector: way.vector(), length: Some(length), apart: way.exceeds(length.graph().zero(), 2 * length) }
     }
 
     fn frame(&self, link: LinkId) -> Vector<'m> {

@@ -1052,6 +1052,46 @@ fn no_side_asks_for_a_dead_centre_that_there_is_not() {
     }
 }
 
+/// Pins that their lengths keep apart are not asked whether they coincide, nor a slot whether its pin reaches it, nor the ends of a spring.
+#[test]
+fn nothing_asks_whether_points_meet_that_never_do() {
+    let crank = "units { mm, N } link crank { O -> A: 50mm } revolute O: ground -> crank; drive theta: O;
+        unknown T: torque(ground -> crank);";
+    let lever = |own: &str| {
+        format!(
+            "link lever {{ Q: (0, 0), {own}, D: (60mm, 20mm) }} revolute Q: ground -> lever;
+            slot S: lever.P -> crank.A along 0deg of lever; assemble S: ahead(Q); load F: force(lever.D);"
+        )
+    };
+    let cylinder = |own: &str| {
+        format!(
+            "link barrel {{ Q: (0, 0), {own}, D: (60mm, 20mm) }} link piston {{ A }} revolute Q: ground -> barrel;
+            revolute A: crank -> piston; prismatic S: barrel.P -> piston.A along 0deg of barrel; assemble S: ahead(Q);
+            load F: force(barrel.D);"
+        )
+    };
+    let asks = |distance: u32, rest: String| {
+        let ground = format!("ground {{ O: (0, 0), Q: ({distance}mm, 0) }}");
+        let declaration = format!("mod m; {ground} {crank} {rest} scene held: equilibrium;");
+        let code = expand(declaration.parse().expect("tokens")).to_string();
+        assert!(code.contains("held_at") && !code.contains("compile_error"), "{declaration}");
+        ["DeadCentre", "CoincidentPivots", "CannotAssemble", "CoincidentEnds"]
+            .iter()
+            .any(|error| code.contains(&format!("Error :: {error}")))
+    };
+    let spring = |load: &str| format!("load K: {load};");
+    for load in ["spring(ground.Q, crank.A) { rate: 3N/mm, free: 10mm }", "thrust(crank.A, ground.Q)"] {
+        assert!(asks(50, spring(load)) && !asks(51, spring(load)), "{load}");
+    }
+    for (own, distance_that_it_may_have) in [("P: (10mm, 0)", 50), ("P: (10mm, 30mm)", 80), ("P: (10mm, -130mm)", 180)]
+    {
+        for rest in [lever(own), cylinder(own)] {
+            assert!(asks(distance_that_it_may_have, rest.clone()), "{rest}");
+            assert!(!asks(distance_that_it_may_have + 1, rest.clone()), "{rest}");
+        }
+    }
+}
+
 /// How fast wheels turn is found from their radii (Willis), and not by the direction in which their teeth press: where arm and sun turn
 /// steadily, no angular acceleration is left of their planet's.
 #[test]

@@ -1,6 +1,6 @@
 //! The line between two points, along which springs and thrusts act.
 
-use super::{Action, Posture};
+use super::{Action, Posture, Span};
 use crate::graph::{Expr, Failure, Vector};
 use crate::model::End;
 use crate::model::ids::GROUND;
@@ -15,6 +15,7 @@ pub struct Line<'m> {
     /// From the first point to the second, ground axes.
     pub span: Vector<'m>,
     rounding: Option<Expr<'m>>,
+    apart: bool,
     /// In words.
     meaning: String,
 }
@@ -24,10 +25,10 @@ impl<'m> Line<'m> {
     #[must_use]
     pub fn between(posture: &dyn Posture<'m>, name: &str, ends: [End; 2]) -> Self {
         let model = posture.model();
-        let (span, rounding) = posture.span(ends);
+        let Span { vector: span, length: rounding, apart } = posture.span(ends);
         let meaning = format!("from {} to {}", model.end_name(ends[0]), model.end_name(ends[1]));
         let span = span.named(&format!("{name}_span"), &meaning);
-        Self { name: name.to_owned(), ends, places: ends.map(|end| model.local(end)), span, rounding, meaning }
+        Self { name: name.to_owned(), ends, places: ends.map(|end| model.local(end)), span, rounding, apart, meaning }
     }
 
     /// Its direction, a unit vector; zero where the points coincide.
@@ -59,10 +60,10 @@ impl<'m> Line<'m> {
     }
 
     /// A value that has a meaning only where the line has a direction, whatever the load: where its points are further apart than their
-    /// rounding.
+    /// rounding. Where they always are, nothing is asked.
     #[must_use]
     pub fn checked(&self, value: Expr<'m>) -> Expr<'m> {
-        let Some(rounding) = self.rounding else { return value };
+        let Some(rounding) = self.rounding.filter(|_| !self.apart) else { return value };
         let rounding = value.graph().epsilons(8) * rounding;
         value.require_above(self.length(), rounding, Failure::CoincidentEnds { of: self.name.clone() })
     }

@@ -11,7 +11,7 @@ mod thrust;
 mod torsion;
 
 pub use line::Line;
-pub use posture::{Posture, Symbolic};
+pub use posture::{Posture, Span, Symbolic};
 
 pub(crate) use inertia::by_dalembert;
 

@@ -6,13 +6,24 @@ use crate::model::ids::{GROUND, LinkId};
 use crate::model::{End, Model};
 use crate::topology::Topology;
 
+/// The way from a point to another.
+#[derive(Clone, Copy, Debug)]
+pub struct Span<'m> {
+    /// Ground axes.
+    pub vector: Vector<'m>,
+    /// The lengths that its rounding grows with; in symbols there is none.
+    pub length: Option<Expr<'m>>,
+    /// Whether its lengths keep the points apart, whatever the pose.
+    pub apart: bool,
+}
+
 /// Where points and links are, as loads see them: in the symbols of the equations, or as a plan has placed them.
 pub trait Posture<'m> {
     /// The linkage.
     fn model(&self) -> &'m Model;
 
-    /// From a point to another, ground axes, and the lengths that its rounding grows with; in symbols there is none.
-    fn span(&self, ends: [End; 2]) -> (Vector<'m>, Option<Expr<'m>>);
+    /// From a point to another.
+    fn span(&self, ends: [End; 2]) -> Span<'m>;
 
     /// The direction of the x axis of a link's frame.
     fn frame(&self, link: LinkId) -> Vector<'m>;
@@ -47,10 +58,10 @@ impl<'m> Posture<'m> for Symbolic<'m> {
         self.model
     }
 
-    fn span(&self, ends: [End; 2]) -> (Vector<'m>, Option<Expr<'m>>) {
+    fn span(&self, ends: [End; 2]) -> Span<'m> {
         let body = |link| Body::symbolic(&self.model.graph, link);
         let [first, second] = ends.map(|end| body(end.link).point(self.model.local(end)));
-        (second - first, None)
+        Span { vector: second - first, length: None, apart: false }
     }
 
     fn frame(&self, link: LinkId) -> Vector<'m> {

@@ -196,10 +196,10 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
             format!("what rounding makes of {of}_{slide} = 0: {size}, Λ the lengths that make up d and driven legs");
         value.named(format!("rounding_{of}_{slide}"), meaning)
     };
-    // Coincident pins leave the direction open, unless h keeps them apart.
-    let apart = h.abs().exceeds_rounding_of(length);
+    // Coincident pins leave the direction open, unless h or the lengths between them keep them apart.
+    let apart = h.abs().exceeds_rounding_of(length) || way.exceeds(graph.zero(), length);
     let d2 = if apart {
-        d2
+        d2.known_positive()
     } else {
         let close = rounding("D2", (graph.epsilons(2) * length).squared(), "(2ε Λ)²");
         let failure = Failure::CoincidentPivots { group: dyad.group_name(), joint: slide.into() };
@@ -211,7 +211,11 @@ fn close<'m>(assembly: &mut Assembly<'m>, group: &Group, dyad: &Dyad<'m>) -> Rul
     } else {
         let s2 = (d2 - h.squared())
             .named(format!("s2_{slide}"), format!("s² = D2_{slide} − h², h how far {q} is across the slide from {p}"));
-        let limit = rounding("s2", graph.epsilons(2) * (h.squared() + h.abs() * length), "2ε |h| (|h| + Λ)");
+        let (s2, limit) = if way.exceeds(h.abs(), length) {
+            (s2.known_positive(), graph.zero())
+        } else {
+            (s2, rounding("s2", graph.epsilons(2) * (h.squared() + h.abs() * length), "2ε |h| (|h| + Λ)"))
+        };
         let failure = Failure::CannotAssemble {
             group: dyad.group_name(),
             joint: slide.into(),

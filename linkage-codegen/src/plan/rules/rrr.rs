@@ -574,7 +574,7 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let q = (d2 - m.squared()).named(format!("q_{joint}"), format!("D2_{joint} − ({difference_name})²"));
     // Near p = 0, D is near S, and near q = 0 it is near M; d is rounded to the length of its way, and so are lengths that drives give.
     let length = dyad.legs.iter().fold(way.length(), |sum, leg| sum + dyad.slack(leg));
-    let (least, most) = reach(way);
+    let (least, most) = way.reach();
     // By more than rounding makes of the difference of a distance and a limit.
     let is_clear = |margin: Option<Expr<'m>>, limit: Expr<'m>| {
         margin.is_some_and(|margin| margin.exceeds_rounding_of(limit + length))
@@ -731,20 +731,6 @@ fn by_driven_length<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>, driven: 
         sign,
         significant,
     }
-}
-
-/// The least and the largest distance that constant parts of a way can make up.
-fn reach<'m>(way: &Way<'m>) -> (Option<Expr<'m>>, Option<Expr<'m>>) {
-    let sizes: Option<Vec<Number>> = way.segments.iter().map(|s| s.size().value()).collect();
-    let Some(sizes) = sizes else { return (None, None) };
-    let sum = sizes.iter().fold(Number::zero(), |sum, size| sum.add(size));
-    let longest = sizes
-        .iter()
-        .fold(Number::zero(), |longest, size| if size.compare(&longest).is_gt() { size.clone() } else { longest });
-    let graph = way.length().graph();
-    let least = longest.mul(&Number::integer(2)).sub(&sum);
-    let least = if least.signum() < 0 { Number::zero() } else { least };
-    (Some(graph.constant(&least)), Some(graph.constant(&sum)))
 }
 
 /// Whether the ratio of two lengths is at most `0.8/√ε`, as far as constants tell.

@@ -229,18 +229,26 @@ fn place_lever<'m>(assembly: &mut Assembly<'m>, group: &Group, parts: &Parts<'m>
     let d2 = d.squared().named(format!("D2_{at}"), "d·d");
     let size = d2.sqrt().named(format!("D_{at}"), format!("distance of {about} from the pin in the slot"));
     let (s, direction) = if h.is_zero() {
-        let rounding = graph.epsilons(2) * way.length();
-        let failure = Failure::CoincidentPivots { group: name.into(), joint: at.into() };
-        let size = size.require_above(size, rounding, failure).known_positive();
+        let size = if way.exceeds(graph.zero(), way.length()) {
+            size
+        } else {
+            let failure = Failure::CoincidentPivots { group: name.into(), joint: at.into() };
+            size.require_above(size, graph.epsilons(2) * way.length(), failure)
+        };
+        let size = size.known_positive();
         let s = ahead.of(size);
         (s, Vector::new(d.x / s, d.y / s))
     } else {
         let square = (d2 - h.squared())
             .named(format!("s2_{at}"), format!("s² = d·d − h², h how far the slot's line passes {about}"));
-        let rounding = graph.epsilons(2) * (h.squared() + h.abs() * slack + size * way.length());
-        let terms = "2ε (h² + |h| Λ + D L), L the lengths that make up d, Λ those that a drive brings into h";
-        let meaning = format!("what rounding makes of s2_{at} = 0: {terms}");
-        let rounding = rounding.named(format!("rounding_s2_{at}"), meaning);
+        let (square, rounding) = if way.exceeds(h.abs(), slack + way.length()) {
+            (square.known_positive(), graph.zero())
+        } else {
+            let rounding = graph.epsilons(2) * (h.squared() + h.abs() * slack + size * way.length());
+            let terms = "2ε (h² + |h| Λ + D L), L the lengths that make up d, Λ those that a drive brings into h";
+            let meaning = format!("what rounding makes of s2_{at} = 0: {terms}");
+            (square, rounding.named(format!("rounding_s2_{at}"), meaning))
+        };
         let gap = (h.abs() - size).id();
         let failure = Failure::CannotAssemble { group: name.into(), joint: at.into(), gap };
         let square = square.require_at_least(square, -rounding, failure);
