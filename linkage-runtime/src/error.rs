@@ -72,7 +72,7 @@ pub enum Error {
         of: &'static str,
     },
     /// A vector vanishes whose direction is asked for, or is no larger than its rounding: of a point that rests, its path; of a centre of
-    /// mass without acceleration, the line of its inertia.
+    /// mass without acceleration, the line of its inertia; of a force, what it is held by.
     NoDirection {
         /// The vector.
         of: &'static str,
