@@ -56,6 +56,8 @@ pub struct Segment<'m> {
     constant: Vector<'m>,
     /// The lengths of the parts that vary.
     rest: Expr<'m>,
+    /// Whether what varies is several parts: their directions in the link may vary too, so that their lengths do not tell that of their sum.
+    is_bent: bool,
 }
 
 impl<'m> Segment<'m> {
@@ -63,9 +65,9 @@ impl<'m> Segment<'m> {
     fn new(direction: Vector<'m>, along: Vector<'m>, size: Expr<'m>) -> Self {
         let graph = size.graph();
         if along.is_constant() {
-            Self { direction, varying: graph.zero_vector(), constant: along, rest: graph.zero() }
+            Self { direction, varying: graph.zero_vector(), constant: along, rest: graph.zero(), is_bent: false }
         } else {
-            Self { direction, varying: along, constant: graph.zero_vector(), rest: size }
+            Self { direction, varying: along, constant: graph.zero_vector(), rest: size, is_bent: false }
         }
     }
 
@@ -89,6 +91,15 @@ impl<'m> Segment<'m> {
     #[must_use]
     pub fn size(&self) -> Expr<'m> {
         self.constant.size() + self.rest
+    }
+
+    /// The least that its length can be: of several parts that vary, or one beside a constant one, nothing is known.
+    fn least(&self) -> Expr<'m> {
+        match (self.rest.is_zero(), self.constant.is_zero() && !self.is_bent) {
+            (true, _) => self.constant.size(),
+            (false, true) => self.rest,
+            (false, false) => self.rest.graph().zero(),
+        }
     }
 }
 
@@ -149,15 +160,15 @@ impl<'m> Way<'m> {
     /// The least and the largest distance that its parts can make up, whatever their directions are; nothing if a length is not constant.
     #[must_use]
     pub fn reach(&self) -> (Option<Expr<'m>>, Option<Expr<'m>>) {
-        let sizes: Option<Vec<Number>> = self.segments.iter().map(|segment| segment.size().value()).collect();
+        let sizes: Option<Vec<[Number; 2]>> =
+            self.segments.iter().map(|part| Some([part.least().value()?, part.size().value()?])).collect();
         let Some(sizes) = sizes else { return (None, None) };
-        let sum = sizes.iter().fold(Number::zero(), |sum, size| sum.add(size));
-        let longest = sizes
-            .iter()
-            .fold(Number::zero(), |longest, size| if size.compare(&longest).is_gt() { size.clone() } else { longest });
-        let least = longest.mul(&Number::integer(2)).sub(&sum);
-        let least = if least.signum() < 0 { Number::zero() } else { least };
-        (Some(self.graph.constant(&least)), Some(self.graph.constant(&sum)))
+        let most = sizes.iter().fold(Number::zero(), |sum, [_, size]| sum.add(size));
+        // One part is longer than the others together.
+        let beyond = |[least, size]: &[Number; 2]| least.sub(&most.sub(size));
+        let larger = |one: Number, other: Number| if other.compare(&one).is_gt() { other } else { one };
+        let least = sizes.iter().map(beyond).fold(Number::zero(), larger);
+        (Some(self.graph.constant(&least)), Some(self.graph.constant(&most)))
     }
 
     /// Whether its ends are known to be farther apart than this, by more than rounding makes of the difference where numbers of a further size
@@ -831,6 +842,7 @@ fn push_segment<'m>(segments: &mut Vec<Segment<'m>>, segment: Segment<'m>) {
         Some(same) if same.along().is_zero() => *same = segment,
         Some(_) if segment.along().is_zero() => {}
         Some(same) => {
+            same.is_bent |= segment.is_bent || !(same.rest.is_zero() || segment.rest.is_zero());
             same.varying = same.varying + segment.varying;
             same.constant = same.constant + segment.constant;
             same.rest = same.rest + segment.rest;

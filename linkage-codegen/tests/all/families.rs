@@ -427,3 +427,48 @@ fn where_dyads_with_inner_slides_end_is_a_typed_error() {
         run(&cylinder, "all", extension).unwrap();
     }
 }
+
+/// Parts of a way that turn against each other with a parameter, as links welded at an angle, may fold: what their lengths add up to keeps nothing
+/// apart.
+#[test]
+fn where_a_parameter_folds_welded_links_is_a_typed_error() {
+    let arm = "units { mm, N } ground { O: (0, 0), E: (50mm, 0) } revolute O: ground -> a; weld W: a -> b, angle beta; drive theta: O;
+        link a { O: (0, 0), W: (30mm, 0) } link b { W: (0, 0), Q: (30mm, 0) } load G: force(b.Q); scene held: equilibrium;";
+    let barrel = |own: &str| {
+        format!(
+            "link barrel {{ O: (0, 0), P: {own} }} link piston {{ Q }} revolute O2: ground.O -> barrel.O; load M: moment(barrel);
+            revolute Q: b -> piston; prismatic S: barrel.P -> piston.Q along 0deg of barrel; assemble S: ahead(O2);"
+        )
+    };
+    let lever = |own: &str| {
+        format!(
+            "link lever {{ O: (0, 0), P: {own} }} revolute O2: ground.O -> lever.O; load M: moment(lever);
+            slot S: lever.P -> b.Q along 0deg of lever; assemble S: ahead(O2);"
+        )
+    };
+    let dyad = "link c { Q -> R: 30mm } link d { E -> R: 25mm } revolute Q: b -> c; revolute R: c -> d; revolute E: ground -> d;
+        assemble R: left(Q -> E); load M: moment(d);";
+    let (spring, thrust) = ("load K: spring(ground.O, b.Q) { rate: 3N/mm, free: 10mm };", "load H: thrust(a.O, b.Q);");
+    // Folded, Q lies on O; with the half angle whose cosine is 5/6 it is as far from it as E, and with the crank turned back by it on E.
+    let half = (5.0f64 / 6.0).acos();
+    let (on_o, on_e) = ([0.4, core::f64::consts::PI], [-half, 2.0 * half]);
+    for (rest, pose, error) in [
+        (spring.to_owned(), on_o, "CoincidentEnds"),
+        (thrust.to_owned(), on_o, "CoincidentEnds"),
+        (barrel("(5mm, 0)"), on_o, "CoincidentPivots"),
+        (barrel("(0, 5mm)"), on_o, "CannotAssemble"),
+        (lever("(5mm, 0)"), on_o, "CoincidentPivots"),
+        (lever("(0, 5mm)"), on_o, "CannotAssemble"),
+        (dyad.to_owned(), on_e, "CannotAssemble"),
+    ] {
+        let linkage = compile(&format!("mod m; param beta: angle; {arm} {rest}"));
+        let run = |[theta, beta]: [f64; 2]| {
+            let loads = vec![[1.0, 2.0]; linkage.model.loads.len()];
+            let arguments = Arguments { drives: vec![theta], loads, params: vec![beta], ..Arguments::default() };
+            scene::<Double>(&linkage, "held", &arguments)
+        };
+        let fault = run(pose).unwrap_err();
+        assert!(format!("{fault:?}").contains(error), "{rest}: {fault:?}");
+        assert!(run([0.4, 0.1]).is_ok(), "{rest}");
+    }
+}
