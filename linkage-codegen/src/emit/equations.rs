@@ -273,7 +273,7 @@ fn closed_forms(linkage: &Linkage) -> String {
         let lines = groups.lines().map(str::to_owned).chain(body(inverse, program).equations(&inverse.model));
         text.push_str(&closed_form(&format!("scene {}, from what is wanted", scene.name), program, lines));
     }
-    let limits = "\nThe limit of what is required is what rounding makes of zero: ε times the sizes of which the compared value is made.\n";
+    let limits = "\nLimits other than 0 are what rounding makes of zero: ε times the sizes of which the compared value is made.\n";
     let limits = if text.contains(REQUIRED) { limits } else { "" };
     format!("Closed forms\n------------\n{limits}{text}")
 }

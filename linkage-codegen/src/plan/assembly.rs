@@ -237,6 +237,7 @@ pub struct Assembly<'m> {
 /// A group that closes in two ways, and no word which one is meant.
 #[derive(Clone, Debug)]
 struct Unsaid {
+    links: Vec<LinkId>,
     inner: JointId,
     outer: Vec<JointId>,
     /// What it is, in words, and what to write.
@@ -349,7 +350,7 @@ impl<'m> Assembly<'m> {
         let links: Vec<&str> = group.links.iter().map(|link| model.link(*link).name.text.as_str()).collect();
         let problem = format!("{} can be assembled at `{joint}` in two ways", list(&links));
         let choice = format!("choose one of\n{one}\n{other}");
-        let unsaid = Unsaid { inner, outer: group.outer.clone(), problem, choice };
+        let unsaid = Unsaid { links: group.links.clone(), inner, outer: group.outer.clone(), problem, choice };
         let error = unsaid.error(model);
         self.unsaid.push(unsaid);
         error
@@ -358,7 +359,7 @@ impl<'m> Assembly<'m> {
     /// Whether nothing but its closure is missing of a group: it is told with the closures that are not used, as one of them may be meant.
     #[must_use]
     pub fn lacks_closure(&self, group: &Group) -> bool {
-        self.unsaid.iter().any(|unsaid| group.inner.contains(&unsaid.inner))
+        self.unsaid.iter().any(|unsaid| unsaid.links == group.links)
     }
 
     /// What is wrong with the closures: those that no group asked for, and groups that asked for one in vain. Of a closure at the wrong joint
@@ -370,9 +371,7 @@ impl<'m> Assembly<'m> {
             let problem = format!("there is nothing to choose at `{}`", model.joint(closure.joint).name);
             let error = Diagnostic::new(closure.place, problem);
             found.push(match self.meant_by(closure) {
-                Some(group) => error
-                    .note(format!("a side is chosen at the inner joint of a dyad: {}", group.problem))
-                    .help(group.choice),
+                Some(group) => error.note(group.problem).help(group.choice),
                 None => error
                     .note("a side is chosen at the inner joint of a dyad: at the joint between its two links")
                     .help("leave it out"),

@@ -540,13 +540,10 @@ pub(crate) fn check_possible(model: &Model, sink: &Sink) {
                 .help("let it act on a coordinate that changes when the drive moves"),
             },
             Failure::NoDirection { of } => {
-                let directed = |wanted: &Wanted| match wanted {
-                    Wanted::Offset(_) | Wanted::Resolved(_, Along::Path) => true,
-                    Wanted::Advantage(load) => model.load(*load).name.text == *of,
-                    _ => false,
-                };
+                let directed = |wanted: &Wanted| matches!(wanted, Wanted::Offset(_) | Wanted::Resolved(_, Along::Path));
                 let asks = |scene: &&Scene| scene.results.iter().any(directed);
-                let place = model.scenes.iter().find(asks).map_or(model.name.place(), |scene| scene.name.place());
+                let scene = scene_of_advantage(model, of).or_else(|| model.scenes.iter().find(asks));
+                let place = scene.map_or(model.name.place(), |scene| scene.name.place());
                 Diagnostic::new(place, format!("{of} vanishes at every pose: it has no direction"))
                     .help("leave out the result that asks for it")
             }

@@ -609,7 +609,13 @@ impl<'m> Forces<'_, 'm> {
             // A force that vanishes has no direction along which its point could move.
             LoadKind::Force { force, .. } => {
                 let size = graph.expr(force.x).abs() + graph.expr(force.y).abs();
-                velocity.require_above(size, graph.zero(), Failure::NoDirection { of: name.text.clone() })
+                let directed =
+                    velocity.require_above(size, graph.zero(), Failure::NoDirection { of: name.text.clone() });
+                if size.is_zero() {
+                    // That is what is wrong, and not a velocity.
+                    return Output::scalar(directed, Meaning::Number);
+                }
+                directed
             }
             _ => velocity,
         };

@@ -22,7 +22,13 @@ pub(super) fn name(input: ParseStream<'_>) -> Result<Name> {
     }
     let ahead: Vec<TokenTree> = begin.parse::<TokenStream>()?.into_iter().collect();
     match hyphens::hyphenated(&ahead) {
-        Some((written, _)) => Err(Error::new(name.span, hyphens::problem(&written))),
+        Some((written, _)) => {
+            let arrow =
+                written.split_once('-').filter(|(_, to)| to.starts_with(char::is_alphabetic) && !to.contains('-'));
+            let arrow =
+                arrow.map_or(String::new(), |(from, to)| format!(", or `{from} -> {to}` where an arrow stands"));
+            Err(Error::new(name.span, format!("{}{arrow}", hyphens::problem(&written))))
+        }
         None => Ok(name),
     }
 }

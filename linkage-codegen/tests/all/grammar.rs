@@ -114,6 +114,12 @@ fn slips_are_told_what_is_meant() {
 fn first_slips_are_one_error_each() {
     one_error_each(&[
         ("link four-bar { A } mass four-bar: 1kg at A;", "write `four_bar`"),
+        ("revolute B: ground - crank;", "`ground -> crank` where an arrow stands"),
+        (
+            "link lever { O: (0, 0), D: (60mm, 0) } revolute Q: ground.O -> lever.O; slot S: lever.O -> crank.A along 0deg of lever;",
+            "`lever` can be assembled at `S` in two ways",
+        ),
+        ("load Z: force(crank.A) = (0, 0); scene z: virtual_work(Z) -> (advantage(Z));", "Z vanishes at every pose"),
         ("param l-2: length = 1m; mass crank: 1kg at (l-2-5mm, 0);", "write `l_2`"),
         ("load G: force(crank.A-1);", "`A-1` is no name: names have no hyphens"),
         ("link rod { A-1, B: (1m, 0) }", "write `A_1`"),
