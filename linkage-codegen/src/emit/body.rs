@@ -266,24 +266,21 @@ impl<'a> Body<'a> {
     pub(super) fn equations(&self, model: &Model) -> Vec<String> {
         let mut notes = Notes::default();
         let mut lines = Vec::new();
-        let names = |value| self.names.get(&value).map(ToString::to_string);
-        let formula = |of| Formula { model, terms: Values { program: self.program, names: &names, of } }.of(of);
         for step in &self.program.steps {
             match step {
                 Step::Let(of) => {
-                    let Some(name) = names(*of) else { continue };
+                    let Some(name) = self.names.get(of) else { continue };
                     let (section, meaning) = self.notes_of(*of);
                     let (heading, meaning) = notes.above(section, meaning);
                     lines.extend(heading.map(|heading| format!("{heading}:")));
                     lines.extend(meaning.map(|meaning| format!("  {meaning}")));
-                    lines.push(format!("    {name} = {}", formula(*of)));
+                    lines.push(format!("    {name} = {}", self.formula(model, *of)));
                 }
                 Step::Check { guard, .. } => {
                     let (error, what) = told(&guard.failure);
                     let meaning = format!("{REQUIRED} {error}: {}", what.replace('`', ""));
                     lines.extend(notes.above("", meaning.into()).1.map(|meaning| format!("  {meaning}")));
-                    let [value, limit] =
-                        guard.condition.operands().map(|side| names(side).unwrap_or_else(|| formula(side)));
+                    let [value, limit] = guard.condition.operands().map(|side| self.shown(model, side));
                     let sign = match guard.condition {
                         Condition::Above { .. } => '>',
                         Condition::AtLeast { .. } => '≥',
@@ -296,13 +293,20 @@ impl<'a> Body<'a> {
         lines
     }
 
+    /// What a value is made of, as text.
+    fn formula(&self, model: &Model, of: ValueId) -> String {
+        let names = |value| self.names.get(&value).map(ToString::to_string);
+        Formula { model, terms: Values { program: self.program, names: &names, of } }.of(of)
+    }
+
+    /// The name of a value; of one without, what it is made of.
+    fn shown(&self, model: &Model, value: ValueId) -> String {
+        self.names.get(&value).map_or_else(|| self.formula(model, value), ToString::to_string)
+    }
+
     /// What is kept of the program for others, a line each where it is not kept under the name that it has here.
     pub(super) fn kept(&self, model: &Model) -> Vec<String> {
-        let names = |value| self.names.get(&value).map(ToString::to_string);
-        let kept = self.program.outputs.iter().map(|(name, value)| {
-            let formula = Formula { model, terms: Values { program: self.program, names: &names, of: *value } };
-            (name, names(*value).unwrap_or_else(|| formula.of(*value)))
-        });
+        let kept = self.program.outputs.iter().map(|(name, value)| (name, self.shown(model, *value)));
         let lines: Vec<String> =
             kept.filter(|(name, text)| *name != text).map(|(name, text)| format!("    {name} = {text}")).collect();
         let heading = (!lines.is_empty()).then(|| "Kept as:".to_owned());

@@ -158,25 +158,28 @@ impl<'m> Way<'m> {
     }
 
     /// The least and the largest distance that its parts can make up, whatever their directions are; nothing if a length is not constant.
-    #[must_use]
-    pub fn reach(&self) -> (Option<Expr<'m>>, Option<Expr<'m>>) {
-        let sizes: Option<Vec<[Number; 2]>> =
-            self.segments.iter().map(|part| Some([part.least().value()?, part.size().value()?])).collect();
-        let Some(sizes) = sizes else { return (None, None) };
+    fn reach(&self) -> Option<[Expr<'m>; 2]> {
+        let sizes = self.segments.iter().map(|part| Some([part.least().value()?, part.size().value()?]));
+        let sizes: Vec<[Number; 2]> = sizes.collect::<Option<_>>()?;
         let most = sizes.iter().fold(Number::zero(), |sum, [_, size]| sum.add(size));
         // One part is longer than the others together.
         let beyond = |[least, size]: &[Number; 2]| least.sub(&most.sub(size));
         let larger = |one: Number, other: Number| if other.compare(&one).is_gt() { other } else { one };
         let least = sizes.iter().map(beyond).fold(Number::zero(), larger);
-        (Some(self.graph.constant(&least)), Some(self.graph.constant(&most)))
+        Some([least, most].map(|distance| self.graph.constant(&distance)))
     }
 
     /// Whether its ends are known to be farther apart than this, by more than rounding makes of the difference where numbers of a further size
     /// are added up.
     #[must_use]
     pub fn exceeds(&self, distance: Expr<'m>, further: Expr<'m>) -> bool {
-        let (least, _) = self.reach();
-        least.is_some_and(|least| (least - distance).exceeds_rounding_of(distance + further))
+        self.reach().is_some_and(|[least, _]| (least - distance).exceeds_rounding_of(distance + further))
+    }
+
+    /// Whether they are known to be nearer to each other than this, in the same way.
+    #[must_use]
+    pub fn falls_short_of(&self, distance: Expr<'m>, further: Expr<'m>) -> bool {
+        self.reach().is_some_and(|[_, most]| (distance - most).exceeds_rounding_of(distance + further))
     }
 }
 

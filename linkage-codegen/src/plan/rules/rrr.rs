@@ -574,22 +574,17 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let q = (d2 - m.squared()).named(format!("q_{joint}"), format!("D2_{joint} − ({difference_name})²"));
     // Near p = 0, D is near S, and near q = 0 it is near M; d is rounded to the length of its way, and so are lengths that drives give.
     let length = dyad.legs.iter().fold(way.length(), |sum, leg| sum + dyad.slack(leg));
-    let (least, most) = way.reach();
-    // By more than rounding makes of the difference of a distance and a limit.
-    let is_clear = |margin: Option<Expr<'m>>, limit: Expr<'m>| {
-        margin.is_some_and(|margin| margin.exceeds_rounding_of(limit + length))
-    };
     let rounding = |of: &str, value: Expr<'m>, size: &str| {
         let meaning =
             format!("what rounding makes of {of}_{joint} = 0: {size}, Λ the lengths that make up d and driven legs");
         value.named(format!("rounding_{of}_{joint}"), meaning)
     };
-    let (p, p_rounding) = if is_clear(most.map(|most| s - most), s) {
+    let (p, p_rounding) = if way.falls_short_of(s, length) {
         (p.known_positive(), graph.zero())
     } else {
         (p, rounding("p", graph.epsilons(2) * (s.squared() + s * length), &format!("2ε S (S + Λ), S = {sum_name}")))
     };
-    let (q, q_rounding) = if is_clear(least.map(|least| least - m), m) {
+    let (q, q_rounding) = if way.exceeds(m, length) {
         (q.known_positive(), graph.zero())
     } else {
         (
@@ -605,7 +600,7 @@ fn by_distance<'m>(dyad: &Dyad<'m>, sign: Sign<'m>, way: &Way<'m>) -> Closing<'m
     let q = q.require_at_least(q, -q_rounding, gap(dyad, q, false, d2));
     // Coincident outer pins leave the direction open. Where |r₁ − r₂| keeps them apart, q has seen to that.
     let close = rounding("D2", (2 * graph.epsilons(1) * length).squared(), "(2ε Λ)²");
-    let apart = is_clear(least, graph.zero()) || is_clear(Some(m), graph.zero());
+    let apart = way.exceeds(graph.zero(), length) || m.exceeds_rounding_of(length);
     let d2 = if apart {
         d2.known_positive()
     } else {
